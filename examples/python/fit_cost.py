@@ -37,7 +37,7 @@ class Response:
 
     def __init__(self, points: dict[str, Array]) -> None:
         self.points = points
-        self.nominal = np.array([float(flapwing.params(PRESET)[name].value or 0) for name in TRUE])
+        self.nominal = np.array([float(flapwing.params(PRESET)[name].value) for name in TRUE])
         self.measured, self.sigma = np.zeros(0), np.ones(1)
         self.rhs_evals = 0
         #: The latest parameters of `residuals`, with their values.

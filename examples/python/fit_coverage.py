@@ -28,7 +28,7 @@ NOISE = 0.03
 
 def truth() -> dict[str, Any]:
     """The true parameters."""
-    return {name: ratio * float(flapwing.params(PRESET)[name].value or 0) for name, ratio in TRUE.items()}
+    return {name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()}
 
 
 def experiment(seed: int) -> dict[str, Any]:

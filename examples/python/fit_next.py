@@ -33,7 +33,7 @@ def main() -> None:
     arguments = parser.parse_args()
 
     truth: dict[str, Any] = {
-        name: ratio * float(flapwing.params(PRESET)[name].value or 0) for name, ratio in TRUE.items()
+        name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()
     }
     frequency, voltage = np.meshgrid(np.linspace(70.0, 150.0, 33), [100.0, 120.0, 140.0, 160.0])
     candidates = {"drive_frequency": frequency.ravel(), "drive_voltage_pp": voltage.ravel()}

@@ -26,7 +26,7 @@ from matplotlib.figure import Figure
 REPOSITORY = Path(__file__).parents[2]
 
 # Maps keep all of their colours: with few, their colour bars have steps.
-MAPS = ("gaps", "heatmap", "wrench")
+MAPS = ("control-matrix", "gaps", "heatmap")
 
 
 def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
@@ -50,7 +50,7 @@ def response() -> Axes:
 def measures() -> Figure:
     """Three measures of the four-bar over frequency, at three stiffnesses of its series spring."""
     table = flapwing.sweep(REPOSITORY / "examples" / "arabagi_fig11.toml")
-    return plot.response(table, ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"])
+    return plot.response_panels(table, ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"])
 
 
 def heatmap(large: flapwing.Table) -> Axes:
@@ -129,16 +129,16 @@ def vehicle() -> flapwing.Vehicle:
     return flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-2 mm"])
 
 
-def wrench() -> Axes | Figure:
+def control_matrix() -> Axes:
     """Changes of the vehicle's force and torque with its amplitudes and biases."""
     inputs = ["drive_voltage_pp", "difference_drive_voltage_pp", "drive_offset", "difference_drive_offset"]
-    return plot.wrench(flapwing.evaluate(vehicle(), {"drive_frequency": [120.0]}, gradient=inputs))
+    return plot.control_matrix(flapwing.evaluate(vehicle(), {"drive_frequency": [120.0]}, gradient=inputs))
 
 
-def wrench_course() -> Axes | Figure:
+def force_panels() -> Figure:
     """Force and torque over the bias, with more amplitude on the left."""
     course = {**vehicle(), "axes": {"drive_offset": {"from": "-60 V", "to": "60 V", "step": "5 V"}}}
-    return plot.wrench(flapwing.sweep(course, difference_drive_voltage_pp="20 V"))
+    return plot.force_panels(flapwing.sweep(course, difference_drive_voltage_pp="20 V"))
 
 
 def main() -> None:
@@ -163,8 +163,8 @@ def main() -> None:
         "hysteresis": hysteresis(),
         "tornado": tornado(),
         "fit": fit(),
-        "wrench": wrench(),
-        "wrench-course": wrench_course(),
+        "control-matrix": control_matrix(),
+        "force-panels": force_panels(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)

@@ -54,7 +54,7 @@ BASES = {"small": 1024, "full": 8192}
 def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
     """SALib's description of the parameters, each uniform within a share of its value in the preset."""
     names = UNCERTAIN[preset]
-    values = [float(flapwing.params(preset)[name].value or 0.0) for name in names]
+    values = [float(flapwing.params(preset)[name].value) for name in names]
     bounds = [[value * (1 - spread), value * (1 + spread)] for value in values]
     return {"num_vars": len(names), "names": names, "bounds": bounds}
 

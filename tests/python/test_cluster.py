@@ -142,8 +142,8 @@ def test_a_batch_has_the_rows_of_one_machine(client, tmp_path, monkeypatch):
         np.testing.assert_array_equal(far[name], near[name])
     assert far.counts == near.counts and far.counts["invalid"] > 0
     assert far.meta == near.meta
-    assert [{k: v.tolist() for k, v in dim.items()} for dim in far.dims] == [
-        {k: v.tolist() for k, v in dim.items()} for dim in near.dims
+    assert [{k: v.tolist() for k, v in dim.items()} for dim in far.axes] == [
+        {k: v.tolist() for k, v in dim.items()} for dim in near.axes
     ]
     with pytest.raises(ValueError, match="did you mean `drive_frequency`"):
         flapwing.evaluate("ozaki2018-large", {"drive_frequenc": [100.0]}, client=client)
@@ -182,12 +182,12 @@ def test_derivatives_of_a_batch_are_those_of_one_machine(client, axes):
         "air_density": np.where(np.arange(40) % 13 == 7, -1.0, 1.2),
     }
     options = {"measures": ["lift_mean_mn", "stroke_pp_deg"], "gradient": ["hinge_stiffness", "drive_frequency"]}
-    far, near = (flapwing.evaluate(grid, columns, client=there, states=True, **options) for there in (client, None))
+    far, near = (flapwing.evaluate(grid, columns, client=there, return_states=True, **options) for there in (client, None))
     assert far.counts["invalid"] == 3 * len(axes.get("drive_voltage_pp", [0]))
     assert far.meta == near.meta and far.units == near.units and far.columns == near.columns
     assert far.gradient.shape == (len(near), 2, 2) and np.isfinite(far.gradient).sum() > 0.9 * far.gradient.size
     np.testing.assert_array_equal(far.gradient, near.gradient)
-    again, here = (flapwing.evaluate(grid, columns, client=there, begin=near, **options) for there in (client, None))
+    again, here = (flapwing.evaluate(grid, columns, client=there, initial_state=near, **options) for there in (client, None))
     np.testing.assert_array_equal(again.gradient, here.gradient)
     with pytest.raises(ValueError, match="`lift_sign` has fixed values, so there is no derivative by it"):
         flapwing.evaluate(grid, columns, gradient=["lift_sign"], client=client)
@@ -202,7 +202,7 @@ def test_single_points_are_those_of_one_machine(client, tmp_path, monkeypatch):
     motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=4)
     calls = [
         lambda **there: flapwing.run("ozaki2018-large", drive_voltage_pp="80 V", rtol=1e-5, **there),
-        lambda **there: flapwing.run(grid, point=1, begin=motion[-1:], **there),
+        lambda **there: flapwing.run(grid, point=1, initial_state=motion[-1:], **there),
         lambda **there: flapwing.run("ozaki2018-large", waveform="wave.csv", **there),
         lambda **there: flapwing.run("ozaki2018-large", waveform=(time, np.sin(2 * np.pi * time / 0.01)), **there),
         lambda **there: flapwing.resonance("ozaki2018-large", start="100 Hz", stop="120 Hz", **there),
@@ -220,11 +220,11 @@ def test_single_points_are_those_of_one_machine(client, tmp_path, monkeypatch):
 def test_responses_are_those_of_one_machine(client):
     grid = {"preset": "jafferis2016", "axes": {"hinge_stiffness": ["0.7486 uN*m/rad", "1 uN*m/rad", "1.5 uN*m/rad"]}}
     told = []
-    options = {"start": "122 Hz", "stop": "128 Hz", "step": "1 Hz", "unstable": True, "states": True, "drive_voltage_pp": "160 V"}
+    options = {"start": "122 Hz", "stop": "128 Hz", "step": "1 Hz", "unstable": True, "return_states": True, "drive_voltage_pp": "160 V"}
     far = flapwing.respond(grid, client=client, progress=lambda *done: told.append(done), **options)
     near = flapwing.respond(grid, **options)
     assert told[-1] == (3, 3) and [done for done, _ in told] == [1, 2, 3]
-    assert far.meta == near.meta and len(far.meta["verdicts"]) == 3
+    assert far.meta == near.meta and len(far.verdicts) == 3
     assert far.columns == near.columns and far.units == near.units and set(far["branch"]) == {"up", "down", "unstable"}
     for name in near:
         np.testing.assert_array_equal(far[name], near[name], strict=True)
@@ -252,8 +252,8 @@ def test_mistakes_in_single_calls_are_those_of_one_machine(client):
 
 
 def test_workers_of_another_build_are_refused(client, monkeypatch):
-    from flapwing import _worker
+    from flapwing import _dask
 
-    monkeypatch.setattr(_worker._flapwing, "identity", lambda: {"build": "0", "arithmetic": "0"})
+    monkeypatch.setattr(_dask._flapwing, "identity", lambda: {"build": "0", "arithmetic": "0"})
     with pytest.raises(RuntimeError, match="a worker's build of flapwing is .*, and here it is 0\ninstall the same build"):
         flapwing.run("ozaki2018-large", client=client)

@@ -57,7 +57,7 @@ def test_a_fit_of_a_device_keeps_what_is_known_of_the_others(bee, tmp_path):
     points = {"drive_frequency": [90.0, 100.0, 110.0, 120.0, 130.0]}
     data = {**points, "stroke_pp_deg": flapwing.evaluate(bee, points)["stroke_pp_deg"]}
     found = flapwing.fit(bee, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
-    found.device(tmp_path / "next.toml")
+    found.write_device(tmp_path / "next.toml")
     text = (tmp_path / "next.toml").read_text(encoding="utf-8")
     assert 'hinge_stiffness = { value = 2e-06, sd = 1e-07, source = "bending test" }' in text and text.count("[[correlation]]") == 1
     builds = {"device": str(tmp_path / "next.toml"), "sample": {"of": "device", "method": "sobol", "n": 256}}
@@ -68,7 +68,7 @@ def test_a_fit_of_a_device_keeps_what_is_known_of_the_others(bee, tmp_path):
     found = flapwing.fit(
         bee, data, ["hinge_stiffness"], sigma="3 %", starts=1, profile=False, wing_inertia_stroke=51e-12
     )
-    found.device(tmp_path / "last.toml")
+    found.write_device(tmp_path / "last.toml")
     text = (tmp_path / "last.toml").read_text(encoding="utf-8")
     assert "wing_inertia_stroke = 5.1e-11\n" in text and "[[correlation]]" not in text
 

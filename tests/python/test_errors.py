@@ -11,7 +11,7 @@ import flapwing
 import pytest
 
 PRESET = "ozaki2018-large"
-EXPERIMENTS = [flapwing.resonance, flapwing.chirp, flapwing.impulse, flapwing.lift]
+EXPERIMENTS = [flapwing.resonance, flapwing.chirp, flapwing.impulse, flapwing.forces_along]
 
 
 def refused(error, *arguments, **keywords):
@@ -163,15 +163,15 @@ def test_objects_that_fail_are_errors_of_two_lines(method, error):
     for call in (
         lambda: flapwing.run(PRESET, drive_frequency=failing),
         lambda: flapwing.run(PRESET, max_cycles=failing),
-        lambda: flapwing.run(PRESET, begin={"pitch": failing}),
-        lambda: flapwing.run(PRESET, begin=failing),
+        lambda: flapwing.run(PRESET, initial_state={"pitch": failing}),
+        lambda: flapwing.run(PRESET, initial_state=failing),
         lambda: flapwing.run(PRESET, waveform=failing),
         lambda: flapwing.run(PRESET, stroke=(failing, [1.0, 2.0])),
         lambda: flapwing.evaluate(PRESET, {"drive_frequency": failing}),
         lambda: flapwing.evaluate(PRESET, {"drive_frequency": [failing]}),
         lambda: flapwing.evaluate(PRESET, failing),
         lambda: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, measures=failing),
-        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, begin={"pitch": failing}),
+        lambda: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, initial_state={"pitch": failing}),
         lambda: flapwing.Grid(grid),
         lambda: flapwing.Grid(failing),
         lambda: flapwing.resonance(PRESET, start=failing),
@@ -200,7 +200,7 @@ def test_stops_inside_of_a_value_pass_through(stop):
     "call",
     [
         lambda huge: flapwing.run(PRESET, drive_frequency=huge),
-        lambda huge: flapwing.run(PRESET, begin={"pitch": huge}),
+        lambda huge: flapwing.run(PRESET, initial_state={"pitch": huge}),
         lambda huge: flapwing.Grid({"preset": PRESET, "params": {"drive_frequency": huge}}),
         lambda huge: flapwing.evaluate(PRESET, {"drive_frequency": huge}),
         lambda huge: flapwing.evaluate(PRESET, {"drive_frequency": [100.0, huge]}),
@@ -284,7 +284,7 @@ def test_no_parameter_is_hidden_by_a_solver_setting(preset):
     settings = re.search(r"; solver settings: (.*)\)", message).group(1).split(", ")
     kinds = {name: parameter.kind for name, parameter in inspect.signature(flapwing.run).parameters.items()}
     keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
-    assert keywords == ["point", "begin", "waveform", "stroke", "progress", "client", *settings]
+    assert keywords == ["point", "initial_state", "waveform", "stroke", "progress", "client", *settings]
     for function in [flapwing.run, flapwing.sweep, flapwing.evaluate, flapwing.respond, flapwing.trajectory, *EXPERIMENTS]:
         kinds = {name: parameter.kind for name, parameter in inspect.signature(function).parameters.items()}
         keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]

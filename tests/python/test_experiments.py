@@ -122,14 +122,14 @@ def test_what_is_no_waveform_is_refused(waveform, says):
 
 def test_a_motion_goes_on_from_a_state():
     from_rest = flapwing.trajectory(PRESET, cycles=4, samples=50, from_rest=True)
-    second = flapwing.trajectory(PRESET, cycles=2, samples=50, begin=from_rest[100:101])
+    second = flapwing.trajectory(PRESET, cycles=2, samples=50, initial_state=from_rest[100:101])
     np.testing.assert_allclose(second["stroke_rad"], from_rest["stroke_rad"][100:], atol=1e-5)
     names = list(flapwing.states(PRESET))
     assert names == ["stroke", "pitch", "stroke_rate", "pitch_rate"]
     state = {name: float(from_rest[f"{name}_{unit}"][100]) for name, unit in zip(names, ["rad", "rad", "rad_s", "rad_s"])}
-    same = flapwing.trajectory(PRESET, cycles=2, samples=50, begin=state)
+    same = flapwing.trajectory(PRESET, cycles=2, samples=50, initial_state=state)
     np.testing.assert_array_equal(same["stroke_rad"], second["stroke_rad"])
-    one = flapwing.trajectory(PRESET, begin={"stroke": "10 deg", "pitch_deg": 20, "pitch_rate": "5 rad/s"})
+    one = flapwing.trajectory(PRESET, initial_state={"stroke": "10 deg", "pitch_deg": 20, "pitch_rate": "5 rad/s"})
     assert one["stroke_deg"][0] == pytest.approx(10) and one["pitch_deg"][0] == pytest.approx(20)
     assert one["pitch_rate_rad_s"][0] == 5 and one["stroke_rate_rad_s"][0] == 0
 
@@ -141,7 +141,7 @@ def test_a_state_decides_between_two_orbits():
     assert strokes.max() > strokes.min() + 20
     up = flapwing.trajectory("jafferis2016", **{**bistable, "drive_frequency": 123})[-1:]
     down = flapwing.trajectory("jafferis2016", **{**bistable, "drive_frequency": 130})[-1:]
-    found = [flapwing.run("jafferis2016", begin=state, **bistable)["stroke_pp_deg"] for state in (up, down)]
+    found = [flapwing.run("jafferis2016", initial_state=state, **bistable)["stroke_pp_deg"] for state in (up, down)]
     assert sorted(found) == pytest.approx(sorted([strokes.min(), strokes.max()]), rel=1e-3)
 
 
@@ -150,51 +150,51 @@ def test_a_row_of_any_kind_is_a_state():
     frame = motion.to_pandas()
     row = {name: float(motion[name][0]) for name in motion}
     forms = [frame, frame.iloc[0], motion.to_polars(), motion.to_arrow(), row, dict(motion)]
-    expected = flapwing.trajectory(PRESET, cycles=1, samples=4, begin=motion)["stroke_rad"]
+    expected = flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=motion)["stroke_rad"]
     for begin in forms:
         np.testing.assert_array_equal(
-            flapwing.trajectory(PRESET, cycles=1, samples=4, begin=begin)["stroke_rad"], expected
+            flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=begin)["stroke_rad"], expected
         )
-    rows = flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, states=True)
-    alone = [flapwing.run(PRESET, drive_frequency=105, begin=begin) for begin in (rows[1:], rows.to_pandas().iloc[1])]
-    batch = flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}, begin=rows[1:])
+    rows = flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, return_states=True)
+    alone = [flapwing.run(PRESET, drive_frequency=105, initial_state=begin) for begin in (rows[1:], rows.to_pandas().iloc[1])]
+    batch = flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}, initial_state=rows[1:])
     assert alone[0]["cycles"] == alone[1]["cycles"] == batch["cycles"][0] < flapwing.run(PRESET, drive_frequency=105)["cycles"]
     # What is not known begins at rest, as in batches.
     unknown = {**row, "stroke_rad": np.nan}
-    assert flapwing.trajectory(PRESET, cycles=1, samples=4, begin=unknown)["stroke_rad"][0] == 0
-    with pytest.raises(ValueError, match="`begin` has 2 rows\nchoose one"):
-        flapwing.run(PRESET, begin=rows.to_pandas())
+    assert flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=unknown)["stroke_rad"][0] == 0
+    with pytest.raises(ValueError, match="`initial_state` has 2 rows\nchoose one"):
+        flapwing.run(PRESET, initial_state=rows.to_pandas())
 
 
 @pytest.mark.parametrize(
-    ("begin", "says"),
+    ("initial_state", "says"),
     [
-        ({"strok": 1}, "`begin` has no component `strok`, did you mean `stroke`?\nthe states are stroke_rad, "),
+        ({"strok": 1}, "`initial_state` has no component `strok`, did you mean `stroke`?\nthe states are stroke_rad, "),
         ({"stroke": "10 V"}, "`V` is a voltage"),
-        ({"stroke": 1, "stroke_rad": 1}, "`begin` gives stroke_rad twice\nkeep one"),
+        ({"stroke": 1, "stroke_rad": 1}, "`initial_state` gives stroke_rad twice\nkeep one"),
         ({"stroke": float("nan")}, "values are finite"),
     ],
 )
-def test_what_is_no_state_is_refused(begin, says):
+def test_what_is_no_state_is_refused(initial_state, says):
     with pytest.raises(ValueError) as caught:
-        flapwing.run(PRESET, begin=begin)
+        flapwing.run(PRESET, initial_state=initial_state)
     assert says in str(caught.value)
 
 
 def test_tables_that_are_no_state_are_refused():
     motion = flapwing.trajectory(PRESET, cycles=1, samples=4)
-    with pytest.raises(ValueError, match="`begin` has 5 rows\nchoose one"):
-        flapwing.run(PRESET, begin=motion)
-    with pytest.raises(ValueError, match="`begin` lacks the columns stroke_rad, .*\na trajectory"):
-        flapwing.run(PRESET, begin=motion[["time_s"]][-1:])
-    with pytest.raises(ValueError, match="from_rest and begin both say where the motion begins\nkeep one"):
-        flapwing.trajectory(PRESET, begin=motion[-1:], from_rest=True)
+    with pytest.raises(ValueError, match="`initial_state` has 5 rows\nchoose one"):
+        flapwing.run(PRESET, initial_state=motion)
+    with pytest.raises(ValueError, match="`initial_state` lacks the columns stroke_rad, .*\na trajectory"):
+        flapwing.run(PRESET, initial_state=motion[["time_s"]][-1:])
+    with pytest.raises(ValueError, match="from_rest and initial_state both say where the motion begins\nkeep one"):
+        flapwing.trajectory(PRESET, initial_state=motion[-1:], from_rest=True)
 
 
 def test_motions_have_meanings_and_an_origin():
     motion = flapwing.trajectory(PRESET, cycles=1, samples=4, drive_voltage_pp="50 V")
     assert all(motion.docs.values()) and motion.docs["lift_mn"]
-    assert motion.meta["preset"] == PRESET and motion.meta["build"] and motion.meta["set"] == {"drive_voltage_pp": "50 V"}
+    assert motion.meta["preset"] == PRESET and motion.meta["build"] and motion.meta["keywords"] == {"drive_voltage_pp": "50 V"}
 
 
 def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
@@ -208,16 +208,16 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
     film.to_csv(tmp_path / "film.csv", index=False)
     flap("test", "track", tmp_path / "film.csv", "--chord", "3", "--out", tmp_path / "motion.csv")
     for source in (film, tmp_path / "film.csv", flapwing.read(tmp_path / "film.csv")):
-        motion = flapwing.track(source, chord=3)
+        motion = flapwing.track_wing(source, chord=3)
         same(motion, tmp_path / "motion.csv")
         assert motion.meta["centre"] == pytest.approx((1, 2))
     np.testing.assert_allclose(motion["pitch_deg"], np.degrees(pitch), atol=1e-6)
-    assert flapwing.track(film).columns == ["time_s", "stroke_deg"]
+    assert flapwing.track_wing(film).columns == ["time_s", "stroke_deg"]
 
     flap("test", "lift", PRESET, tmp_path / "motion.csv", "--trajectory", tmp_path / "forces.csv", "--samples", "100")
     for source in (motion, tmp_path / "motion.csv", dict(motion)):
-        same(flapwing.lift(PRESET, source, samples=100), tmp_path / "forces.csv")
+        same(flapwing.forces_along(PRESET, source, samples=100), tmp_path / "forces.csv")
     with pytest.raises(ValueError, match="image 1: the lower edge appears"):
-        flapwing.track(film, chord=0.1)
+        flapwing.track_wing(film, chord=0.1)
     with pytest.raises(ValueError, match="there is no column pitch_rad or pitch_deg; the file has time_s, stroke_deg"):
-        flapwing.lift(PRESET, flapwing.track(film))
+        flapwing.forces_along(PRESET, flapwing.track_wing(film))

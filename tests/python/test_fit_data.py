@@ -80,7 +80,7 @@ def test_data_sets_share_parameters_or_have_their_own():
         flapwing.Readings(readings(hinge_stiffness=TRUTH["hinge_stiffness"] * factor, seed=seed), name=name)
         for seed, (name, factor) in enumerate({"soft": 0.9, "stiff": 1.2}.items())
     ]
-    free = {"hinge_stiffness": flapwing.Free(per_set=True), "drag_coefficient_max": None}
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "drag_coefficient_max": None}
     result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, wing_inertia_stroke=TRUTH["wing_inertia_stroke"])
     assert list(result.estimates) == ["hinge_stiffness of soft", "hinge_stiffness of stiff", "drag_coefficient_max"]
     for name, factor in {"soft": 0.9, "stiff": 1.2}.items():
@@ -96,7 +96,7 @@ def test_data_sets_share_parameters_or_have_their_own():
 
 def test_what_is_known_beforehand_counts():
     data = {name: values[:3] for name, values in readings().items()}
-    free = {name: flapwing.Free(prior=(value, "2 %")) for name, value in TRUTH.items()}
+    free = {name: flapwing.FreeParameter(prior=(value, "2 %")) for name, value in TRUTH.items()}
     result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False)
     assert result.goodness.freedom == 3
     for name, value in TRUTH.items():
@@ -146,7 +146,7 @@ def test_readings_without_a_settled_motion_are_told():
     data = {name: values.copy() for name, values in readings().items()}
     data["drive_voltage_pp"][4] = 1e9
     result = flapwing.fit(PRESET, data, ["hinge_stiffness"], sigma="3 %", starts=1, profile=False)
-    assert [(one.set, one.measure, one.row, one.status) for one in result.unsettled] == [
+    assert [(one.data_set, one.measure, one.row, one.status) for one in result.unsettled] == [
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
     assert "1 reading does not count" in str(result) and result.goodness.freedom == 28

@@ -163,7 +163,7 @@ def test_data_that_are_refused(data, says):
             "the lower bound 3 is not less than the upper one 3\ngive a range, or set the parameter by a keyword: fit(",
         ),
         (
-            {"hinge_stiffness": flapwing.Free(low="9 uN*m/rad")},
+            {"hinge_stiffness": flapwing.FreeParameter(low="9 uN*m/rad")},
             ValueError,
             "the lower bound 9e-06 N*m/rad is not less than the upper one 4.4916e-06 N*m/rad (by default)\ngive both",
         ),
@@ -174,7 +174,7 @@ def test_data_that_are_refused(data, says):
             "free['hinge_stiffness']: `hinge_stiffness` must be more than",
         ),
         (
-            {"drag_coefficient_max": flapwing.Free(2.0, 3.0, prior=(4.0, "3 %"))},
+            {"drag_coefficient_max": flapwing.FreeParameter(2.0, 3.0, prior=(4.0, "3 %"))},
             ValueError,
             "free['drag_coefficient_max']: the prior 4 is outside of the bounds 2 to 3\ngive bounds that hold it",
         ),
@@ -186,12 +186,12 @@ def test_data_that_are_refused(data, says):
             "free['drag_coefficient_max'] is float\nit must be a pair of bounds",
         ),
         (
-            {"drag_coefficient_max": flapwing.Free(prior=(4.0, 0.0))},
+            {"drag_coefficient_max": flapwing.FreeParameter(prior=(4.0, 0.0))},
             ValueError,
             "free['drag_coefficient_max']: the error of the prior is 0.0\n",
         ),
         (
-            {"drag_coefficient_max": flapwing.Free(prior=4.0)},
+            {"drag_coefficient_max": flapwing.FreeParameter(prior=4.0)},
             TypeError,
             "free['drag_coefficient_max']: `prior` is float\n",
         ),
@@ -335,7 +335,7 @@ def test_what_results_refuse():
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_min"), "`drag_coefficient_min` was not fitted\nchoose among drag_coefficient_max"),
-        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`for_` must name a parameter"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`target` must name a parameter"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` is 0\n"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "the data have no readings of `lift_mean_mn`"),
     ]:  # fmt: skip

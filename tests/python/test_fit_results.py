@@ -127,10 +127,10 @@ def test_progress_is_told_and_can_end_a_fit():
 
 def test_a_fit_is_a_device(found, tmp_path):
     """The file has the estimates, their errors and correlations: builds drawn from it have them too."""
-    found.device(tmp_path / "mybee.toml")
+    found.write_device(tmp_path / "mybee.toml")
     with pytest.raises(FileExistsError, match="is there already\ngive another path, or overwrite=True"):
-        found.device(tmp_path / "mybee.toml")
-    found.device(tmp_path / "mybee.toml", overwrite=True)
+        found.write_device(tmp_path / "mybee.toml")
+    found.write_device(tmp_path / "mybee.toml", overwrite=True)
     grid = tmp_path / "grid.toml"
     grid.write_text('device = "mybee.toml"\n', encoding="utf-8")
     design = flapwing.Grid(grid)[0]
@@ -164,9 +164,9 @@ def test_a_device_that_is_fitted_keeps_its_texts(tmp_path):
     )
     given, free = {"wing_inertia_stroke": "51 ng*m^2"}, ["hinge_stiffness"]
     found = flapwing.fit(tmp_path / "old.toml", readings(), free, sigma="3 %", starts=1, profile=False, **given)
-    found.device(tmp_path / "new.toml")
+    found.write_device(tmp_path / "new.toml")
     again = flapwing.fit(tmp_path / "new.toml", readings(), ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
-    again.device(tmp_path / "again.toml")
+    again.write_device(tmp_path / "again.toml")
     for name, fitted in [("new", ["hinge_stiffness"]), ("again", ["hinge_stiffness", "drag_coefficient_max"])]:
         device = tomllib.loads((tmp_path / f"{name}.toml").read_text(encoding="utf-8"))
         assert device["description"].startswith('the robot "B" on bench 2; fitted to 30 readings, chi-square')
@@ -181,11 +181,11 @@ def test_a_device_that_is_fitted_keeps_its_texts(tmp_path):
 
 def test_a_device_says_what_is_not_known(tmp_path):
     sets = [flapwing.Readings(readings(seed=seed), name=name) for seed, name in enumerate(["one", "two"])]
-    free = {"hinge_stiffness": flapwing.Free(per_set=True), "vehicle_mass": None}
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "vehicle_mass": None}
     result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, profile=False, drag_coefficient_max=4.0, rtol=1e-6)
     with pytest.raises(ValueError, match="data sets have a `hinge_stiffness` each\ngive data_set=, one of one, two"):
-        result.device(tmp_path / "bee.toml")
-    result.device(tmp_path / "bee.toml", data_set="two")
+        result.write_device(tmp_path / "bee.toml")
+    result.write_device(tmp_path / "bee.toml", data_set="two")
     text = (tmp_path / "bee.toml").read_text(encoding="utf-8")
     assert "drag_coefficient_max = 4.0\n" in text and "rtol" not in text
     assert 'source = "not fixed by the data of the fit"' in text

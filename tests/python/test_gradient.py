@@ -108,8 +108,8 @@ def test_missing_derivatives_have_a_reason():
         ({"gradient": BY + BY[:1]}, ValueError, "`gradient` names hinge_stiffness twice"),
         ({"gradient": "hinge_stiffness"}, TypeError, "`gradient` is str\nit must be a list of names"),
         ({"gradient": []}, ValueError, "`gradient` is empty"),
-        ({"begin": {"stroke_rad": [0.0]}}, ValueError, "`begin` lacks the columns "),
-        ({"states": "yes"}, TypeError, "`states` is str"),
+        ({"initial_state": {"stroke_rad": [0.0]}}, ValueError, "`initial_state` lacks the columns "),
+        ({"return_states": "yes"}, TypeError, "`return_states` is str"),
     ],
 )
 def test_what_is_refused(keywords, error, says):
@@ -140,22 +140,22 @@ BISTABLE = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V"}
 
 
 def test_states_decide_which_motion_is_found():
-    curve = flapwing.respond("jafferis2016", start=116, stop=128, step=1, states=True, **BISTABLE)
+    curve = flapwing.respond("jafferis2016", start=116, stop=128, step=1, return_states=True, **BISTABLE)
     way = {name: curve[curve["branch"] == name] for name in ("up", "down")}
     apart = np.abs(way["up"]["stroke_pp_deg"] - way["down"]["stroke_pp_deg"]) > 1
     assert apart.any()
     for rows in way.values():
         at = {"drive_frequency": rows["drive_frequency"]}
-        again = flapwing.evaluate("jafferis2016", at, begin=rows, **BISTABLE)
+        again = flapwing.evaluate("jafferis2016", at, initial_state=rows, **BISTABLE)
         np.testing.assert_allclose(again["stroke_pp_deg"], rows["stroke_pp_deg"], rtol=1e-4)
         assert again["cycles"].sum() < rows["cycles"].sum()
-    with pytest.raises(ValueError, match="`begin` has 2 rows for 1 points"):
-        flapwing.evaluate("jafferis2016", {"drive_frequency": [116.0]}, begin=way["up"][:2], **BISTABLE)
+    with pytest.raises(ValueError, match="`initial_state` has 2 rows for 1 points"):
+        flapwing.evaluate("jafferis2016", {"drive_frequency": [116.0]}, initial_state=way["up"][:2], **BISTABLE)
 
 
 def test_a_state_that_is_not_known_is_rest():
-    table = flapwing.evaluate(PRESET, COLUMNS, states=True)
+    table = flapwing.evaluate(PRESET, COLUMNS, return_states=True)
     begin = {name: np.full(9, np.nan) for name in table.columns if name.startswith(("stroke_ra", "pitch_ra"))}
     assert len(begin) == 4
-    again = flapwing.evaluate(PRESET, COLUMNS, begin=begin)
+    again = flapwing.evaluate(PRESET, COLUMNS, initial_state=begin)
     np.testing.assert_array_equal(again["lift_mean_mn"], table["lift_mean_mn"])

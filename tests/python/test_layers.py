@@ -41,7 +41,7 @@ def order(folder):
 def test_modules_are_in_no_circle():
     names = order(PACKAGE)
     assert names.index("flapwing._mistakes") < names.index("flapwing._table") < names.index("flapwing._arguments")
-    assert names.index("flapwing._fit._solution") < names.index("flapwing._fit._report") < names.index("flapwing._fit._result")
+    assert names.index("flapwing.fitting._solution") < names.index("flapwing.fitting._report") < names.index("flapwing.fitting._result")
 
 
 def test_a_circle_of_type_checkers_imports_is_found(tmp_path):

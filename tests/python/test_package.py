@@ -69,7 +69,7 @@ def test_stub_repeats_the_docstrings():
 def test_readme_examples_run():
     readme = (WHEEL / "README.md").read_text(encoding="utf-8")
     examples = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
-    assert len(examples) == 3
+    assert examples
     names = {}
     for example in examples:
         exec(compile(example, "README.md", "exec"), names)

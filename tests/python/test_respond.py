@@ -1,6 +1,7 @@
 """Responses, trajectories, resonances, and what there is to be set."""
 
 import csv
+import math
 
 import flapwing
 import numpy as np
@@ -17,17 +18,21 @@ def test_rows_are_those_of_the_command(flap, tmp_path):
     table = flapwing.respond(
         "jafferis2016", start="122 Hz", stop=130, step="1 Hz", tolerance=0.5, unstable=True, threads=1, **SOFT
     )
-    assert table.meta["verdicts"] == [ended.stdout.strip()]
+    (verdict,) = table.verdicts
+    assert verdict.text == str(verdict) == ended.stdout.strip()
+    (band,) = verdict.bands
+    bistable = table["drive_frequency"][(table["bistable"] == 1) & (table["branch"] == "up")]
+    assert [band.start, band.stop] == [bistable.min(), bistable.max()] and band.stroke_difference_deg > 10
     assert "bistable from 124" in ended.stdout
-    assert table.meta["along"] == "drive_frequency"
+    assert table.meta["parameter"] == "drive_frequency"
     assert set(table["branch"]) == {"up", "down", "unstable"}
     with open(out, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert list(rows[0]) == table.columns
     assert [row["branch"] for row in rows] == table["branch"].tolist()
     read = flapwing.read(out)
-    assert read.columns == table.columns and read.meta["along"] == "drive_frequency"
-    assert read.dims == table.dims
+    assert read.columns == table.columns and read.meta["parameter"] == "drive_frequency"
+    assert read.axes == table.axes
     for name in ["drive_frequency", "stroke_pp_deg", "floquet_max"]:
         np.testing.assert_array_equal(read[name], table[name])
         np.testing.assert_array_equal([float(row[name] or "nan") for row in rows], table[name])
@@ -40,9 +45,9 @@ def test_designs_of_a_grid_have_a_curve_each():
     }
     table = flapwing.respond(grid, tolerance=10)
     assert table["curve"].tolist() == [0] * 6 + [1] * 6 + [2] * 6
-    assert len(table.meta["verdicts"]) == 3
+    assert len(table.verdicts) == 3
     other = flapwing.respond(grid, "drive_voltage_pp")
-    assert len(other.meta["verdicts"]) == 3 and other.meta["along"] == "drive_voltage_pp"
+    assert len(other.verdicts) == 3 and other.meta["parameter"] == "drive_voltage_pp"
 
 
 @pytest.mark.parametrize(
@@ -80,12 +85,12 @@ def test_trajectories():
 def test_resonances(flap):
     found = flapwing.resonance("ozaki2018-large")
     printed = {row["resonance"]: row for row in csv.DictReader(flap("resonance", "ozaki2018-large", "--format", "csv").stdout.splitlines())}
-    assert found["driven"][0]["frequency_hz"] == float(printed["driven_1"]["frequency_hz"])
-    assert found["impulse_fit"]["decay_1_s"] == float(printed["impulse_fit"]["decay_1_s"])
-    assert found["linear_hz"]["mode_1"] == float(printed["mode_1"]["frequency_hz"])
-    assert found["stroke_spectrum_hz"][0] == float(printed["stroke_spectrum_1"]["frequency_hz"])
-    assert found["larger_at_hz"] is None and found["gaps"] == []
-    assert flapwing.resonance("ozaki2018-large", start=115, stop=130)["larger_at_hz"] == 115
+    assert found.driven[0].frequency_hz == float(printed["driven_1"]["frequency_hz"])
+    assert found.impulse_fit.decay_1_s == float(printed["impulse_fit"]["decay_1_s"])
+    assert found.linear_hz["mode_1"] == float(printed["mode_1"]["frequency_hz"])
+    assert found.stroke_spectrum_hz[0] == float(printed["stroke_spectrum_1"]["frequency_hz"])
+    assert math.isnan(found.larger_at_hz) and found.gaps == []
+    assert flapwing.resonance("ozaki2018-large", start=115, stop=130).larger_at_hz == 115
 
 
 def test_parameters_and_measures():
@@ -93,7 +98,12 @@ def test_parameters_and_measures():
     frequency = table["drive_frequency"]
     assert (frequency.unit, frequency.symbol, frequency.allowed) == ("Hz", "f", "more than zero")
     assert table["lift_sign"].value == "corrected" and table["lift_sign"].options == ("corrected", "printed")
-    assert flapwing.params("direct-drive")["drive_frequency"].value is None
+    unset = flapwing.params("direct-drive")["drive_frequency"]
+    assert math.isnan(unset.value) and not unset.is_number and frequency.is_number and not table["lift_sign"].is_number
+    lift = flapwing.measures("bimorph")["lift_mean_mn"]
+    assert (lift.name, lift.unit) == ("lift_mean_mn", "mN") and lift.doc
+    rate = flapwing.states("bimorph")["pitch_rate"]
+    assert (rate.unit, rate.column) == ("rad/s", "pitch_rate_rad_s")
     assert set(flapwing.measures("bimorph")) == set(flapwing.measures("jafferis2016"))
     for function in [flapwing.params, flapwing.measures]:
         with pytest.raises(ValueError, match="did you mean `ozaki2018-large`"):

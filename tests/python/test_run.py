@@ -1,5 +1,8 @@
 """Results of `run`."""
 
+import dataclasses
+import math
+import pickle
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -55,7 +58,7 @@ def test_periodic_point():
     assert 0 <= row["residual"] < 1e-6
     assert 0 < row["floquet_max"] < 1
     assert row["stable"] is True
-    assert row["reason"] is None
+    assert row.reason == ""
 
 
 @pytest.mark.parametrize(
@@ -71,17 +74,38 @@ def test_other_points_have_the_same_keys_but_no_measures(arguments, status):
     row = flapwing.run(PRESET, **arguments)
     assert row["status"] == status
     assert list(row) == list(flapwing.run(PRESET))
-    assert set(measures(row).values()) == {None}
-    assert row["period"] == 0
-    assert row["floquet_max"] is None
-    assert row["stable"] is None
+    assert all(math.isnan(value) for value in measures(row).values())
+    assert row.period == 0
+    assert math.isnan(row.floquet_max)
+    assert math.isnan(row.stable)
 
 
 def test_invalid_point_says_why():
     row = flapwing.run(PRESET, wing_inertia_product=1.0)
     assert "mass matrix" in row["reason"]
-    assert row["residual"] is None
+    assert math.isnan(row.residual)
     assert row["cycles"] == 0
+
+
+def test_rows_are_mappings_of_columns_and_attributes():
+    row = flapwing.run(PRESET)
+    assert row["lift_mean_mn"] == row.measures["lift_mean_mn"] and row["cycles"] == row.cycles
+    assert dict(row) == row and len(row) == len(list(row)) and "lift_mean_mn" in row and "reason" in row
+    assert list(row.measures) == list(flapwing.measures(PRESET))
+    with pytest.raises(KeyError, match="there is no column `lift_mean`, did you mean `lift_mean_mn`"):
+        row["lift_mean"]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        row.status = "invalid"
+    lost = flapwing.run(PRESET, wing_inertia_product=1.0)
+    assert lost == flapwing.run(PRESET, wing_inertia_product=1.0) == pickle.loads(pickle.dumps(lost)) != row
+
+
+def test_conditions_of_the_design_are_true_false_or_nan():
+    grid = {"preset": PRESET, "measure": {"strong": "lift_mean_mn > 1", "ratio": "lift_mean_mn / power_mean_mw"}}
+    row = flapwing.run(grid)
+    assert row["strong"] is True and row["ratio"] == row["lift_mean_mn"] / row["power_mean_mw"]
+    assert flapwing.run(grid, drive_voltage_pp="1 V")["strong"] is False
+    assert math.isnan(flapwing.run(grid, max_cycles=3)["strong"])
 
 
 def test_same_call_same_bits():

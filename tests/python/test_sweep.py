@@ -66,7 +66,7 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     for column in table.columns:
         np.testing.assert_array_equal(table[column], in_memory[column], strict=True)
     assert table.units == in_memory.units and table.docs == in_memory.docs
-    assert [list(dim) for dim in table.dims] == [list(dim) for dim in in_memory.dims]
+    assert [list(dim) for dim in table.axes] == [list(dim) for dim in in_memory.axes]
     assert table.meta["grid"] == in_memory.meta["grid"] == GRID
     # Rows of another grid are not overwritten unasked; those of the same grid are there already.
     with pytest.raises(FileExistsError, match="the grid file differs; line .*: name another file, or .*overwrite=True"):
@@ -82,7 +82,7 @@ def test_rows_in_a_file_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     table = flapwing.sweep(QUICK, out="rows.csv")
     (tmp_path / "rows.csv").rename(tmp_path / "elsewhere.csv")
-    assert table.meta["counts"] == {"periodic": 26} and list(table.dims[0]) == ["drive_frequency"]
+    assert table.meta["counts"] == {"periodic": 26} and list(table.axes[0]) == ["drive_frequency"]
     with pytest.raises(FileNotFoundError):
         table["lift_mean_mn"]
     (tmp_path / "elsewhere.csv").rename(tmp_path / "rows.csv")
@@ -190,7 +190,7 @@ def test_a_table_of_a_file_can_be_pickled(tmp_path):
     out.unlink()
     for copied in (pickle.loads(stored), copy.deepcopy(table)):
         assert copied.units == table.units and copied.meta == table.meta
-        assert [list(dim) for dim in copied.dims] == [list(dim) for dim in table.dims]
+        assert [list(dim) for dim in copied.axes] == [list(dim) for dim in table.axes]
         for column in table.columns:
             np.testing.assert_array_equal(copied[column], table[column], strict=True)
 

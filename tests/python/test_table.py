@@ -24,7 +24,7 @@ def test_columns_have_types_units_and_meanings(table):
     assert kinds["status"] == kinds["lift_sign"] == "U"
     assert table.units["lift_mean_mn"] == "mN" and table.units["drive_frequency"] == "Hz"
     assert table.units["status"] == ""
-    assert table.docs["lift_mean_mn"] == flapwing.measures("direct-drive")["lift_mean_mn"][1]
+    assert table.docs["lift_mean_mn"] == flapwing.measures("direct-drive")["lift_mean_mn"].doc
     assert all(table.docs.values())
     assert table.keys() == table.columns == list(table)
     assert "lift_mean_mn" in table and "lift" not in table
@@ -218,13 +218,13 @@ def test_parquet_of_a_lost_file_of_points_has_units(tmp_path):
     points.unlink()
     (tmp_path / "rows.parquet.meta.toml").unlink()
     found = flapwing.read(path)
-    assert found.units == table.units and found.dims == []
+    assert found.units == table.units and found.axes == []
 
 
 def test_files_that_others_wrote_are_read(flap, tmp_path):
     flap("run", "ozaki2018-large", "--trajectory", tmp_path / "motion.csv")
     motion = flapwing.read(tmp_path / "motion.csv")
-    assert motion.units["stroke_deg"] == "deg" and motion.dims == [] and len(motion) > 100
+    assert motion.units["stroke_deg"] == "deg" and motion.axes == [] and len(motion) > 100
     same = flapwing.trajectory("ozaki2018-large", cycles=2, samples=200)
     np.testing.assert_array_equal(same["stroke_rad"], motion["stroke_rad"])
     text = "name,size,ok,all\na,1.5,true,1\nb,,,2\n"
@@ -263,7 +263,7 @@ def test_columns_are_chosen_by_lists(table):
     assert len(table[[]]) == 0 and table[[]].columns == table.columns
     whole = table[["point", "lift_mean_mn"]].to_xarray()
     assert whole["lift_mean_mn"].dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
-    with pytest.raises(ValueError, match="where the rows are along the axis of drive_voltage_pp\nkeep `point` or"):
+    with pytest.raises(ValueError, match="gives the places of the rows along the axis of drive_voltage_pp\nkeep `point` or"):
         table[["lift_mean_mn"]].to_xarray()
 
 
@@ -289,7 +289,7 @@ def test_parts_share_nothing_that_can_be_changed(table):
     part, columns = table[1:], table[["point", "lift_mean_mn"]]
     for each in (table, part, columns, pickle.loads(pickle.dumps(table))):
         with pytest.raises(ValueError, match="read-only"):
-            each.dims[0]["drive_voltage_pp"][0] = -1
+            each.axes[0]["drive_voltage_pp"][0] = -1
     rtol = table.meta["solver"]["rtol"]
     part.meta["solver"]["rtol"] = columns.meta["solver"]["rtol"] = 9.0
     part.meta["counts"]["periodic"] = -1
@@ -306,11 +306,11 @@ def test_the_origin_is_in_xarray_and_pandas():
             assert {key: attributes[key] for key in ("build", "model", "preset", "grid")} == {
                 key: told.meta[key] for key in ("build", "model", "preset", "grid")
             }
-            assert json.loads(attributes["set"])["drive_voltage_pp"] == "80 V"
+            assert json.loads(attributes["keywords"])["drive_voltage_pp"] == "80 V"
             assert json.loads(attributes["solver"]) == told.meta["solver"]
-    assert json.loads(table.to_xarray().attrs["set"])["rtol"] == float(np.float32(1e-5))
-    assert curve.to_xarray().attrs["along"] == "drive_frequency"
-    assert json.loads(curve.to_xarray().attrs["verdicts"]) == curve.meta["verdicts"]
+    assert json.loads(table.to_xarray().attrs["keywords"])["rtol"] == float(np.float32(1e-5))
+    assert curve.to_xarray().attrs["parameter"] == "drive_frequency"
+    assert json.loads(curve.to_xarray().attrs["verdicts"]) == curve.verdicts
 
 
 def test_the_origin_in_a_frame_is_kept_by_parquet(table, tmp_path):

@@ -54,11 +54,12 @@ flapwing.run("ozaki2018-large", max_cycles="many")
 flapwing.run(3)
 flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0]}, measures=[1])
 flapwing.sweep("grid.toml", progress=3)
-flapwing.trajectory("ozaki2018-large", begin=[0.0])
+flapwing.trajectory("ozaki2018-large", initial_state=[0.0])
 table = flapwing.read("rows.csv")
 table["lift_mean_mn"].to_pandas()
 table[["lift_mean_mn"]].argmax()
-plot.response(table, ["lift_mean_mn", "power_mean_mw"]).get_xlabel()
+plot.response(table, ["lift_mean_mn", "power_mean_mw"])
+flapwing.run("ozaki2018-large").lift_mean_mn
 """
 
 
@@ -66,27 +67,32 @@ def test_mistakes_are_refused(tmp_path):
     path = tmp_path / "mistakes.py"
     path.write_text(MISTAKES, encoding="utf-8")
     lines = {int(line.split(":")[1]) for line in checked([path], tmp_path) if ": error:" in line}
-    assert lines == {4, 5, 6, 7, 8, 10, 11, 12}
+    assert lines == {4, 5, 6, 7, 8, 10, 11, 12, 13}
 
 
 DRAWN = """\
 import flapwing
 import numpy as np
 import pandas
-from flapwing import plot
+from flapwing import analysis, fitting, plot
 
 rows = flapwing.read("rows.csv")
-plot.wrench(rows).savefig("panels.png")
-plot.wrench(rows, x="drive_offset").savefig("panels.png")
-plot.wrench(rows, inputs=["drive_offset"]).figure.savefig("map.png")
-plot.wrench(np.zeros((6, 1)), inputs=["drive_offset"]).set_title("map")
-flapwing.run("ozaki2018-large", begin=rows[-1:], progress=True)
-flapwing.run("ozaki2018-large", begin={"pitch_rad": 0.1, "stroke_rad": "10 deg"})
-flapwing.trajectory("ozaki2018-large", begin=pandas.DataFrame({"pitch_rad": [0.1]}))
+plot.force_panels(rows, x="drive_offset").savefig("panels.png")
+plot.control_matrix(rows, inputs=["drive_offset"]).figure.savefig("map.png")
+plot.control_matrix(np.zeros((6, 1)), inputs=["drive_offset"]).set_title("map")
+plot.response_panels(rows, ["lift_mean_mn"]).savefig("panels.png")
+np.isnan(flapwing.run("ozaki2018-large").residual)
+flapwing.resonance("ozaki2018-large").driven[0].frequency_hz.hex()
+flapwing.measures("bimorph")["lift_mean_mn"].unit.upper()
+estimates: dict[str, fitting.Estimate] = flapwing.fit("ozaki2018-large", rows, ["hinge_stiffness"]).estimates
+analysis.rank_correlations(rows)[0].correlation.hex()
+flapwing.run("ozaki2018-large", initial_state=rows[-1:], progress=True)
+flapwing.run("ozaki2018-large", initial_state={"pitch_rad": 0.1, "stroke_rad": "10 deg"})
+flapwing.trajectory("ozaki2018-large", initial_state=pandas.DataFrame({"pitch_rad": [0.1]}))
 """
 
 
-def test_what_depends_on_the_table_is_accepted(tmp_path):
+def test_results_have_their_types(tmp_path):
     path = tmp_path / "drawn.py"
     path.write_text(DRAWN, encoding="utf-8")
     told = checked([path], tmp_path)
@@ -112,9 +118,9 @@ def test_optional_packages_are_imported_only_where_they_are_used():
     """The package itself needs NumPy alone: others are imported by the functions that convert to them."""
     code = (
         "import sys\n"
-        "for name in ['pandas', 'polars', 'pyarrow', 'scipy', 'xarray', 'matplotlib', 'tqdm', 'distributed']:\n"
+        "for name in ['pandas', 'polars', 'pyarrow', 'scipy', 'xarray', 'matplotlib', 'tqdm', 'distributed', 'moocore']:\n"
         "    sys.modules[name] = None\n"
-        "import flapwing\n"
+        "import flapwing, flapwing.analysis, flapwing.fitting\n"
         "table = flapwing.evaluate('ozaki2018-large', {'drive_frequency': [100.0, 105.0]})\n"
         "table[['lift_mean_mn']][table['status'] == 'periodic']\n"
         "flapwing.sweep({'preset': 'ozaki2018-large', 'axes': {'drive_frequency': range(100, 102)}})\n"

@@ -130,8 +130,8 @@ def test_states_of_a_vehicle_begin_its_motions():
     robot = pair()
     names = list(flapwing.states(robot))
     assert len(names) == 2 * len(flapwing.states("jafferis2016")) and names[0].startswith("left_")
-    first = flapwing.evaluate(robot, {"drive_offset": [0.0, 10.0]}, states=True)
-    second = flapwing.evaluate(robot, {"drive_offset": [0.0, 10.0]}, begin=first)
+    first = flapwing.evaluate(robot, {"drive_offset": [0.0, 10.0]}, return_states=True)
+    second = flapwing.evaluate(robot, {"drive_offset": [0.0, 10.0]}, initial_state=first)
     assert second["cycles"].sum() < first["cycles"].sum()
     assert second["torque_pitch_unm"][1] == pytest.approx(first["torque_pitch_unm"][1], rel=1e-4)
 
@@ -139,11 +139,11 @@ def test_states_of_a_vehicle_begin_its_motions():
 def test_lists_know_vehicles():
     robot = pair()
     assert {*FORCES, *TORQUES, "lift_to_weight", "left_lift_mean_mn"} <= set(flapwing.measures(robot))
-    assert flapwing.measures(robot)["torque_yaw_unm"][0] == "uN*m"
+    assert flapwing.measures(robot)["torque_yaw_unm"].unit == "uN*m"
     parameters = flapwing.params(robot)
     assert parameters["difference_drive_offset"].unit == "V" and parameters["total_mass"].value == 85e-6
     # A parameter that follows that of all wings has no value; one that a grid varies has that of the first point.
-    assert parameters["left_drive_voltage_pp"].value is None
+    assert np.isnan(parameters["left_drive_voltage_pp"].value)
     varied = flapwing.params({**robot, "axes": {"drive_offset": [1, 2]}})
     assert varied["drive_offset"].value == 1.0 and varied["drive_voltage_pp"].value == 200.0
 

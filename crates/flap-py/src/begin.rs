@@ -18,7 +18,7 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     let Ok(begin) = begin.cast::<PyDict>() else {
         let found = begin.get_type().name()?;
         let message = format!(
-            "`begin` is {found}\nit must be a dictionary of components such as {{\"pitch\": \"10 deg\"}}, or a table of one row"
+            "`initial_state` is {found}\nit must be a dictionary of components such as {{\"pitch\": \"10 deg\"}}, or a table of one row"
         );
         return Err(PyTypeError::new_err(message));
     };
@@ -27,15 +27,16 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     let mut given = vec![false; states.len()];
     for (name, value) in begin {
         let name: String = name.extract().map_err(|_| {
-            PyTypeError::new_err("names in `begin` must be text\nsuch as {\"pitch\": \"10 deg\"}")
+            PyTypeError::new_err("names in `initial_state` must be text\nsuch as {\"pitch\": \"10 deg\"}")
         })?;
         let (index, factor) = component(&states, &name)?;
         if std::mem::replace(&mut given[index], true) {
-            let message = format!("`begin` gives {} twice\nkeep one of them", states[index]);
+            let message = format!("`initial_state` gives {} twice\nkeep one of them", states[index]);
             return Err(PyValueError::new_err(message));
         }
         let (_, unit) = split_unit(&states[index]);
-        values[index] = factor * convert::quantity(&format!("begin[{name:?}]"), unit, factor == 1.0, &value)?;
+        values[index] =
+            factor * convert::quantity(&format!("initial_state[{name:?}]"), unit, factor == 1.0, &value)?;
     }
     Ok(values)
 }
@@ -65,7 +66,8 @@ fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     let known: Vec<&str> = states.iter().map(|state| split_unit(state).0).collect();
     let hint = nearest(name, known.iter().copied())
         .map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"));
-    let message = format!("`begin` has no component `{name}`{hint}\nthe states are {}", states.join(", "));
+    let message =
+        format!("`initial_state` has no component `{name}`{hint}\nthe states are {}", states.join(", "));
     Err(PyValueError::new_err(message))
 }
 

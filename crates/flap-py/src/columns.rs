@@ -83,8 +83,8 @@ impl Columns {
         Ok(())
     }
 
-    /// A list of tuples: name, unit, meaning, and an array; with the words that it points to, for a column of text.
-    /// Arrays of flags hold 1, 0, and -1 for unknown.
+    /// A list of dictionaries with the entries `name`, `unit`, `doc` (the meaning), `cells` (an array) and `words`: those that
+    /// the array points to for a column of text, else None. Arrays of flags hold 1, 0, and -1 for unknown.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
         let list = PyList::empty(py);
         for (Column { name, unit, doc, .. }, data) in self.columns {
@@ -97,7 +97,13 @@ impl Columns {
                     (PyArray1::from_vec(py, places).into_any(), PyList::new(py, words)?.into_any().unbind())
                 }
             };
-            list.append((name, unit, doc, array, words))?;
+            let dict = PyDict::new(py);
+            dict.set_item("name", name)?;
+            dict.set_item("unit", unit)?;
+            dict.set_item("doc", doc)?;
+            dict.set_item("cells", array)?;
+            dict.set_item("words", words)?;
+            list.append(dict)?;
         }
         Ok(list)
     }

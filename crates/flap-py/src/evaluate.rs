@@ -11,11 +11,12 @@ use pyo3::types::PyDict;
 use crate::{begin, design, parameters, sweep};
 
 /// Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-/// for each parameter that varies, all as long. `begin` has a row of state components per point, nan for a point at rest.
+/// for each parameter that varies, all as long. `initial_state` has a row of state
+/// components per point, nan for a point at rest.
 #[pyfunction]
 #[pyo3(signature = (
-    design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, begin=None, states=false,
-    keywords=None
+    design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, initial_state=None,
+    return_states=false, keywords=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn evaluate<'py>(
@@ -26,8 +27,8 @@ pub(crate) fn evaluate<'py>(
     progress: Option<Py<PyAny>>,
     measures: Option<Vec<String>>,
     gradient: Option<Vec<String>>,
-    begin: Option<PyReadonlyArray2<'py, f64>>,
-    states: bool,
+    initial_state: Option<PyReadonlyArray2<'py, f64>>,
+    return_states: bool,
     keywords: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
@@ -60,10 +61,10 @@ pub(crate) fn evaluate<'py>(
     if let Some(names) = gradient {
         plan = with_slopes(plan, &names)?;
     }
-    if let Some(begin) = begin {
-        plan = plan.begun_at(begin::rows(&begin)).map_err(|error| refused(&error))?;
+    if let Some(states) = initial_state {
+        plan = plan.begun_at(begin::rows(&states)).map_err(|error| refused(&error))?;
     }
-    if states {
+    if return_states {
         plan = plan.with_states().map_err(|error| refused(&error))?;
     }
     sweep::into_columns(py, &plan, &options, progress, None)
@@ -156,7 +157,8 @@ fn refused(error: &ChangeError) -> PyErr {
              give drive_frequency a number, or follow it",
         ),
         ChangeError::States(states, points) => {
-            let message = format!("`begin` has {states} rows for {points} points\nit must have one for each");
+            let message =
+                format!("`initial_state` has {states} rows for {points} points\nit must have one for each");
             PyValueError::new_err(message)
         }
         other => design::refused("a column", other),

@@ -103,10 +103,10 @@ pub(crate) fn impulse<'py>(
     motion::into_python(py, free, meanings, &meta)
 }
 
-/// Forces along a given motion; see `flapwing.lift`.
+/// Forces along a given motion; see `flapwing.forces_along`.
 #[pyfunction]
 #[pyo3(signature = (design, motion, keywords, /, *, point, periodic, samples))]
-pub(crate) fn lift<'py>(
+pub(crate) fn forces_along<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
     motion: &Bound<'py, PyAny>,

@@ -9,10 +9,10 @@ use pyo3::types::PyDict;
 
 use crate::{convert, motion, records};
 
-/// Computes stroke and pitch; see `flapwing.track`.
+/// Computes stroke and pitch; see `flapwing.track_wing`.
 #[pyfunction]
 #[pyo3(signature = (points, /, *, chord=None))]
-pub(crate) fn track<'py>(
+pub(crate) fn track_wing<'py>(
     py: Python<'py>,
     points: &Bound<'py, PyAny>,
     chord: Option<&Bound<'py, PyAny>>,

@@ -144,16 +144,36 @@ impl Grid {
     ///
     /// Returns
     /// -------
-    /// dict
-    ///     `looked_at` and `excluded`, numbers of points, and `unsatisfied`, a dictionary from each condition to the
-    ///     number of points that do not satisfy it.
-    fn exclusions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    /// Exclusions
+    ///     The numbers of points.
+    fn exclusions(&self, py: Python<'_>) -> PyResult<Exclusions> {
         let found = py.detach(|| survey::exclusions(&self.plan, LOOKED_AT));
-        let dict = PyDict::new(py);
-        dict.set_item("looked_at", found.looked_at)?;
-        dict.set_item("excluded", found.excluded)?;
-        dict.set_item("unsatisfied", found.unsatisfied.into_py_dict(py)?)?;
-        Ok(dict)
+        let unsatisfied = found.unsatisfied.into_py_dict(py)?.unbind();
+        Ok(Exclusions { looked_at: found.looked_at, excluded: found.excluded, unsatisfied })
+    }
+}
+
+/// The points of a grid that the conditions of ``[where]`` exclude.
+///
+/// Attributes
+/// ----------
+/// looked_at : int
+///     Number of points for which the conditions were evaluated.
+/// excluded : int
+///     Number of points among them that do not satisfy all conditions.
+/// unsatisfied : dict of str to int
+///     For each condition, the number of points that do not satisfy it.
+#[pyclass(frozen, get_all, module = "flapwing")]
+pub(crate) struct Exclusions {
+    looked_at: u64,
+    excluded: u64,
+    unsatisfied: Py<PyDict>,
+}
+
+#[pymethods]
+impl Exclusions {
+    fn __repr__(&self) -> String {
+        format!("<flapwing.Exclusions: {} of {} points>", self.excluded, self.looked_at)
     }
 }
 

@@ -1,5 +1,7 @@
 //! Lists of parameters and measures.
 
+use std::collections::BTreeMap;
+
 use flap_core::parameter::Kind;
 use flap_core::simulate;
 use flap_sweep::notation::text;
@@ -8,16 +10,41 @@ use pyo3::prelude::*;
 
 use crate::grid;
 
-/// Name, value, unit, symbol, meaning, allowed, options.
-type Listed = (String, Option<Value>, &'static str, &'static str, String, String, Vec<&'static str>);
+/// A parameter, as a dictionary.
+#[derive(IntoPyObject)]
+pub(crate) struct Listed {
+    name: String,
+    value: Value,
+    unit: &'static str,
+    symbol: &'static str,
+    doc: String,
+    allowed: String,
+    options: Vec<&'static str>,
+}
 
-/// A parameter and its standard error in SI units.
-type StandardError = (String, f64);
+/// A measure, as a dictionary.
+#[derive(IntoPyObject)]
+pub(crate) struct Measure {
+    name: String,
+    unit: &'static str,
+    doc: String,
+}
+
+/// The standard errors of parameters in SI units, by name, and the correlations of pairs of them.
+#[derive(IntoPyObject)]
+pub(crate) struct Uncertainty {
+    errors: BTreeMap<String, f64>,
+    correlations: Vec<Correlation>,
+}
 
 /// Two parameters and the coefficient of their correlation.
-type Correlated = (String, String, f64);
+#[derive(IntoPyObject)]
+struct Correlation {
+    between: [String; 2],
+    coefficient: f64,
+}
 
-/// A number, or the name of an option.
+/// A number, NaN for a value that is not set, or the name of an option.
 #[derive(IntoPyObject)]
 pub(crate) enum Value {
     Number(f64),
@@ -38,37 +65,43 @@ pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
             Kind::Choice(options) => (options.join(" | "), options.to_vec()),
         };
         let value = if value.is_nan() {
-            None
+            Value::Number(value)
         } else {
-            Some(text::option(parameter, value).map_or(Value::Number(value), Value::Option))
+            text::option(parameter, value).map_or(Value::Number(value), Value::Option)
         };
         let (name, doc) = (parameter.name.to_owned(), parameter.doc.to_owned());
-        (name, value, parameter.unit, parameter.symbol, doc, allowed, options)
+        Listed { name, value, unit: parameter.unit, symbol: parameter.symbol, doc, allowed, options }
     });
     let listed = listed.collect();
     Ok(listed)
 }
 
-/// The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`.
+/// The measures of a design or a model; see `flapwing.measures`.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<(String, &'static str, String)>> {
+pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<Measure>> {
     let (model, _) = find(design)?;
-    Ok(model.columns().iter().map(|column| (column.name.clone(), column.unit, column.doc.clone())).collect())
+    let listed = model.columns().iter().map(|column| Measure {
+        name: column.name.clone(),
+        unit: column.unit,
+        doc: column.doc.clone(),
+    });
+    Ok(listed.collect())
 }
 
-/// The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient.
+/// The standard errors of the parameters of a design in SI units, by name, and the correlations of pairs of parameters.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<(Vec<StandardError>, Vec<Correlated>)> {
+pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {
     let plan = grid::plan(design)?;
     let name = |index: usize| plan.parameters()[index].name.to_owned();
     let known = plan.uncertainty();
     let errors = known.errors().iter().map(|(index, error)| (name(*index), *error)).collect();
-    let correlations =
-        known.correlations().iter().map(|one| (name(one.between[0]), name(one.between[1]), one.coefficient));
-    let correlations = correlations.collect();
-    Ok((errors, correlations))
+    let correlations = known
+        .correlations()
+        .iter()
+        .map(|one| Correlation { between: one.between.map(name), coefficient: one.coefficient });
+    Ok(Uncertainty { errors, correlations: correlations.collect() })
 }
 
 /// The model of a design, or the model itself.

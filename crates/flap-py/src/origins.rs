@@ -1,5 +1,7 @@
 //! The sources of a design's numbers: the texts in its grid file and its devices.
 
+use std::collections::BTreeMap;
+
 use flap_core::parameter::Parameter;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -7,13 +9,17 @@ use toml::{Table, Value};
 
 use crate::grid;
 
-/// A parameter and the text that says where its value comes from.
-type Origin = (String, String);
+/// The description of a design, empty if it has none, and the sources of its parameters by name.
+#[derive(IntoPyObject)]
+pub(crate) struct Origins {
+    description: String,
+    sources: BTreeMap<String, String>,
+}
 
 /// The description of a design, empty if it has none, and the source of each parameter that has one.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<(String, Vec<Origin>)> {
+pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<Origins> {
     let plan = grid::plan(design)?;
     let parameters = plan.parameters();
     let mut description = String::new();
@@ -31,6 +37,7 @@ pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<(String, Vec<Origin
         }
     }
     let named = parameters.iter().zip(sources);
-    let named = named.filter_map(|(parameter, source)| Some((parameter.name.to_owned(), source?))).collect();
-    Ok((description, named))
+    let sources =
+        named.filter_map(|(parameter, source)| Some((parameter.name.to_owned(), source?))).collect();
+    Ok(Origins { description, sources })
 }

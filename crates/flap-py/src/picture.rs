@@ -56,7 +56,13 @@ pub(crate) fn usual_measure(
     Ok(usual(role, &columns, &taken).map(|place| columns[place].to_owned()))
 }
 
-type Bands = Vec<(f64, f64)>;
+/// The bands in which two ways differ, and the rows of each way after which it jumps to the other, as a dictionary.
+#[derive(IntoPyObject)]
+pub(crate) struct Ways {
+    bands: Vec<(f64, f64)>,
+    up: Vec<usize>,
+    down: Vec<usize>,
+}
 
 type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
 
@@ -65,14 +71,20 @@ type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyRea
 #[pyfunction]
 #[pyo3(signature = (up, down, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
-pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<(Bands, Vec<usize>, Vec<usize>)> {
+pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<Ways> {
     let way = Way { x: up.0.as_slice()?, y: up.1.as_slice()?, bistable: up.2.as_slice()? };
     let back = Way { x: down.0.as_slice()?, y: down.1.as_slice()?, bistable: down.2.as_slice()? };
     let Comparison { bands, jumps: [up, down] } = compared(way, back);
-    Ok((bands, up, down))
+    Ok(Ways { bands, up, down })
 }
 
-type Bars<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Vec<(u32, f64)>);
+/// A histogram, as a dictionary: the ends of its bars, their heights, and pairs of a percentage and the percentile.
+#[derive(IntoPyObject)]
+pub(crate) struct Bars<'py> {
+    edges: Bound<'py, PyArray1<f64>>,
+    counts: Bound<'py, PyArray1<f64>>,
+    percentiles: Vec<(u32, f64)>,
+}
 
 /// The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite.
 #[pyfunction]
@@ -82,8 +94,11 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
     let found = sample::histogram(values.as_slice()?);
     Ok(found.map(|found| {
         let counts = found.counts.iter().map(|&count| count as f64);
-        let marked = sample::MARKED.into_iter().zip(found.marked).collect();
-        (PyArray1::from_vec(py, found.edges), PyArray1::from_iter(py, counts), marked)
+        Bars {
+            edges: PyArray1::from_vec(py, found.edges),
+            counts: PyArray1::from_iter(py, counts),
+            percentiles: sample::MARKED.into_iter().zip(found.marked).collect(),
+        }
     }))
 }
 

@@ -8,7 +8,7 @@ use flap_sweep::resonance::SearchError;
 use flap_sweep::resonance::driven::{self, PeakSearch};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::point::Chosen;
 use crate::watch::interruptible;
@@ -16,6 +16,42 @@ use crate::{convert, design, error};
 
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
+
+/// The resonances of a point, as a dictionary; see `flapwing.Resonances`.
+#[derive(IntoPyObject)]
+pub(crate) struct Resonances<'py> {
+    linear_hz: Bound<'py, PyDict>,
+    impulse_fit: Option<Sine>,
+    stroke_spectrum_hz: Vec<f64>,
+    pitch_spectrum_hz: Vec<f64>,
+    driven: Vec<Peak>,
+    larger_at_hz: f64,
+    gaps: Vec<Gap>,
+}
+
+/// A damped sine.
+#[derive(IntoPyObject)]
+struct Sine {
+    frequency_hz: f64,
+    decay_1_s: f64,
+    relative_rms: f64,
+}
+
+/// A peak of the settled stroke over drive frequency.
+#[derive(IntoPyObject)]
+struct Peak {
+    frequency_hz: f64,
+    stroke_pp_deg: f64,
+    pitch_pp_deg: f64,
+}
+
+/// A range of drive frequencies without a periodic motion.
+#[derive(IntoPyObject)]
+struct Gap {
+    start_hz: f64,
+    stop_hz: f64,
+    status: &'static str,
+}
 
 /// Finds the resonances of one point; see `flapwing.resonance`.
 #[pyfunction]
@@ -32,7 +68,7 @@ pub(crate) fn resonance<'py>(
     impulse: &Bound<'py, PyAny>,
     fit_cycles: &Bound<'py, PyAny>,
     spectrum_window: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<Resonances<'py>> {
     let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
     design::check_one_wing(&chosen.plan)?;
     let (simulator, solver, values) = (chosen.plan.robot().model(), chosen.plan.solver(), &chosen.values);
@@ -59,37 +95,30 @@ pub(crate) fn resonance<'py>(
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
 
-    let linear = modes
-        .into_iter()
-        .map(|Mode { name, frequency }| (name, frequency))
-        .collect::<Vec<_>>()
-        .into_py_dict(py)?;
-    let fit = free.fit.map(|fit| {
-        let dict = PyDict::new(py);
-        dict.set_item("frequency_hz", fit.frequency)?;
-        dict.set_item("decay_1_s", fit.decay)?;
-        dict.set_item("relative_rms", fit.relative_rms)?;
-        PyResult::Ok(dict)
+    let fit = free.fit.map(|fit| Sine {
+        frequency_hz: fit.frequency,
+        decay_1_s: fit.decay,
+        relative_rms: fit.relative_rms,
     });
-    let peaks = PyList::empty(py);
-    for peak in &driven.peaks {
-        let dict = PyDict::new(py);
-        dict.set_item("frequency_hz", peak.frequency)?;
-        dict.set_item("stroke_pp_deg", peak.stroke_pp)?;
-        dict.set_item("pitch_pp_deg", peak.pitch_pp)?;
-        peaks.append(dict)?;
-    }
-    let gaps = driven.gaps.iter().map(|gap| (gap.from, gap.to, gap.status.name())).collect::<Vec<_>>();
-
-    let dict = PyDict::new(py);
-    dict.set_item("linear_hz", linear)?;
-    dict.set_item("impulse_fit", fit.transpose()?)?;
-    for (signal, peaks) in &free.spectra {
-        let frequencies = peaks.iter().map(|peak| peak.frequency).collect::<Vec<f64>>();
-        dict.set_item(format!("{signal}_spectrum_hz"), frequencies)?;
-    }
-    dict.set_item("driven", peaks)?;
-    dict.set_item("larger_at_hz", driven.larger_at)?;
-    dict.set_item("gaps", gaps)?;
-    Ok(dict)
+    let peaks = driven.peaks.iter().map(|peak| Peak {
+        frequency_hz: peak.frequency,
+        stroke_pp_deg: peak.stroke_pp,
+        pitch_pp_deg: peak.pitch_pp,
+    });
+    let gaps =
+        driven.gaps.iter().map(|gap| Gap { start_hz: gap.from, stop_hz: gap.to, status: gap.status.name() });
+    let spectrum = |wanted: &str| {
+        let peaks = free.spectra.iter().find(|(signal, _)| *signal == wanted).map(|(_, peaks)| peaks);
+        peaks.into_iter().flatten().map(|peak| peak.frequency).collect()
+    };
+    let linear = modes.into_iter().map(|Mode { name, frequency }| (name, frequency)).collect::<Vec<_>>();
+    Ok(Resonances {
+        linear_hz: linear.into_py_dict(py)?,
+        impulse_fit: fit,
+        stroke_spectrum_hz: spectrum("stroke"),
+        pitch_spectrum_hz: spectrum("pitch"),
+        driven: peaks.collect(),
+        larger_at_hz: driven.larger_at.unwrap_or(f64::NAN),
+        gaps: gaps.collect(),
+    })
 }

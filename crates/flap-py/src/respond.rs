@@ -5,7 +5,7 @@ use std::sync::Arc;
 use flap_core::parameter::Kind;
 use flap_sweep::plan::Along;
 use flap_sweep::run::{Progress, Summary};
-use flap_sweep::study::response::{AlongError, Curve, Responses, Verdict};
+use flap_sweep::study::response::{AlongError, BandKind, Curve, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -18,21 +18,51 @@ use crate::{design, error, parameters, sweep};
 /// The column of the stroke amplitude.
 const STROKE: &str = "stroke_amplitude_deg";
 
+/// The verdict on a curve, as a dictionary.
+#[derive(IntoPyObject)]
+struct Judged {
+    text: String,
+    bands: Vec<Band>,
+}
+
+/// A band of bistability, with its ends in SI units and the largest difference of the stroke (deg, peak to peak) between both
+/// motions: NaN if one of them is periodic nowhere in it.
+#[derive(IntoPyObject)]
+struct Band {
+    start: f64,
+    stop: f64,
+    stroke_difference_deg: f64,
+}
+
+impl Judged {
+    fn new(verdict: &Verdict) -> Judged {
+        let bands = verdict.bands.iter().filter_map(|band| match band.kind {
+            BandKind::Bistable { jump } => Some(Band {
+                start: band.range[0],
+                stop: band.range[1],
+                stroke_difference_deg: jump.unwrap_or(f64::NAN),
+            }),
+            BandKind::Irregular { .. } => None,
+        });
+        Judged { text: verdict.to_string(), bands: bands.collect() }
+    }
+}
+
 /// Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
 /// number of all.
 #[pyfunction]
-#[pyo3(signature = (design, along, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, states=false, threads=None, progress=None, keywords=None, curves=None))]
+#[pyo3(signature = (design, parameter, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, return_states=false, threads=None, progress=None, keywords=None, curves=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn respond<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
-    along: &str,
+    parameter: &str,
     start: Option<&Bound<'py, PyAny>>,
     stop: Option<&Bound<'py, PyAny>>,
     step: Option<&Bound<'py, PyAny>>,
     tolerance: Option<&Bound<'py, PyAny>>,
     unstable: bool,
-    states: bool,
+    return_states: bool,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
     keywords: Option<&Bound<'py, PyDict>>,
@@ -46,7 +76,7 @@ pub(crate) fn respond<'py>(
             "the grid runs each design at its own resonance: give drive_frequency a number, or follow it";
         return Err(PyValueError::new_err(message));
     }
-    let index = parameters::index(plan.simulator(), along)?;
+    let index = parameters::index(plan.simulator(), parameter)?;
     let parameter = &plan.robot().model().parameters()[index];
     let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
         // It is refused below.
@@ -59,7 +89,8 @@ pub(crate) fn respond<'py>(
         [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
         [None, None, None] => None,
         _ => {
-            let message = format!("how `{along}` rises is not known: start, stop and step go together");
+            let message =
+                format!("how `{}` rises is not known: start, stop and step go together", parameter.name);
             return Err(PyValueError::new_err(message));
         }
     };
@@ -69,7 +100,7 @@ pub(crate) fn respond<'py>(
     })?;
 
     let mut plan = plan.following(along);
-    if states {
+    if return_states {
         plan = plan.with_states().map_err(|error| PyValueError::new_err(error.to_string()))?;
     }
     if let Some(curves) = curves {
@@ -86,7 +117,7 @@ pub(crate) fn respond<'py>(
     let ran = py.detach(|| {
         let mut look = |progress: Progress| watch.look(progress.finished, progress.points);
         let mut tell = |curve: &Curve| {
-            verdicts.push(Verdict::new(curve, along, parameter, stroke).to_string());
+            verdicts.push(Judged::new(&Verdict::new(curve, along, parameter, stroke)));
             Ok(())
         };
         responses.run(&options, Summary::default(), &mut columns, &stop, &mut look, &mut tell)

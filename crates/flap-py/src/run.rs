@@ -28,19 +28,19 @@ pub(crate) fn presets() -> Vec<&'static str> {
 
 /// Runs one point; see `flapwing.run`.
 #[pyfunction]
-#[pyo3(signature = (design, keywords, /, *, point=None, begin=None, waveform=None, stroke=None))]
+#[pyo3(signature = (design, keywords, /, *, point=None, initial_state=None, waveform=None, stroke=None))]
 pub(crate) fn run<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
     point: Option<&Bound<'py, PyAny>>,
-    begin: Option<&Bound<'py, PyAny>>,
+    initial_state: Option<&Bound<'py, PyAny>>,
     waveform: Option<&Bound<'py, PyAny>>,
     stroke: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let wave = Wave::of(waveform, stroke, false)?;
     let mut chosen = Chosen::new(design, keywords, point, wave.as_ref())?;
-    let begin = begin.map(|begin| begin::state(chosen.plan.simulator(), begin)).transpose()?;
+    let begin = initial_state.map(|state| begin::state(chosen.plan.simulator(), state)).transpose()?;
     if begin.is_some() && chosen.plan.resonance().is_some() {
         chosen = chosen.for_motion(py)?;
     }
@@ -58,7 +58,8 @@ pub(crate) fn run<'py>(
 /// Samples the motion of one point; see `flapwing.trajectory`.
 #[pyfunction]
 #[pyo3(signature = (
-    design, keywords, /, *, point, cycles, samples, from_rest, begin=None, waveform=None, stroke=None, once=false
+    design, keywords, /, *, point, cycles, samples, from_rest, initial_state=None, waveform=None, stroke=None,
+    once=false
 ))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn trajectory<'py>(
@@ -69,7 +70,7 @@ pub(crate) fn trajectory<'py>(
     cycles: &Bound<'py, PyAny>,
     samples: &Bound<'py, PyAny>,
     from_rest: bool,
-    begin: Option<&Bound<'py, PyAny>>,
+    initial_state: Option<&Bound<'py, PyAny>>,
     waveform: Option<&Bound<'py, PyAny>>,
     stroke: Option<&Bound<'py, PyAny>>,
     once: bool,
@@ -84,12 +85,12 @@ pub(crate) fn trajectory<'py>(
         let message = format!("{all} samples are too many: cycles times samples may be {SAMPLES_MAX}");
         return Err(PyValueError::new_err(message));
     }
-    if from_rest && begin.is_some() {
+    if from_rest && initial_state.is_some() {
         return Err(PyValueError::new_err(
-            "from_rest and begin both say where the motion begins\nkeep one of them",
+            "from_rest and initial_state both say where the motion begins\nkeep one of them",
         ));
     }
-    let begin = begin.map(|begin| begin::state(chosen.plan.simulator(), begin)).transpose()?;
+    let begin = initial_state.map(|state| begin::state(chosen.plan.simulator(), state)).transpose()?;
     let settled = !from_rest && !once && begin.is_none();
     let request = TrajectoryRequest { cycles, samples_per_cycle: samples, settled };
     let sampled = interruptible(py, |interrupted| {
@@ -101,29 +102,34 @@ pub(crate) fn trajectory<'py>(
     motion::into_python(py, sampled, meanings, &chosen.meta(py)?)
 }
 
-/// A row as a dictionary, in the order of result files: measures called `names`, then those of the plan's own.
+/// A row as a dictionary; its entry `measures` has those called `names`, then those of the plan's own. Unknown numbers and flags
+/// are NaN.
 fn row_to_dict<'py>(py: Python<'py>, names: &[&str], plan: &Plan, row: &Row) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    dict.set_item("status", row.status.name())?;
+    let measure = |index: usize| row.measures.get(index).copied().unwrap_or(f64::NAN);
+    let measures = PyDict::new(py);
     for (i, name) in names.iter().enumerate() {
-        dict.set_item(name, row.measures.get(i))?;
+        measures.set_item(name, measure(i))?;
     }
     for (i, own) in plan.measures().iter().enumerate() {
-        let value = row.measures.get(names.len() + i);
+        let value = measure(names.len() + i);
         match own.kind() {
-            Kind::Number => dict.set_item(&own.name, value)?,
-            Kind::Condition => {
-                dict.set_item(&own.name, value.filter(|value| !value.is_nan()).map(|value| *value != 0.0))?;
-            }
+            Kind::Condition if !value.is_nan() => measures.set_item(&own.name, value != 0.0)?,
+            Kind::Condition | Kind::Number => measures.set_item(&own.name, value)?,
         }
     }
+    let dict = PyDict::new(py);
+    dict.set_item("status", row.status.name())?;
+    dict.set_item("measures", measures)?;
     dict.set_item("cycles", row.cycles)?;
-    dict.set_item("residual", (!row.residual.is_nan()).then_some(row.residual))?;
+    dict.set_item("residual", row.residual)?;
     dict.set_item("period", row.period)?;
-    dict.set_item("floquet_max", (!row.floquet_max.is_nan()).then_some(row.floquet_max))?;
-    dict.set_item("stable", row.stable())?;
-    dict.set_item("error_estimate", (!row.error_estimate.is_nan()).then_some(row.error_estimate))?;
+    dict.set_item("floquet_max", row.floquet_max)?;
+    match row.stable() {
+        Some(stable) => dict.set_item("stable", stable)?,
+        None => dict.set_item("stable", f64::NAN)?,
+    }
+    dict.set_item("error_estimate", row.error_estimate)?;
     dict.set_item("rhs_evals", row.rhs_evals)?;
-    dict.set_item("reason", row.reason.as_deref())?;
+    dict.set_item("reason", row.reason.as_deref().unwrap_or_default())?;
     Ok(dict)
 }

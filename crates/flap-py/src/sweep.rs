@@ -213,11 +213,12 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("build", identity.build)?;
     dict.set_item("model", plan.simulator().name())?;
     dict.set_item("preset", plan.preset())?;
+    dict.set_item("pitch_sign", plan.robot().model().pitch_sign())?;
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
     dict.set_item("grid", &plan.source().text)?;
     if let Some(along) = plan.followed() {
-        dict.set_item("along", plan.parameters()[along.parameter].name)?;
+        dict.set_item("parameter", plan.parameters()[along.parameter].name)?;
     }
     if let Some(gradient) = plan.gradient() {
         dict.set_item("gradient", slopes(py, plan, gradient)?)?;

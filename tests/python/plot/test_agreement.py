@@ -5,7 +5,7 @@ import re
 import flapwing
 import numpy as np
 from figures import HERTZ, VOLTS, drawn, grid, legend, loop
-from flapwing import _flapwing, plot
+from flapwing import _flapwing, analysis, plot
 from matplotlib.colors import to_hex
 
 
@@ -78,5 +78,5 @@ def test_a_histogram_has_the_same_percentiles(flap, tmp_path):
     table = grid(drive_frequency=list(range(101)))
     picture = svg(flap, tmp_path, table, "--kind", "histogram")
     assert {text.get_text() for text in drawn(plot.histogram(table)).texts} <= set(texts(picture))
-    found = flapwing.plot.rank_correlations(table)
+    found = analysis.rank_correlations(table)
     assert f"{found[0].correlation:+.2f}" in texts(svg(flap, tmp_path, table, "--kind", "tornado"))

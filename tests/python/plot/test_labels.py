@@ -4,7 +4,7 @@ import flapwing
 import numpy as np
 import pytest
 from flapwing import plot
-from flapwing.plot import _labels
+from flapwing import _labels
 
 
 @pytest.mark.parametrize(
@@ -36,7 +36,8 @@ def test_labels(name, unit, expected):
 
 def test_every_column_of_every_model_has_a_label_without_underscores():
     for preset in flapwing.presets():
-        for name, (unit, _) in flapwing.measures(preset).items():
+        for name, measure in flapwing.measures(preset).items():
+            unit = measure.unit
             text = plot.label(name, unit)
             assert "_" not in text and text[0].isupper()
             assert (f"({unit.replace('deg', '°').replace('um', 'µm')})" in text) == bool(unit), text

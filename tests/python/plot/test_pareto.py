@@ -5,7 +5,7 @@ import sys
 import numpy as np
 import pytest
 from figures import HERTZ, drawn, fails, grid, legend, message
-from flapwing import plot
+from flapwing import analysis, plot
 from numpy.testing import assert_array_equal
 
 
@@ -27,12 +27,12 @@ def test_front_against_brute_force(objectives, coarse):
         costs = np.round(2 * costs) if coarse else costs
         if count > 10:
             costs[random.integers(count, size=3), 0] = np.nan
-        assert_array_equal(plot.non_dominated(costs), np.array(brute_force(costs), dtype=bool))
+        assert_array_equal(analysis.non_dominated(costs), np.array(brute_force(costs), dtype=bool))
 
 
 def test_front_of_many_points():
     random = np.random.default_rng(0).random((200_000, 2))
-    front = random[plot.non_dominated(random)]
+    front = random[analysis.non_dominated(random)]
     order = np.argsort(front[:, 0])
     assert (np.diff(front[order, 1]) < 0).all()
 
@@ -45,24 +45,20 @@ def on_a_sphere(count):
 
 def test_large_fronts_of_three_objectives():
     points = on_a_sphere(20_000)
-    front = plot.non_dominated(points)
+    front = analysis.non_dominated(points)
     assert front.sum() > 15_000
     some = points[:400]
-    assert_array_equal(plot.non_dominated(some), np.array(brute_force(some), dtype=bool))
+    assert_array_equal(analysis.non_dominated(some), np.array(brute_force(some), dtype=bool))
 
 
-def test_front_without_the_library(monkeypatch):
-    points = np.vstack([on_a_sphere(300), 2 * on_a_sphere(5000)])
-    expected = plot.non_dominated(points)
+def test_without_the_library_the_error_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "moocore", None)
-    with pytest.warns(UserWarning, match="takes a while without moocore: pip install moocore"):
-        assert_array_equal(plot.non_dominated(points), expected)
-    few = on_a_sphere(100)
-    assert_array_equal(plot.non_dominated(few), np.array(brute_force(few), dtype=bool))
+    with pytest.raises(ImportError, match=r"pip install \"flapwing\[analysis\]\""):
+        analysis.non_dominated(on_a_sphere(10))
 
 
 def test_front_needs_rows_of_objectives():
-    assert "(n, k)" in message(ValueError, plot.non_dominated, [1.0, 2.0])
+    assert "(n, k)" in message(ValueError, analysis.non_dominated, [1.0, 2.0])
 
 
 def test_pareto_draws_all_designs_and_the_front(sweep):
@@ -70,7 +66,7 @@ def test_pareto_draws_all_designs_and_the_front(sweep):
     lift, power = sweep["lift_mean_mn"], sweep["power_mean_mw"]
     assert_array_equal(ax.collections[0].get_offsets(), np.column_stack([power, lift]))
     assert_array_equal(ax.collections[0].get_array(), sweep["drive_voltage_pp"])
-    front = plot.non_dominated(np.column_stack([power, -lift]))
+    front = analysis.non_dominated(np.column_stack([power, -lift]))
     order = np.argsort(power[front])
     (line,) = ax.lines
     assert_array_equal(line.get_xdata(), power[front][order])
@@ -93,7 +89,7 @@ def test_pareto_leaves_out_designs_without_measures_and_names_words():
 def test_more_than_two_objectives_ring_the_front(sweep):
     ax = drawn(plot.pareto(sweep, maximize=["lift_mean_mn", "efficiency_gf_per_w"], minimize="strain_surface_max"))
     costs = np.column_stack([sweep["strain_surface_max"], -sweep["lift_mean_mn"], -sweep["efficiency_gf_per_w"]])
-    assert len(ax.lines[0].get_xdata()) == plot.non_dominated(costs).sum()
+    assert len(ax.lines[0].get_xdata()) == analysis.non_dominated(costs).sum()
     assert ax.lines[0].get_linestyle() == "None"
     assert "Efficiency (more)" in ax.get_legend().get_title().get_text()
 

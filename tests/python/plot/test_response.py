@@ -47,7 +47,7 @@ def test_response_of_a_slice_is_one_line_without_a_legend(sweep):
 
 def test_several_measures_have_axes_of_their_own(sweep):
     names = ["stroke_pp_deg", "lift_mean_mn", "power_mean_mw"]
-    figure = drawn(plot.response(sweep, names))
+    figure = drawn(plot.response_panels(sweep, names))
     assert [ax.get_ylabel() for ax in figure.axes] == [
         "Stroke, peak to peak (°)",
         "Lift, mean (mN)",
@@ -161,11 +161,15 @@ def test_a_slice_that_no_row_is_in_lists_the_values(sweep):
         ({"y": "lift_mean_mn", "by": "drive_voltage"}, "did you mean `drive_voltage_pp`?"),
         ({"y": "lift_mean_mn", "drive_frequenzy": 100}, "did you mean `drive_frequency`?"),
         ({"y": "status"}, "`status` is text"),
-        ({"y": []}, "names no measure"),
     ],
 )
 def test_response_mistakes(sweep, keywords, says):
     assert says.lower() in message(ValueError, plot.response, sweep, **keywords).lower()
+
+
+def test_panels_need_a_measure(sweep):
+    assert "names no measure" in message(ValueError, plot.response_panels, sweep, [])
+    assert len(drawn(plot.response_panels(sweep, ["lift_mean_mn"])).axes) == 1
 
 
 def test_what_is_not_a_table_is_a_type_error():

@@ -4,7 +4,7 @@ import flapwing
 import numpy as np
 import pytest
 from figures import HERTZ, drawn, fails, grid, message
-from flapwing import plot
+from flapwing import analysis, plot
 from numpy.testing import assert_allclose, assert_array_equal
 
 SAMPLE = {
@@ -72,7 +72,7 @@ def ranked(values):
 
 
 def test_rank_correlations_are_those_of_ranks(sample):
-    found = plot.rank_correlations(sample, "power_mean_mw")
+    found = analysis.rank_correlations(sample, "power_mean_mw")
     assert {each.parameter for each in found} == {"drive_voltage_pp", "hinge_stiffness"}
     sizes = [abs(each.correlation) for each in found]
     assert sizes == sorted(sizes, reverse=True)
@@ -80,13 +80,13 @@ def test_rank_correlations_are_those_of_ranks(sample):
         pearson = np.corrcoef(ranked(sample[each.parameter]), ranked(sample["power_mean_mw"]))[0, 1]
         assert each.correlation == pytest.approx(pearson, rel=1e-12)
         assert (each.measure, each.designs) == ("power_mean_mw", 40)
-    (one,) = plot.rank_correlations(sample, parameters=["hinge_stiffness"])
+    (one,) = analysis.rank_correlations(sample, parameters=["hinge_stiffness"])
     assert one.parameter == "hinge_stiffness"
 
 
 def test_a_tornado_of_a_sample(sample, tmp_path):
     ax = drawn(plot.tornado(sample))
-    found = plot.rank_correlations(sample)
+    found = analysis.rank_correlations(sample)
     assert_allclose([bar.get_width() for bar in ax.patches], [each.correlation for each in found])
     names = [label.get_text() for label in ax.get_yticklabels()]
     assert names == [plot.label(each.parameter, "") for each in found]

@@ -1,16 +1,18 @@
 """Sensitivities and their bars."""
 
+import dataclasses
+
 import flapwing
 import pytest
 from figures import drawn, legend, message
-from flapwing import plot
+from flapwing import analysis, plot
 
 TRIED = ["drive_frequency", "hinge_stiffness", "wing_length"]
 
 
 @pytest.fixture(scope="module")
 def sensitivities():
-    return plot.sensitivities("ozaki2018-large", "lift_mean_mn", TRIED)
+    return analysis.sensitivities("ozaki2018-large", "lift_mean_mn", TRIED)
 
 
 def test_sensitivities_are_those_of_single_runs(sensitivities):
@@ -26,12 +28,12 @@ def test_sensitivities_are_those_of_single_runs(sensitivities):
 
 
 def test_what_follows_a_parameter_follows_its_change():
-    (each,) = plot.sensitivities("ozaki2018-large", "lift_mean_mn", ["drive_voltage_pp"])
+    (each,) = analysis.sensitivities("ozaki2018-large", "lift_mean_mn", ["drive_voltage_pp"])
     assert each.high == flapwing.run("ozaki2018-large", drive_voltage_pp=105.0)["lift_mean_mn"]
 
 
 def test_fixed_parameters_and_ranges_of_ones_own():
-    found = plot.sensitivities(
+    found = analysis.sensitivities(
         "ozaki2018-large",
         "power_mean_mw",
         {"drive_voltage_pp": 0.1, "drive_frequency": (100.0, 104.0)},
@@ -71,21 +73,21 @@ def test_tornado_runs_what_it_draws():
 
 def test_changes_that_go_the_same_way_are_both_seen(sensitivities):
     first = sensitivities[0]
-    ax = plot.tornado([first._replace(low=0.8 * first.base, high=0.9 * first.base)])
+    ax = plot.tornado([dataclasses.replace(first, low=0.8 * first.base, high=0.9 * first.base)])
     (long,), (short,) = ax.containers[:2]
     assert (long.get_height(), short.get_height()) == (0.62, 0.28)
     assert short.get_zorder() > long.get_zorder()
 
 
 def test_by_default_all_numbers_that_can_be_changed_are():
-    found = {each.parameter for each in plot.sensitivities("arabagi2013-75hz", "lift_mean_mn", rtol=1e-4)}
+    found = {each.parameter for each in analysis.sensitivities("arabagi2013-75hz", "lift_mean_mn", rtol=1e-4)}
     known = flapwing.params("arabagi2013-75hz")
-    numbers = {name for name, each in known.items() if isinstance(each.value, float) and each.value != 0}
+    numbers = {name for name, each in known.items() if each.is_number and each.value != 0}
     assert found == numbers - {"strips"}
 
 
 def test_a_change_without_a_periodic_motion_is_said(sensitivities):
-    lost = [sensitivities[0]._replace(high=float("nan")), *sensitivities[1:]]
+    lost = [dataclasses.replace(sensitivities[0], high=float("nan")), *sensitivities[1:]]
     ax = drawn(plot.tornado(lost))
     assert [text.get_text() for text in ax.texts] == ["no periodic motion at +5 %"]
 

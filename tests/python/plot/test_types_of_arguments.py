@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import pytest
 from figures import HERTZ, VOLTS, grid, loop, message
 from flapwing import plot
+from flapwing.plot._checks import checked
 from matplotlib import colormaps
 
 TABLE = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
@@ -17,7 +18,7 @@ def given(kind):
 @pytest.mark.parametrize("kind", ["number", "figure", "array"])
 @pytest.mark.parametrize(
     "function",
-    [plot.response, plot.heatmap, plot.pareto, plot.scatter, plot.histogram, plot.trajectory, plot.wing_path, plot.wrench],
+    [plot.response, plot.heatmap, plot.pareto, plot.scatter, plot.histogram, plot.trajectory, plot.wing_path, plot.control_matrix],
 )
 def test_what_is_no_axes(function, kind):
     ax = given(kind)
@@ -33,7 +34,9 @@ def test_what_is_no_axes(function, kind):
         (plot.tornado, ("ozaki2018-large", "lift_mean_mn", 3), {}, "`parameters` is int\nit must be names"),
         (plot.tornado, ("ozaki2018-large", "lift_mean_mn"), {"top": 1.5}, "`top` is float\nit must be a whole number"),
         (plot.response, (TABLE, 3), {}, "`y` is int\nit must be a name, such as"),
-        (plot.response, (TABLE, [3]), {}, "`y` is list\nit must be a name, such as"),
+        (plot.response, (TABLE, ["lift_mean_mn"]), {}, "`y` is list\nit must be a name, such as"),
+        (plot.response_panels, (TABLE, "lift_mean_mn"), {}, "`measures` is str\nit must be a list of names"),
+        (plot.response_panels, (TABLE, [3]), {}, "`measures` is list\nit must be a list of names"),
         (plot.response, (TABLE,), {"where": [1]}, "`where` is list\nit must be a mapping of columns"),
         (plot.response, (TABLE,), {"legend": 3}, "`legend` is int\nit must be True, False or a place"),
         (plot.pareto, (TABLE,), {"maximize": 3}, "`maximize` is int\nit must be a name"),
@@ -44,7 +47,7 @@ def test_what_is_no_axes(function, kind):
         (plot.heatmap, (TABLE,), {"colorbar": "right"}, "`colorbar` is str\nit must be True, False or axes"),
         (plot.heatmap, (TABLE,), {"drive_voltage_pp": [1]}, "`drive_voltage_pp` is list\nit is compared with"),
         (plot.hysteresis, (loop(),), {"curve": "0"}, "`curve` is str\nit must be a whole number"),
-        (plot.wrench, ([[0]] * 6,), {"inputs": "a"}, "`inputs` is str\nit must be a list of names"),
+        (plot.control_matrix, ([[0]] * 6,), {"inputs": "a"}, "`inputs` is str\nit must be a list of names"),
         (plot.wing_path, (TABLE,), {"frames": "many"}, "`frames` is str\nit must be a whole number"),
         (plot.scatter, (5,), {}, "`table` is int\nit must be a flapwing.Table, a data frame"),
     ],
@@ -52,6 +55,13 @@ def test_what_is_no_axes(function, kind):
 def test_what_is_of_no_allowed_type(function, arguments, keywords, says):
     told = message(TypeError, function, *arguments, **keywords)
     assert told.startswith(says) and len(told.splitlines()) == 2
+
+
+def test_every_argument_has_a_kind():
+    def picture(table, colour): ...
+
+    with pytest.raises(KeyError, match="colour"):
+        checked(picture)
 
 
 def test_what_is_allowed_is_taken():

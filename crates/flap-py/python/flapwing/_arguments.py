@@ -110,27 +110,27 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
     }
 
 
-def state(design: Design, begin: Any) -> dict[str, Any] | None:
+def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
     """Components of a state; of a row with more columns, those of the states of the design's model."""
-    if begin is None:
+    if initial_state is None:
         return None
     allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
-    if not isinstance(begin, Mapping) and not _is_table("begin", begin, allowed):
-        row = begin
-        with reading("begin", begin, allowed):
-            begin = row.to_dict() if hasattr(row, "to_dict") else None
-        if not isinstance(begin, Mapping):
-            raise refused("begin", row, allowed)
-    found = columns_of("begin", begin)
+    if not isinstance(initial_state, Mapping) and not _is_table("initial_state", initial_state, allowed):
+        row = initial_state
+        with reading("initial_state", initial_state, allowed):
+            initial_state = row.to_dict() if hasattr(row, "to_dict") else None
+        if not isinstance(initial_state, Mapping):
+            raise refused("initial_state", row, allowed)
+    found = columns_of("initial_state", initial_state)
     names = _flapwing.states(design)
     missing = [name for name in names if name not in found]
-    if isinstance(begin, Mapping) and missing:
+    if isinstance(initial_state, Mapping) and missing:
         return found
     if missing:
-        raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
-    components = {name: _one(f"begin[{name!r}]", found[name]) for name in names}
+        raise ValueError(f"`initial_state` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
+    components = {name: _one(f"initial_state[{name!r}]", found[name]) for name in names}
     # As in batches, what is unknown begins at rest.
-    return {} if any(_is_missing(f"begin[{name!r}]", value) for name, value in components.items()) else components
+    return {} if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()) else components
 
 
 def _one(name: str, value: Any) -> Any:
@@ -140,7 +140,7 @@ def _one(name: str, value: Any) -> Any:
     if rows is None:
         return value
     if rows != 1:
-        raise ValueError(f"`begin` has {rows} rows\nchoose one of them: table[-1:] is the last")
+        raise ValueError(f"`initial_state` has {rows} rows\nchoose one of them: table[-1:] is the last")
     return numbers(name, value, unknown=True)[0]
 
 
@@ -149,18 +149,18 @@ def _is_missing(name: str, value: Any) -> bool:
         return value is None or bool(value != value)
 
 
-def states(design: Design, begin: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
+def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
     """States as the rows of an array, from columns of components; None for motions from rest."""
-    if begin is None:
+    if initial_state is None:
         return None
-    found = columns_of("begin", begin)
+    found = columns_of("initial_state", initial_state)
     names = _flapwing.states(design)
     missing = [name for name in names if name not in found]
     if missing:
-        raise ValueError(f"`begin` lacks the columns {', '.join(missing)}\nrows of a call with states=True have them")
-    listed = [numbers(f"begin[{name!r}]", found[name], unknown=True) for name in names]
+        raise ValueError(f"`initial_state` lacks the columns {', '.join(missing)}\nrows of a call with return_states=True have them")
+    listed = [numbers(f"initial_state[{name!r}]", found[name], unknown=True) for name in names]
     if len({len(values) for values in listed}) > 1:
-        raise ValueError("the columns of `begin` differ in length\nthey must have a component of a state for each point")
+        raise ValueError("the columns of `initial_state` differ in length\nthey must have a component of a state for each point")
     return np.column_stack(listed)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
 
 import numpy as np
 
-from . import _arguments, _flapwing, _mistakes
+from . import _arguments, _dask, _flapwing, _mistakes
 from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Measures, Value
@@ -30,8 +30,8 @@ def evaluate(
     client: Client | None = None,
     measures: Measures | None = None,
     gradient: Sequence[str] | None = None,
-    begin: Mapping[str, Any] | Table | pandas.DataFrame | polars.DataFrame | pyarrow.Table | None = None,
-    states: bool = False,
+    initial_state: Mapping[str, Any] | Table | pandas.DataFrame | polars.DataFrame | pyarrow.Table | None = None,
+    return_states: bool = False,
     **keywords: Value,
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
@@ -64,12 +64,12 @@ def evaluate(
         Parameters by which rows have derivatives of their measures while the motion stays settled. `Table.gradient` is
         an array of them, of the shape n x measures x parameters: in the unit of the measure's column per SI unit of the
         parameter. They replace those of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
-    begin : Table, dict or DataFrame, optional
+    initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
         row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides which motion is
         found where a design has several.
-    states : bool, optional
-        Add columns of the state at the beginning of a drive period of the motion that was found, for `begin`.
+    return_states : bool, optional
+        Add columns of the state at the beginning of a drive period of the motion that was found, for `initial_state`.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`; a name must not be a column too.
 
@@ -77,7 +77,7 @@ def evaluate(
     -------
     Table
         n rows in the order of `columns`, or n times the points of the grid's axes, which vary faster. Points that
-        ``[where]`` excludes have no row, but count in the column `point`. With axes, `dims` begins with the dimension
+        ``[where]`` excludes have no row, but count in the column `point`. With axes, `Table.axes` begins with the axis
         `row`. A value that is out of range, infinite or not a number makes a row with the status
         ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` gives the reason for
         the first few. With `gradient`, a derivative that is not known is nan, and the column ``gradient_gap`` has the
@@ -115,19 +115,17 @@ def evaluate(
     options: dict[str, Any] = {
         "measures": _arguments.measures(measures),
         "gradient": _arguments.gradient(gradient),
-        "begin": _arguments.states(design, begin),
-        "states": _arguments.flag("states", states),
+        "initial_state": _arguments.states(design, initial_state),
+        "return_states": _arguments.flag("return_states", return_states),
         "keywords": dict(keywords),
     }
     with shown(progress) as show:
         if client is None:
             native = _flapwing.evaluate(design, given, threads=threads, progress=show, **options)
         else:
-            from ._scatter import scattered
-
-            native = scattered(_arguments.cluster(client), design, options, given, threads, show)
+            native = _dask.evaluate(_arguments.cluster(client), design, options, given, threads, show)
     # Without axes rows are just rows.
-    return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, set=keywords)
+    return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, keywords=keywords)
 
 
 def _given(design: Design, columns: Any) -> dict[str, Any]:
@@ -152,10 +150,10 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
     """The columns of a table that are parameters of its model, of any, or of the vehicle that is run."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
-    known = {name for model in [*models, design] for name, *_ in _flapwing.params(model)}
+    known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}
     if not found:
-        raise ValueError(f"`columns` has no column of a parameter, only {', '.join(table)}\nadd one, or give a dictionary")
+        raise ValueError(f"`columns` has no column of a parameter: add one, or give a dictionary\n{_mistakes.listed(table)}")
     return found
 
 

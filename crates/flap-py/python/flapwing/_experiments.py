@@ -8,7 +8,7 @@ from . import _arguments, _flapwing
 from ._table import Table
 from ._types import Design, Record, Value
 
-__all__ = ["chirp", "impulse", "lift", "track"]
+__all__ = ["chirp", "forces_along", "impulse", "track_wing"]
 
 
 def chirp(
@@ -63,7 +63,7 @@ def chirp(
     native = _flapwing.chirp(
         design, dict(keywords), point=point, start=start, stop=stop, rate=rate, samples=samples
     )
-    return Table._of(native, set=keywords)
+    return Table._of(native, keywords=keywords)
 
 
 def impulse(
@@ -114,10 +114,10 @@ def impulse(
     native = _flapwing.impulse(
         design, dict(keywords), point=point, amplitude=amplitude, duration=duration, samples=samples
     )
-    return Table._of(native, set=keywords)
+    return Table._of(native, keywords=keywords)
 
 
-def lift(
+def forces_along(
     design: Design,
     motion: Record,
     /,
@@ -138,7 +138,7 @@ def lift(
         As for `run`.
     motion : path or columns
         Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame), with `time_s` (or
-        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track` and `trajectory`
+        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and `trajectory`
         have them. At least four samples at rising times.
     periodic : bool, optional
         The motion is one period: its last sample is the first of the next period.
@@ -165,11 +165,11 @@ def lift(
     Examples
     --------
     >>> motion = flapwing.trajectory("ozaki2018-small", cycles=1)
-    >>> forces = flapwing.lift("ozaki2018-small", motion, periodic=True)
+    >>> forces = flapwing.forces_along("ozaki2018-small", motion, periodic=True)
     >>> round(float(forces["lift_mn"].mean() / flapwing.run("ozaki2018-small")["lift_mean_mn"]), 2)
     1.0
     """
-    native = _flapwing.lift(
+    native = _flapwing.forces_along(
         design,
         _arguments.record("motion", motion, "stroke_rad"),
         dict(keywords),
@@ -177,10 +177,10 @@ def lift(
         periodic=_arguments.flag("periodic", periodic),
         samples=samples,
     )
-    return Table._of(native, set=keywords)
+    return Table._of(native, keywords=keywords)
 
 
-def track(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
+def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     """Stroke and pitch of a filmed wing, from points that were tracked in its images.
 
     The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the centre
@@ -218,8 +218,8 @@ def track(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     >>> stroke = np.linspace(-0.5, 0.5, 5)
     >>> film = {"time_ms": np.arange(5.0), "root_x": 0 * stroke, "root_y": 0 * stroke,
     ...         "tip_x": 9 * np.cos(stroke), "tip_y": 9 * np.sin(stroke)}
-    >>> flapwing.track(film)["stroke_deg"].round(1)
+    >>> flapwing.track_wing(film)["stroke_deg"].round(1)
     array([-28.6, -14.3,   0. ,  14.3,  28.6])
     """
-    native = _flapwing.track(_arguments.record("points", points, "stroke_rad"), chord=chord)
+    native = _flapwing.track_wing(_arguments.record("points", points, "stroke_rad"), chord=chord)
     return Table._of(native)

@@ -5,8 +5,23 @@ from typing import Any, Callable, SupportsFloat, SupportsIndex, final, overload
 
 import numpy as np
 
+from ._native import (
+    NativeBars,
+    NativeColours,
+    NativeIdentity,
+    NativeMeasure,
+    NativeOrigins,
+    NativeParameter,
+    NativeResonances,
+    NativeRow,
+    NativeTable,
+    NativeUncertainty,
+    NativeWays,
+)
+
 __all__ = [
     "Diagnostic",
+    "Exclusions",
     "Grid",
     "GridError",
     "LiveServer",
@@ -18,10 +33,10 @@ __all__ = [
     "colours",
     "correlations",
     "evaluate",
+    "forces_along",
     "identity",
     "impulse",
     "is_signed",
-    "lift",
     "line_shades",
     "measures",
     "origins",
@@ -41,7 +56,7 @@ __all__ = [
     "states",
     "sweep",
     "text_of",
-    "track",
+    "track_wing",
     "trajectory",
     "uncertainty",
     "unit_of",
@@ -174,17 +189,36 @@ class Grid:
     def varied(self) -> list[str]:
         """The parameters that differ from point to point: those of the axes, then the derived ones."""
 
-    def exclusions(self) -> dict[str, Any]:
+    def exclusions(self) -> Exclusions:
         """Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
         among a million spread over the grid.
 
         Returns
         -------
-        dict
-            `looked_at` and `excluded`, numbers of points, and `unsatisfied`, a dictionary from each condition to the
-            number of points that do not satisfy it.
+        Exclusions
+            The numbers of points.
         """
 
+@final
+class Exclusions:
+    """The points of a grid that the conditions of ``[where]`` exclude.
+
+    Attributes
+    ----------
+    looked_at : int
+        Number of points for which the conditions were evaluated.
+    excluded : int
+        Number of points among them that do not satisfy all conditions.
+    unsatisfied : dict of str to int
+        For each condition, the number of points that do not satisfy it.
+    """
+
+    @property
+    def looked_at(self) -> int: ...
+    @property
+    def excluded(self) -> int: ...
+    @property
+    def unsatisfied(self) -> dict[str, int]: ...
 
 def presets() -> list[str]:
     """The names of the published parameter sets, each with its model.
@@ -195,16 +229,16 @@ def presets() -> list[str]:
         Names that `run` takes, such as ``"ozaki2018-large"``.
     """
 
-def params(design: Any, /) -> list[tuple[str, float | str | None, str, str, str, str, list[str]]]:
+def params(design: Any, /) -> list[NativeParameter]:
     """The parameters of a design or a model; see `flapwing.params`."""
 
-def measures(design: Any, /) -> list[tuple[str, str, str]]:
-    """The measures of a design or a model: names, each with unit and meaning; see `flapwing.measures`."""
+def measures(design: Any, /) -> list[NativeMeasure]:
+    """The measures of a design or a model; see `flapwing.measures`."""
 
-def uncertainty(design: Any, /) -> tuple[list[tuple[str, float]], list[tuple[str, str, float]]]:
-    """The standard errors of the parameters of a design in SI units, by name, and the correlations: two names and a coefficient."""
+def uncertainty(design: Any, /) -> NativeUncertainty:
+    """The standard errors of the parameters of a design in SI units, by name, and the correlations of pairs of parameters."""
 
-def origins(design: Any, /) -> tuple[str, list[tuple[str, str]]]:
+def origins(design: Any, /) -> NativeOrigins:
     """The description of a design, empty if it has none, and the source of each parameter that has one."""
 
 def states(design: Any, /) -> list[str]:
@@ -228,10 +262,10 @@ def run(
     /,
     *,
     point: SupportsIndex | None = None,
-    begin: dict[str, Any] | None = None,
+    initial_state: dict[str, Any] | None = None,
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
-) -> dict[str, Any]:
+) -> NativeRow:
     """Runs one point; see `flapwing.run`."""
 
 def trajectory(
@@ -243,11 +277,11 @@ def trajectory(
     cycles: SupportsIndex,
     samples: SupportsIndex,
     from_rest: bool,
-    begin: dict[str, Any] | None = None,
+    initial_state: dict[str, Any] | None = None,
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
     once: bool = False,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Samples the motion of one point; see `flapwing.trajectory`."""
 
 @final
@@ -276,7 +310,7 @@ def resonance(
     impulse: SupportsFloat | str,
     fit_cycles: SupportsIndex,
     spectrum_window: SupportsFloat | str,
-) -> dict[str, Any]:
+) -> NativeResonances:
     """Finds the resonances of one point; see `flapwing.resonance`."""
 
 def chirp(
@@ -289,7 +323,7 @@ def chirp(
     stop: SupportsFloat | str | None,
     rate: SupportsFloat | str,
     samples: SupportsIndex | None,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Runs a chirp; see `flapwing.chirp`."""
 
 def impulse(
@@ -301,10 +335,10 @@ def impulse(
     amplitude: SupportsFloat | str,
     duration: SupportsFloat | str | None,
     samples: SupportsIndex,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Follows the motion after an impulse; see `flapwing.impulse`."""
 
-def lift(
+def forces_along(
     design: Any,
     motion: str | dict[str, Any],
     keywords: dict[str, Any],
@@ -313,11 +347,11 @@ def lift(
     point: SupportsIndex | None,
     periodic: bool,
     samples: SupportsIndex,
-) -> dict[str, Any]:
-    """Forces along a given motion; see `flapwing.lift`."""
+) -> NativeTable:
+    """Forces along a given motion; see `flapwing.forces_along`."""
 
-def track(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> dict[str, Any]:
-    """Computes stroke and pitch; see `flapwing.track`."""
+def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> NativeTable:
+    """Computes stroke and pitch; see `flapwing.track_wing`."""
 
 def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
     """Checks that a design takes these keywords and has these measures, with the messages of `evaluate`."""
@@ -334,17 +368,18 @@ def evaluate(
     progress: Callable[[int, int], object] | None = None,
     measures: list[str] | None = None,
     gradient: list[str] | None = None,
-    begin: np.ndarray[Any, np.dtype[np.float64]] | None = None,
-    states: bool = False,
+    initial_state: np.ndarray[Any, np.dtype[np.float64]] | None = None,
+    return_states: bool = False,
     keywords: dict[str, Any] | None = None,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-    for each parameter that varies, all as long. `begin` has a row of state components per point, nan for a point at rest.
+    for each parameter that varies, all as long. `initial_state` has a row of state
+    components per point, nan for a point at rest.
     """
 
 def respond(
     design: Any,
-    along: str,
+    parameter: str,
     /,
     *,
     start: SupportsFloat | str | None = None,
@@ -352,12 +387,12 @@ def respond(
     step: SupportsFloat | str | None = None,
     tolerance: SupportsFloat | str | None = None,
     unstable: bool = False,
-    states: bool = False,
+    return_states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,
     curves: list[int] | None = None,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
     number of all.
     """
@@ -372,7 +407,7 @@ def sweep(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     parcels: Callable[[int], bytes | None] | None = None,
-) -> dict[str, Any]:
+) -> NativeTable:
     """Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
     it gives the bytes of the next parcel.
     """
@@ -380,13 +415,13 @@ def sweep(
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
     """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
 
-def identity() -> dict[str, str]:
+def identity() -> NativeIdentity:
     """The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`."""
 
 def command(line: Sequence[str]) -> int:
     """Runs a command line, whose first word is the name of the program, and returns the exit code."""
 
-def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]:
+def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable:
     """Reads a result file; see `flapwing.read`."""
 
 def words(name: str, unit: str, /) -> str:
@@ -409,7 +444,7 @@ def split_unit(name: str, /) -> tuple[str, str]:
 def better(name: str, /) -> int:
     """The better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
 
-def colours() -> dict[str, Any]:
+def colours() -> NativeColours:
     """The colours of pictures: `series` is a list, `branches` has a colour for each branch, and `dark`, `plain`, `missing` and
     `bistable` are one colour each.
     """
@@ -429,14 +464,12 @@ def ways(
     up: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     /,
-) -> tuple[list[tuple[float, float]], list[int], list[int]]:
+) -> NativeWays:
     """The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
     `up` and `down` have the parameter, the measure, and the column `bistable`.
     """
 
-def bars(
-    values: np.ndarray[Any, Any], /
-) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], list[tuple[int, float]]] | None:
+def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None:
     """The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite."""
 
 def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:

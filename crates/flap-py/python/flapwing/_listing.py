@@ -2,32 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from . import _flapwing
+from ._results import Measure, Parameter, State
 from ._types import Design
 
-__all__ = ["Parameter", "measures", "params", "states"]
-
-
-class Parameter(NamedTuple):
-    """A parameter of a model."""
-
-    #: Name in grids, on the command line and as a keyword.
-    name: str
-    #: Value in the design, in SI units, or the name of an option. None if it is not set and follows others, or if a grid
-    #: varies it.
-    value: float | str | None
-    #: SI unit; ``""`` for pure numbers and options.
-    unit: str
-    #: Symbol in the paper; ``""`` if it has none.
-    symbol: str
-    #: One line of meaning, with its source.
-    doc: str
-    #: The allowed values, in words.
-    allowed: str
-    #: Its options, if it is a choice; else empty.
-    options: tuple[str, ...]
+__all__ = ["measures", "params", "states"]
 
 
 def params(design: Design, /) -> dict[str, Parameter]:
@@ -54,12 +33,17 @@ def params(design: Design, /) -> dict[str, Parameter]:
     >>> flapwing.params("ozaki2018-large")["drive_frequency"].unit
     'Hz'
     """
-    listed = (Parameter(*row[:-1], options=tuple(row[-1])) for row in _flapwing.params(design))
+    listed = [
+        Parameter(
+            one["name"], one["value"], one["unit"], one["symbol"], one["doc"], one["allowed"], tuple(one["options"])
+        )
+        for one in _flapwing.params(design)
+    ]
     return {parameter.name: parameter for parameter in listed}
 
 
-def measures(design: Design, /) -> dict[str, tuple[str, str]]:
-    """The measures in rows of a design or a model: the unit and the meaning of each column.
+def measures(design: Design, /) -> dict[str, Measure]:
+    """The measures in rows of a design or a model.
 
     Parameters
     ----------
@@ -68,8 +52,8 @@ def measures(design: Design, /) -> dict[str, tuple[str, str]]:
 
     Returns
     -------
-    dict of str to (str, str)
-        Unit and meaning by column, in the order of the rows.
+    dict of str to Measure
+        By column, in the order of the rows.
 
     Raises
     ------
@@ -78,14 +62,14 @@ def measures(design: Design, /) -> dict[str, tuple[str, str]]:
 
     Examples
     --------
-    >>> flapwing.measures("ozaki2018-large")["lift_mean_mn"][0]
+    >>> flapwing.measures("ozaki2018-large")["lift_mean_mn"].unit
     'mN'
     """
-    return {column: (unit, doc) for column, unit, doc in _flapwing.measures(design)}
+    return {one["name"]: Measure(**one) for one in _flapwing.measures(design)}
 
 
-def states(design: Design, /) -> dict[str, str]:
-    """The states of the equations of motion of a design or a model: the components of `begin`, each with its unit.
+def states(design: Design, /) -> dict[str, State]:
+    """The states of the equations of motion of a design or a model: the components of `initial_state`.
 
     Parameters
     ----------
@@ -94,8 +78,8 @@ def states(design: Design, /) -> dict[str, str]:
 
     Returns
     -------
-    dict of str to str
-        Unit by component, in the order of the state. Columns of `trajectory` have the same names with the unit behind.
+    dict of str to State
+        By component, in the order of the state.
 
     Raises
     ------
@@ -104,7 +88,8 @@ def states(design: Design, /) -> dict[str, str]:
 
     Examples
     --------
-    >>> flapwing.states("ozaki2018-large")["pitch_rate"]
+    >>> flapwing.states("ozaki2018-large")["pitch_rate"].unit
     'rad/s'
     """
-    return dict(_flapwing.split_unit(state) for state in _flapwing.states(design))
+    listed = (State(*_flapwing.split_unit(column), column) for column in _flapwing.states(design))
+    return {state.name: state for state in listed}

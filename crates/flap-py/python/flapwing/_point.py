@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, SupportsFloat, SupportsIndex
+from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex
 
-from . import _arguments, _flapwing, _worker
+from . import _arguments, _dask, _flapwing
+from ._native import NativeResonances, NativeRow, NativeTable
 from ._progress import Progress, one_step
+from ._results import DampedSine, DrivenPeak, FrequencyGap, Resonances, Row
 from ._table import Table
-from ._types import Design, Record, State, Value
+from ._types import Design, InitialState, Record, Value
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -20,7 +22,7 @@ def run(
     /,
     *,
     point: SupportsIndex | None = None,
-    begin: State | None = None,
+    initial_state: InitialState | None = None,
     waveform: Record | None = None,
     stroke: Record | None = None,
     progress: Progress = False,
@@ -35,7 +37,7 @@ def run(
     progressive: bool | None = None,
     symmetry: bool | None = None,
     **parameters: Value,
-) -> dict[str, Any]:
+) -> Row:
     """Run one design point until its motion repeats with the drive, then measure one drive period.
 
     The design's parameters hold except those given as keywords::
@@ -52,7 +54,7 @@ def run(
         parameters must then be given.
     point : int, optional
         The index of a point in the grid. Needed if it has more than one.
-    begin : dict, Table or DataFrame, optional
+    initial_state : dict, Table or DataFrame, optional
         The state at the start of the first drive period: components by the names of `states(…)`, each a number in SI
         units or text with a unit, ``{"pitch": "10 deg"}``; those not given are zero. Or a row with the states among its
         columns, such as ``trajectory(…)[-1:]``, the same as a DataFrame or a dictionary, or a row of a DataFrame; a row
@@ -101,38 +103,8 @@ def run(
 
     Returns
     -------
-    dict
-        One row of results; the keys and their order are the same for every point of a model:
-
-        status : str
-            ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"``
-            (max_cycles reached); ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small
-            to advance time); ``"invalid"`` (each parameter is in range, but together they are
-            impossible).
-        measures : float or None
-            Several keys, each named after its quantity, its kind of measure and its unit:
-            ``stroke_pp_deg``, ``lift_mean_mn``, ``power_mean_mw``; then those of the grid's ``[measure]``. All are None
-            unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
-        cycles : int
-            Drive periods integrated, those of the measurement included.
-        residual : float or None
-            Change of the state over the last period of the motion, in the units of settle_tol. None if
-            no period was completed.
-        period : int
-            Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
-        floquet_max : float or None
-            Factor by which a small change of the motion grows or decays per orbit after a long time. None if no
-            orbit was found, and for a wing at rest.
-        stable : bool or None
-            True if floquet_max is below 1, so that motions near the orbit approach it, and for a wing at rest.
-            None if no orbit was found.
-        error_estimate : float or None
-            Estimate of the largest relative error that the integration makes in stroke, pitch, mean lift and mean
-            power; infinite if it cannot be estimated. None unless the point is periodic.
-        rhs_evals : int
-            Evaluations of the equations of motion.
-        reason : str or None
-            The cause if the point is invalid, else None.
+    Row
+        The results; `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
 
     Raises
     ------
@@ -147,23 +119,23 @@ def run(
     Examples
     --------
     >>> grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": range(100, 120)}}
-    >>> flapwing.run(grid, point=5, drive_voltage_pp="80 V")["status"]
+    >>> flapwing.run(grid, point=5, drive_voltage_pp="80 V").status
     'periodic'
     """
     solver = {"rtol": rtol, "atol": atol, "settle_tol": settle_tol, "accuracy": accuracy}
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     search = {"newton": newton, "progressive": progressive, "symmetry": symmetry}
     with one_step(progress):
-        row: dict[str, Any] = _worker.call(
+        row: NativeRow = _dask.call(
             client,
             _flapwing.run,
             design,
             {**parameters, **solver, **steps, **search},
             point=point,
-            begin=_arguments.state(design, begin),
+            initial_state=_arguments.state(design, initial_state),
             **_arguments.waves(waveform, stroke),
         )
-    return row
+    return Row(**row)
 
 
 def trajectory(
@@ -174,7 +146,7 @@ def trajectory(
     cycles: SupportsIndex = 2,
     samples: SupportsIndex = 200,
     from_rest: bool = False,
-    begin: State | None = None,
+    initial_state: InitialState | None = None,
     waveform: Record | None = None,
     stroke: Record | None = None,
     once: bool = False,
@@ -195,12 +167,12 @@ def trajectory(
         at most 5,000,000.
     from_rest : bool, optional
         Begin at rest. By default the motion begins once it has settled.
-    begin : dict, Table or DataFrame, optional
+    initial_state : dict, Table or DataFrame, optional
         Begin in this state at the start of a drive period, see `run`.
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke, see `run`.
     once : bool, optional
-        Follow the waveform or the stroke once, from rest or from `begin`, instead of repeating it. It need not be
+        Follow the waveform or the stroke once, from rest or from `initial_state`, instead of repeating it. It need not be
         closed, and `cycles` does not count.
     progress, client
         As for `run`.
@@ -225,10 +197,10 @@ def trajectory(
     >>> motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=100)
     >>> len(motion), motion.columns[:3]
     (101, ['time_s', 'stroke_rad', 'pitch_rad'])
-    >>> on = flapwing.trajectory("ozaki2018-large", begin=motion[-1:], drive_voltage_pp="80 V")
+    >>> on = flapwing.trajectory("ozaki2018-large", initial_state=motion[-1:], drive_voltage_pp="80 V")
     """
     with one_step(progress):
-        native = _worker.call(
+        native: NativeTable = _dask.call(
             client,
             _flapwing.trajectory,
             design,
@@ -237,11 +209,11 @@ def trajectory(
             cycles=cycles,
             samples=samples,
             from_rest=_arguments.flag("from_rest", from_rest),
-            begin=_arguments.state(design, begin),
+            initial_state=_arguments.state(design, initial_state),
             once=_arguments.flag("once", once),
             **_arguments.waves(waveform, stroke),
         )
-    return Table._of(native, set=keywords)
+    return Table._of(native, keywords=keywords)
 
 
 def resonance(
@@ -258,7 +230,7 @@ def resonance(
     progress: Progress = False,
     client: Client | None = None,
     **keywords: Value,
-) -> dict[str, Any]:
+) -> Resonances:
     """The resonances of one design point: of small motions, after an impulse, and under the drive.
 
     Parameters
@@ -284,21 +256,8 @@ def resonance(
 
     Returns
     -------
-    dict
-        linear_hz : dict of str to float
-            Small undamped motions: frequency (Hz) by name of the mode.
-        impulse_fit : dict or None
-            The damped sine through the stroke after the impulse: `frequency_hz`, `decay_1_s` (1/s) and
-            `relative_rms`, the rms of the residuals over that of the stroke. None if no damped sine fits.
-        stroke_spectrum_hz, pitch_spectrum_hz : list of float
-            Highest peaks of the spectra after the impulse (Hz).
-        driven : list of dict
-            Peaks of the settled stroke over drive frequency, the highest first: `frequency_hz`, `stroke_pp_deg`,
-            `pitch_pp_deg`.
-        larger_at_hz : float or None
-            The end of the range at which the stroke is larger than at any peak, if there is one.
-        gaps : list of (float, float, str)
-            Ranges of drive frequencies (Hz) without a periodic motion, each with a status: there may be a peak in them.
+    Resonances
+        The resonances of each kind.
 
     Raises
     ------
@@ -310,11 +269,11 @@ def resonance(
     Examples
     --------
     >>> found = flapwing.resonance("ozaki2018-large")
-    >>> round(found["driven"][0]["frequency_hz"], 1)
+    >>> round(found.driven[0].frequency_hz, 1)
     110.7
     """
     with one_step(progress):
-        found: dict[str, Any] = _worker.call(
+        found: NativeResonances = _dask.call(
             client,
             _flapwing.resonance,
             design,
@@ -327,4 +286,12 @@ def resonance(
             fit_cycles=fit_cycles,
             spectrum_window=spectrum_window,
         )
-    return found
+    return Resonances(
+        linear_hz=found["linear_hz"],
+        impulse_fit=None if found["impulse_fit"] is None else DampedSine(**found["impulse_fit"]),
+        stroke_spectrum_hz=found["stroke_spectrum_hz"],
+        pitch_spectrum_hz=found["pitch_spectrum_hz"],
+        driven=[DrivenPeak(**peak) for peak in found["driven"]],
+        larger_at_hz=found["larger_at_hz"],
+        gaps=[FrequencyGap(**gap) for gap in found["gaps"]],
+    )

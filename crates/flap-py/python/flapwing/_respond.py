@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from . import _arguments, _flapwing, _mistakes
+from . import _arguments, _dask, _flapwing, _mistakes
 from ._progress import Progress, shown
+from ._results import BistableBand, Verdict
 from ._table import Table
 from ._types import Design, Value
 
@@ -17,7 +18,7 @@ __all__ = ["respond"]
 
 def respond(
     design: Design,
-    along: str = "drive_frequency",
+    parameter: str = "drive_frequency",
     /,
     *,
     start: Value | None = None,
@@ -25,7 +26,7 @@ def respond(
     step: Value | None = None,
     tolerance: Value | None = None,
     unstable: bool = False,
-    states: bool = False,
+    return_states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
     client: Client | None = None,
@@ -42,7 +43,7 @@ def respond(
     design : str, path, dict or Grid
         A preset, or a grid (see `Grid`): each of its points, without the axis that is followed, is a design with a
         curve.
-    along : str, optional
+    parameter : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional
         Its first and last value and the step between them: in SI units, or with a unit. Default: the values of the
@@ -52,8 +53,8 @@ def respond(
         step.
     unstable : bool, optional
         Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
-    states : bool, optional
-        Add columns of the state at the beginning of a drive period of each motion, for `begin` of `evaluate`.
+    return_states : bool, optional
+        Add columns of the state at the beginning of a drive period of each motion, for `initial_state` of `evaluate`.
     threads : int, optional
         Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -70,8 +71,8 @@ def respond(
     Table
         A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
         ``"unstable"``), the parameter that is followed, `status`, `bistable` (true where the ways up and down have
-        different motions), and the other columns of a sweep. ``meta["verdicts"]`` has the verdict on each design in one
-        line, ``meta["along"]`` the parameter that was followed.
+        different motions), and the other columns of a sweep. `Table.verdicts` has the verdict on each design,
+        ``meta["parameter"]`` the parameter that was followed.
 
     Raises
     ------
@@ -84,27 +85,31 @@ def respond(
     Examples
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
-    >>> curve.meta["verdicts"]
-    ['no hysteresis from 100 to 120 Hz wider than 1.25 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 1.6e-6 deg)']
+    >>> print(curve.verdicts[0])
+    no hysteresis from 100 to 120 Hz wider than 1.25 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 1.6e-6 deg)
+    >>> curve.verdicts[0].bands
+    []
     """
-    if not isinstance(along, str):
-        raise _mistakes.refused("along", along, 'it must be the name of a parameter, such as "drive_frequency"')
-    if along in keywords:
-        raise ValueError(f"`{along}` is set here and followed: keep one of them")
+    if not isinstance(parameter, str):
+        raise _mistakes.refused("parameter", parameter, 'it must be the name of a parameter, such as "drive_frequency"')
+    if parameter in keywords:
+        raise ValueError(f"`{parameter}` is set here and followed: keep one of them")
     options: dict[str, Any] = {
         "start": start,
         "stop": stop,
         "step": step,
         "tolerance": tolerance,
         "unstable": _arguments.flag("unstable", unstable),
-        "states": _arguments.flag("states", states),
+        "return_states": _arguments.flag("return_states", return_states),
         "keywords": dict(keywords),
     }
     with shown(progress) as show:
         if client is None:
-            native = _flapwing.respond(design, along, threads=threads, progress=show, **options)
+            native = _flapwing.respond(design, parameter, threads=threads, progress=show, **options)
         else:
-            from ._scatter import responses
-
-            native = responses(_arguments.cluster(client), design, along, options, threads, show)
-    return Table._of(native, set=keywords)
+            native = _dask.responses(_arguments.cluster(client), design, parameter, options, threads, show)
+    verdicts = native["meta"]["verdicts"]
+    native["meta"]["verdicts"] = [
+        Verdict(verdict["text"], [BistableBand(**band) for band in verdict["bands"]]) for verdict in verdicts
+    ]
+    return Table._of(native, keywords=keywords)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import tomllib
 import warnings
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
 
-from . import _arguments, _flapwing, _mistakes
-from ._overlay import grid_of
+from . import _arguments, _dask, _flapwing, _mistakes
+from ._flapwing import Grid
 from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Measures, Value
@@ -98,7 +99,7 @@ def sweep(
     >>> len(rows), rows.counts
     (6, {'periodic': 6})
     """
-    checked = grid_of(design, keywords, _arguments.measures(measures))
+    checked = _with_keywords(design, keywords, _arguments.measures(measures))
     given: dict[str, Any] = {
         "out": out,
         "resume": _arguments.flag("resume", resume),
@@ -108,11 +109,32 @@ def sweep(
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
         else:
-            from ._cluster import Parcels
-
-            with Parcels(checked, _arguments.cluster(client), threads) as parcels:
+            with _dask.Parcels(checked, _arguments.cluster(client), threads) as parcels:
                 native = _flapwing.sweep(checked, progress=show, parcels=parcels.next, **given)
     return Table._of(native, None if out is None else os.path.abspath(out), keywords)
+
+
+def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequence[str] | None) -> Grid:
+    """The grid of a design, with parameters and solver settings of keywords, and with these measures alone."""
+    grid = design if isinstance(design, Grid) else Grid(design)
+    if not keywords and measures is None:
+        return grid
+    # Mistakes have the messages of other calls.
+    _flapwing.check(grid, keywords=dict(keywords), measures=None if measures is None else list(measures))
+    entries: dict[str, Any] = tomllib.loads(grid.text)
+    settings = _flapwing.settings()
+    for name, value in keywords.items():
+        if name not in settings:
+            entries.setdefault("params", {})[name] = value
+        elif value is not None:
+            entries.setdefault("solver", {})[name] = value
+    if measures is not None:
+        entries.setdefault("output", {})["columns"] = list(measures)
+    overlaid = Grid._named(grid.name, _flapwing.text_of(entries))
+    if [list(axis) for axis in overlaid.axes] != [list(axis) for axis in grid.axes]:
+        # Several [[zip]] tables with others between them: a dictionary does not keep such an order.
+        raise ValueError("keywords would change the order of the grid's axes\nwrite them into its [params] and [solver]")
+    return overlaid
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, overload
 
 import numpy as np
 
-from . import _conversions, _flapwing
-from ._column import Column
+from . import _columns, _flapwing
+from ._columns import Column
 from ._mistakes import raised, unknown
+from ._native import NativeTable
+from ._results import Verdict
 
 if TYPE_CHECKING:
     import pandas
@@ -31,10 +33,11 @@ _KEYS = (
 )
 
 
-def _columns(native: dict[str, Any]) -> dict[str, Column]:
-    told = native.get("units", {})
+def _columns_of(native: NativeTable) -> dict[str, Column]:
+    units = native.get("units", {})
     return {
-        name: Column(told.get(name, unit), doc, cells, words) for name, unit, doc, cells, words in native["columns"]
+        one["name"]: Column(units.get(one["name"], one["unit"]), one["doc"], one["cells"], one["words"])
+        for one in native["columns"]
     }
 
 
@@ -59,18 +62,18 @@ class Table:
 
     Attributes
     ----------
-    dims : list of dict
+    axes : list of dict
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
         with their values, which are read-only. Empty if the rows are not those of a grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
         call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
-        points with the reason; `set`, keywords that replace values of the grid. Tables of some of the rows or columns
+        points with the reason; `keywords`, those of the call, which replace values of the grid. Tables of some of the rows or columns
         have copies of them, with `rows` and `counts` of their own.
     """
 
-    dims: list[dict[str, np.ndarray[Any, Any]]]
+    axes: list[dict[str, np.ndarray[Any, Any]]]
     meta: dict[str, Any]
     _held: dict[str, Column] | None
     _path: str
@@ -79,41 +82,43 @@ class Table:
         raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read\ncall one of them")
 
     @classmethod
-    def _of(cls, native: dict[str, Any], path: str | None = None, set: Mapping[str, Any] | None = None) -> Table:
-        """A table of native results, where a call has `set` some parameters and settings; with a path, its columns are
-        read from there when first used."""
+    def _of(
+        cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None
+    ) -> Table:
+        """A table of native results of a call with these keywords; with a path, its columns are read from there when first
+        used."""
         meta = {**native.get("meta", {}), **native.get("summary", {})}
-        if set is not None:
-            meta["set"] = dict(set)
+        if keywords is not None:
+            meta["keywords"] = dict(keywords)
         if path is None:
-            return cls._new(_columns(native), native.get("axes", []), meta)
+            return cls._new(_columns_of(native), native.get("axes", []), meta)
         table = cls._new(None, native["axes"], meta)
         table._path = path
         return table
 
     @classmethod
     def _new(
-        cls, columns: dict[str, Column] | None, dims: list[dict[str, Any]], meta: dict[str, Any]
+        cls, columns: dict[str, Column] | None, axes: list[dict[str, Any]], meta: dict[str, Any]
     ) -> Table:
         table = object.__new__(cls)
         table._held = columns
-        table.dims = [{name: _fixed(values) for name, values in dim.items()} for dim in dims]
+        table.axes = [{name: _fixed(values) for name, values in axis.items()} for axis in axes]
         table.meta = meta
         return table
 
     @property
     def _columns(self) -> dict[str, Column]:
         if self._held is None:
-            self._held = _columns(_flapwing.read(self._path))
+            self._held = _columns_of(_flapwing.read(self._path))
         return self._held
 
     def __getstate__(self) -> dict[str, Any]:
         # A pickle holds the rows: where it is read, the file may be another or none.
-        return {"_held": self._columns, "dims": self.dims, "meta": self.meta}
+        return {"_held": self._columns, "axes": self.axes, "meta": self.meta}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._held, self.meta = state["_held"], state["meta"]
-        self.dims = [{name: _fixed(values) for name, values in dim.items()} for dim in state["dims"]]
+        self.axes = [{name: _fixed(values) for name, values in axis.items()} for axis in state["axes"]]
 
     def __len__(self) -> int:
         return next((len(column.cells) for column in self._columns.values()), 0)
@@ -140,7 +145,7 @@ class Table:
                 raise TypeError(f"rows are sliced by whole numbers\n{_KEYS}") from None
         if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
             chosen = {name: self._column(name) for name in key}
-            return self._new(chosen, self.dims, copy.deepcopy(self.meta))
+            return self._new(chosen, self.axes, copy.deepcopy(self.meta))
         try:
             rows = np.asarray(key)
         except Exception as error:
@@ -165,7 +170,7 @@ class Table:
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
         """Some of the rows. What `meta` counts is counted among them; the rest is about the call."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
-        table = self._new(columns, self.dims, copy.deepcopy(self.meta))
+        table = self._new(columns, self.axes, copy.deepcopy(self.meta))
         if "counts" in table.meta:
             table.meta.update(rows=len(table), counts=table.counts)
         return table
@@ -212,6 +217,11 @@ class Table:
         return np.stack(columns, axis=-1).reshape(len(self), len(told["of"]), len(told["with_respect_to"]))
 
     @property
+    def verdicts(self) -> list[Verdict]:
+        """The verdicts on the responses of a table of `respond`, one for each design; empty for other tables."""
+        return list(self.meta.get("verdicts", []))
+
+    @property
     def periodic(self) -> Table:
         """The rows whose motion is periodic: those that have measures."""
         return self[self["status"] == "periodic"]
@@ -223,7 +233,7 @@ class Table:
         text, those that are no text as JSON. Columns that are not copied
         are read-only: ``frame.copy()`` may be changed.
         """
-        return _conversions.to_pandas(self._columns, self.meta)
+        return _columns.to_pandas(self._columns, self.meta)
 
     def to_polars(self) -> polars.DataFrame:
         """The table as a polars DataFrame, through Arrow; unknown values are null."""
@@ -239,7 +249,7 @@ class Table:
         Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema, as
         ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
         """
-        return _conversions.to_arrow(self._columns, self.meta)
+        return _columns.to_arrow(self._columns, self.meta)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The table through the Arrow C stream interface, which needs pyarrow."""
@@ -256,7 +266,7 @@ class Table:
         `point`, or by the parameters of the axes; without either the order of the rows would say nothing, and a ValueError
         tells so. The attributes of the Dataset are the entries of `meta`, those that are no text as JSON.
         """
-        return _conversions.to_xarray(self._columns, self.dims, self.meta)
+        return _columns.to_xarray(self._columns, self.axes, self.meta)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())

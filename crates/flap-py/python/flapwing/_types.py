@@ -1,9 +1,11 @@
-"""The types of arguments that several functions take."""
+"""Types that several modules use."""
 
 from __future__ import annotations
 
 import os
 from typing import TYPE_CHECKING, Any, Mapping, Protocol, Sequence, SupportsFloat, Union
+
+import numpy as np
 
 from ._flapwing import Grid
 
@@ -27,14 +29,23 @@ class Frame(Protocol):
     def columns(self) -> Any: ...
 
 
-class Row(Protocol):
+class FrameRow(Protocol):
     """A row of a DataFrame of pandas."""
 
     def to_dict(self) -> Any: ...
 
 
 #: A state at the start of a drive period: components by name, or a row that has them, also as a table of one row.
-State = Union[Mapping[str, Any], "Table", Frame, Row]
+InitialState = Union[Mapping[str, Any], "Table", Frame, FrameRow]
 
 #: Names of measures.
 Measures = Sequence[str]
+
+#: Numbers.
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+#: Truth values.
+Mask = np.ndarray[Any, np.dtype[np.bool_]]
+
+#: Places in an array.
+Places = np.ndarray[Any, np.dtype[np.intp]]

@@ -1,7 +1,8 @@
 """Pictures of results with matplotlib, each by one function call.
 
 Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results, and
-returns the matplotlib Axes, the Figure if it has several Axes, or the animation. Settings of matplotlib do not change.
+returns the matplotlib Axes, the Figure if it has several Axes, or the animation. `flapwing.analysis` computes sensitivities,
+rank correlations and fronts. Settings of matplotlib do not change.
 
     >>> import numpy as np
     >>> from flapwing import plot
@@ -22,38 +23,33 @@ except ImportError as _missing:
     ) from _missing
 del _matplotlib
 
-from ._correlations import RankCorrelation, rank_correlations
+from .._labels import label
 from ._fit import fit
-from ._front import non_dominated
+from ._forces import control_matrix, force_panels
 from ._heatmap import heatmap
 from ._histogram import histogram
 from ._hysteresis import hysteresis
-from ._labels import label
 from ._pareto import pareto
-from ._response import response
+from ._response import response, response_panels
 from ._scatter import scatter
-from ._tornado import Sensitivity, sensitivities, tornado
+from ._tornado import tornado
 from ._trajectory import trajectory
 from ._wing_path import WingPath, wing_path
-from ._wrench import wrench
 
 __all__ = [
-    "RankCorrelation",
-    "Sensitivity",
     "WingPath",
+    "control_matrix",
     "fit",
+    "force_panels",
     "heatmap",
     "histogram",
     "hysteresis",
     "label",
-    "non_dominated",
     "pareto",
-    "rank_correlations",
     "response",
+    "response_panels",
     "scatter",
-    "sensitivities",
     "tornado",
     "trajectory",
     "wing_path",
-    "wrench",
 ]

@@ -1,4 +1,4 @@
-"""The types of arguments, checked before a picture is begun: what the annotations of a function say is what it takes."""
+"""The types of arguments, checked before a picture is begun."""
 
 from __future__ import annotations
 
@@ -51,47 +51,48 @@ _ONE_OR_MORE = _Kind(
 _NUMBER = _Kind(_is_number, "it must be a number")
 _WHOLE = _Kind(_is_whole, "it must be a whole number")
 
-#: The kinds by their annotations, without `None`.
-_KINDS = {
-    "str": _NAME,
-    "Sequence[str]": _NAMES,
-    "str | Sequence[str]": _ONE_OR_MORE,
-    "float": _NUMBER,
-    "int": _WHOLE,
-    "str | Colormap": _Kind(
+#: What an argument of a picture may be, by its name; None for those that are read in other ways.
+_KINDS: dict[str, _Kind | None] = {
+    "table": None,
+    "design": None,
+    **dict.fromkeys(["by", "color", "label", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME),
+    "lift": _Kind(lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'),
+    **dict.fromkeys(["inputs", "measures", "portrait"], _NAMES),
+    **dict.fromkeys(["maximize", "minimize", "signals"], _ONE_OR_MORE),
+    **dict.fromkeys(["change", "frequency", "radius", "vmax", "vmin"], _NUMBER),
+    **dict.fromkeys(["curve", "frames", "pitch_sign", "top"], _WHOLE),
+    "cmap": _Kind(
         lambda value: isinstance(value, (str, Colormap)), 'it must be a colour map of matplotlib, such as "viridis"'
     ),
-    "Mapping[str, Any]": _Kind(
+    "where": _Kind(
         lambda value: isinstance(value, Mapping), 'it must be a mapping of columns, such as {"drive_voltage_pp": 100}'
     ),
-    "Mapping[str, float | tuple[float, float]] | Iterable[str]": _Kind(
-        _are_parameters, "it must be names of parameters, or a mapping of names to changes"
-    ),
-    "Axes": _Kind(lambda value: isinstance(value, Axes), "it must be axes of matplotlib: one of those of plt.subplots()"),
-    "bool | Axes": _Kind(
+    "parameters": _Kind(_are_parameters, "it must be names of parameters, or a mapping of names to changes"),
+    "ax": _Kind(lambda value: isinstance(value, Axes), "it must be axes of matplotlib: one of those of plt.subplots()"),
+    "colorbar": _Kind(
         lambda value: isinstance(value, (bool, Axes)), "it must be True, False or axes of matplotlib to draw it in"
     ),
-    "bool | str": _Kind(
+    "legend": _Kind(
         lambda value: isinstance(value, (bool, str)), 'it must be True, False or a place such as "upper left"'
     ),
 }
 
 
 def checked(function: _F) -> _F:
-    """The function, which first raises TypeError or ValueError for arguments that are not of its annotations."""
+    """The function, which first raises TypeError or ValueError for arguments that are not of the kind of their names.
+
+    Each argument must have a kind in `_KINDS`: a name without one is a KeyError when the module is imported. None is allowed
+    where it is the default.
+    """
     signature = inspect.signature(function)
-    kinds = {}
-    for name, parameter in signature.parameters.items():
-        annotation = str(parameter.annotation)
-        kind = _KINDS.get(annotation.removesuffix(" | None"))
-        if kind is not None and parameter.kind is not parameter.VAR_KEYWORD:
-            kinds[name] = (kind, annotation.endswith(" | None"))
+    named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]
+    kinds = {each.name: (_KINDS[each.name], each.default is None) for each in named}
 
     @functools.wraps(function)
     def checking(*arguments: Any, **keywords: Any) -> object:
         given = {**dict(zip(signature.parameters, arguments)), **keywords}
         for name, (kind, is_optional) in kinds.items():
-            if name not in given or (is_optional and given[name] is None):
+            if kind is None or name not in given or (is_optional and given[name] is None):
                 continue
             if not kind.fits(given[name]):
                 raise refused(name, given[name], kind.allowed)

@@ -13,9 +13,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from .._fit import Estimate, Fit
 from .._flapwing import printed, scale, words
-from . import _labels, _style
+from ..fitting import Estimate, Fit
+from .. import _labels
+from . import _style
 
 #: The pictures that there are.
 _PARTS = ("data", "profiles", "correlations")
@@ -84,7 +85,7 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
         raise ValueError("the data have no operating points to draw over")
     along = max(numbers, key=lambda name: len(np.unique(numbers[name])))
     colours = cycle(_style.series())
-    residuals = {(one.set, one.measure): one for one in result.goodness.residuals}
+    residuals = {(one.data_set, one.measure): one for one in result.goodness.residuals}
     for one in sets:
         values = np.asarray(one.points[along], np.float64)
         others = {name: column for name, column in one.points.items() if name != along}

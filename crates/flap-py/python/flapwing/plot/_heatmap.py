@@ -10,10 +10,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Colormap, to_rgba
 from matplotlib.patches import Patch
 
-from . import _legend, _scales, _style
+from . import _scales, _style
 from ._checks import checked
-from ._data import Data, Shown, distinct, edges, scattered
-from ._docs import completed
+from .._data import Data, Shown, distinct, edges, scattered
 
 # Statuses without measures, and the greys of their cells.
 _GREYS = {
@@ -27,7 +26,6 @@ _UNDEFINED, _NO_ROW = "no value", "no row"
 
 
 @checked
-@completed
 def heatmap(
     table: Any,
     value: str | None = None,
@@ -69,10 +67,22 @@ def heatmap(
     vmin, vmax : float, optional
         The ends of the colours, in the unit of the colour bar; by default those of the values. An arrow of the colour
         bar says that there are values beyond an end.
-    %(where)s
-    %(legend)s
-    %(colorbar)s
-    %(axes)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
 
     Raises
     ------
@@ -134,7 +144,7 @@ def heatmap(
         up.finish(ax, "y")
         if missing:
             look = {"handles": missing, "handlelength": 1.6, "handleheight": 1.1}
-            _legend.legend(ax, legend, given, inside="upper left", ncols=3, borderaxespad=0.2, **look)
+            _style.legend(ax, legend, given, inside="upper left", ncols=3, borderaxespad=0.2, **look)
     return ax
 
 

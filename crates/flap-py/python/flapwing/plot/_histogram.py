@@ -8,17 +8,16 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .._flapwing import bars
-from . import _labels, _style
+from .. import _labels
+from . import _style
 from ._checks import checked
-from ._data import Data
-from ._docs import completed
+from .._data import Data
 
 # The share of the axes' height above the bars, where the percentiles are written.
 _ROOM = 0.28
 
 
 @checked
-@completed
 def histogram(
     table: Any,
     measure: str | None = None,
@@ -37,8 +36,17 @@ def histogram(
         Results of any kind.
     measure : str, optional
         A column of numbers. By default the mean lift, or another measure of the table.
-    %(where)s
-    %(axes)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
 
     Raises
     ------
@@ -59,7 +67,7 @@ def histogram(
     found = bars(np.ascontiguousarray(np.where(data.measured(), shown.values, np.nan)))
     if found is None:
         raise ValueError(f"no row has a number for `{measure}`")
-    edges, counts, marked = found
+    edges, counts, percentiles = found["edges"], found["counts"], found["percentiles"]
 
     with _style.style(ax):
         ax = _style.axes_of(ax)
@@ -68,9 +76,9 @@ def histogram(
         ax.set_ylim(0.0, counts.max() / (1.0 - _ROOM))
         ax.margins(x=0.03)
         middle = 0.5 * (edges[0] + edges[-1])
-        for line, (percent, value) in enumerate(marked):
+        for line, (percent, value) in enumerate(percentiles):
             # Each percentile has a line of text of its own, so that close ones do not cover each other.
-            top = 1.0 - _ROOM * line / len(marked)
+            top = 1.0 - _ROOM * line / len(percentiles)
             ax.axvline(value, ymax=top, color=_style.ink(ax), linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
             ax.annotate(
                 f"{percent} %: {_labels.number(value)} {shown.unit}".rstrip(),

@@ -8,19 +8,17 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .._flapwing import ways as _compared
-from . import _legend, _style
+from . import _style
 from ._checks import checked
-from ._data import Data, Shown, distinct, listed
-from ._docs import completed
+from .._data import Data, Shown, distinct, listed
 
 
 @checked
-@completed
 def hysteresis(
     table: Any,
     y: str | None = None,
     *,
-    along: str | None = None,
+    parameter: str | None = None,
     curve: int | None = None,
     where: Mapping[str, Any] | None = None,
     legend: bool | str = True,
@@ -37,13 +35,24 @@ def hysteresis(
         Results of `flapwing.respond` or ``flap respond --out``.
     y : str, optional
         The measure. By default the stroke, peak to peak.
-    along : str, optional
+    parameter : str, optional
         The parameter that is followed; by default the column behind ``branch``.
     curve : int, optional
         The number of the design in the column ``curve``, if there are several.
-    %(where)s
-    %(legend)s
-    %(axes)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
 
     Raises
     ------
@@ -59,9 +68,9 @@ def hysteresis(
     _one_design(data)
     y = data.usual("response", "y") if y is None else y
     data.numbers(y)
-    along = along or data.followed() or "drive_frequency"
-    data.numbers(along)
-    x, shown = data.shown(along), data.shown(y)
+    parameter = parameter or data.followed() or "drive_frequency"
+    data.numbers(parameter)
+    x, shown = data.shown(parameter), data.shown(y)
     values = np.where(data.measured(), shown.values, np.nan)
     branches = data["branch"].astype(str)
     bistable = data.numbers("bistable") == 1.0
@@ -70,8 +79,8 @@ def hysteresis(
     up, down = ways["up"], ways["down"]
     if not up.x.size and not down.x.size:
         raise ValueError("the table has neither a way up nor a way down")
-    bands, *jumps = _compared((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
-    up.jumps, down.jumps = jumps
+    compared = _compared((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
+    bands, up.jumps, down.jumps = compared["bands"], compared["up"], compared["down"]
 
     given = ax is not None
     with _style.style(ax):
@@ -112,7 +121,7 @@ def hysteresis(
         ax.set_xlabel(x.label)
         ax.set_ylabel(shown.label)
         ax.margins(x=0.02, y=0.08)
-        _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1)
+        _style.legend(ax, legend, given, ncols=2, borderaxespad=0.1)
     return ax
 
 

@@ -8,16 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 
-from . import _legend, _style
+from . import _style
 from ._checks import checked
-from ._data import Data
-from ._docs import completed
-from ._front import non_dominated
-from ._points import points
+from .._data import Data
+from ..analysis import non_dominated
+from ._scatter import points
 
 
 @checked
-@completed
 def pareto(
     table: Any,
     *,
@@ -34,7 +32,7 @@ def pareto(
     """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out. The front's designs are
-    those of ``non_dominated``. With two objectives a stepped line bounds the values that they reach; with more they have
+    those of `flapwing.analysis.non_dominated`. With two objectives a stepped line bounds the values that they reach; with more they have
     rings.
 
     Parameters
@@ -48,10 +46,22 @@ def pareto(
         A column for the points' colours: numbers with a colour bar, words with a legend.
     cmap : str, optional
         A colour map of matplotlib, for numbers; by default as for `heatmap`.
-    %(where)s
-    %(legend)s
-    %(colorbar)s
-    %(axes)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
 
     Raises
     ------
@@ -116,5 +126,5 @@ def pareto(
         title: Any = {"title": f"the front is also that of: {said}", "alignment": "left"} if others else {}
         # Inside, in the corner that no design reaches if there is a front.
         corner = f"{'lower' if names[1] in smaller else 'upper'} {'left' if names[0] in smaller else 'right'}"
-        _legend.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
+        _style.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
     return ax

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence, overload
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,24 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from .._mistakes import unknown
-from . import _legend, _scales, _style
+from . import _scales, _style
 from ._checks import checked
-from ._data import Data, Shown, distinct, edges, scattered
-from ._docs import completed
+from .._data import Data, Shown, distinct, edges, scattered
 
 # Most lines of a sample that nobody asked for: more cannot be distinguished.
 _MOST_SAMPLED = 16
 
 
-@overload
-def response(table: Any, y: str | None = None, **options: Any) -> _style.Drawn: ...
-@overload
-def response(table: Any, y: list[str] | tuple[str, ...], **options: Any) -> Figure: ...
 @checked
-@completed
 def response(
     table: Any,
-    y: str | Sequence[str] | None = None,
+    y: str | None = None,
     *,
     x: str | None = None,
     by: str | None = None,
@@ -38,8 +32,8 @@ def response(
     colorbar: bool | Axes = True,
     ax: Axes | None = None,
     **slices: Any,
-) -> Axes | Figure:
-    """Draw measures over one parameter, with a line for each value of another: a family of frequency responses.
+) -> _style.Drawn:
+    """Draw a measure over one parameter, with a line for each value of another: a family of frequency responses.
 
     Rows that are not periodic are gaps in a line, with marks in its colour above the picture.
 
@@ -47,21 +41,27 @@ def response(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
-    y : str or sequence of str, optional
-        The measures, in axes one above the other if there are several. By default the stroke, peak to peak.
+    y : str, optional
+        The measure. By default the stroke, peak to peak.
     x : str, optional
         The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
     by : str, optional
         The parameter with a line for each value; by default the first of the grid's other axes, if there is one.
-    %(where)s
-    %(legend)s
-    %(colorbar)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
-        Axes to draw in, if `y` is one measure, in the look of their figure; by default those of a new figure.
+        Axes to draw in, in the look of their figure; by default those of a new figure.
 
     Returns
     -------
-    matplotlib Axes, or Figure if `y` is a sequence
+    matplotlib Axes
         Parameters are in readable units, which the labels give.
 
     Raises
@@ -83,17 +83,97 @@ def response(
     """
     whole = Data.of(table)
     data = whole.slice(where, slices)
-    several = y is not None and not isinstance(y, str)
-    measures = [data.usual("response", "y")] if y is None else [y] if isinstance(y, str) else list(y)
+    measure = data.usual("response", "y") if y is None else y
+    family = _family(whole, data, [measure], x, by)
+    given = ax is not None
+    with _style.style(ax):
+        drawn = _style.axes_of(ax)
+        family.draw(drawn, measure)
+        (family.mark_inside if given else family.mark)(drawn)
+        drawn.set_xlabel(family.x.label)
+        family.explain([drawn], given, legend, colorbar)
+    return drawn
+
+
+@checked
+def response_panels(
+    table: Any,
+    measures: Sequence[str],
+    *,
+    x: str | None = None,
+    by: str | None = None,
+    where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
+    colorbar: bool | Axes = True,
+    **slices: Any,
+) -> Figure:
+    """Draw several measures over one parameter, in axes one above the other; see `response`.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
+    measures : sequence of str
+        The measures, from top to bottom.
+    x : str, optional
+        The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
+    by : str, optional
+        The parameter with a line for each value; by default the first of the grid's other axes, if there is one.
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+
+    Returns
+    -------
+    matplotlib Figure
+
+    Raises
+    ------
+    ValueError
+        As for `response`; also if there are no measures.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = {
+    ...     "drive_frequency": np.array([90.0, 100.0]),
+    ...     "stroke_pp_deg": np.array([20.0, 40.0]),
+    ...     "lift_mean_mn": np.array([0.2, 0.5]),
+    ... }
+    >>> len(response_panels(table, ["stroke_pp_deg", "lift_mean_mn"]).axes)
+    2
+    """
     if not measures:
-        raise ValueError("`y` names no measure")
-    if several and len(measures) > 1 and ax is not None:
-        raise ValueError("`ax` is for one measure; several make a figure of their own")
+        raise ValueError("`measures` names no measure")
+    whole = Data.of(table)
+    family = _family(whole, whole.slice(where, slices), measures, x, by)
+    with _style.style():
+        figure = _style.new_figure(6.4, 4.0 if len(measures) == 1 else 1.2 + 2.1 * len(measures))
+        axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
+        for each, name in zip(axes, measures):
+            family.draw(each, name)
+        family.mark(axes[0])
+        axes[-1].set_xlabel(family.x.label)
+        family.explain(axes, False, legend, colorbar)
+        figure.align_ylabels(axes)
+    return figure
+
+
+def _family(
+    whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None
+) -> Family:
+    """The lines of a picture of these measures."""
     for name in measures:
         data.numbers(name)
     x = along(data, by) if x is None else x
     if by is None:
-        by = _family(data, x)
+        by = _beside(data, x)
         if by is not None and not data.on_a_grid(by) and len(distinct(data[by])) > _MOST_SAMPLED:
             raise ValueError(
                 f"`{by}` is sampled, so that {len(distinct(data[by]))} lines would cover each other: choose a value of "
@@ -105,24 +185,7 @@ def response(
     if by is not None:
         data[by]
     data = data.for_picture([x] if by is None else [x, by])
-
-    with _style.style(ax):
-        if ax is not None:
-            axes = [ax]
-        elif len(measures) == 1:
-            axes = [_style.axes_of(None)]
-        else:
-            figure = _style.new_figure(6.4, 1.2 + 2.1 * len(measures))
-            axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
-        family = Family(data, whole, x, by)
-        for each, name in zip(axes, measures):
-            family.draw(each, name)
-        (family.mark_inside if ax is not None else family.mark)(axes[0])
-        axes[-1].set_xlabel(family.x.label)
-        family.explain(axes, ax is not None, legend, colorbar)
-        if len(axes) > 1:
-            _style.figure_of(axes[0]).align_ylabels(axes)
-    return _style.figure_of(axes[0]) if several else _style.axes_of(axes[0])
+    return Family(data, whole, x, by)
 
 
 class Family:
@@ -141,7 +204,7 @@ class Family:
         """The rows of one line by rising x; -1 stands for points of the grid that have no row."""
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
-        if [self.x.name] not in self.data.dims:
+        if [self.x.name] not in self.data.grid_axes:
             return rows
         placed = np.full(len(self.every_x), -1)
         placed[np.searchsorted(self.every_x, xs[rows])] = rows
@@ -220,7 +283,7 @@ class Family:
             handles = [Line2D([], [], label="no periodic motion", markersize=_style.size(0.75), **look)]
         if self.by is None:
             if handles:
-                _legend.legend(axes[0], legend, given, handles=handles)
+                _style.legend(axes[0], legend, given, handles=handles)
             return
         if self.by.text or len(self.values) <= _style.LEGEND_LINES:
             handles = [
@@ -231,10 +294,10 @@ class Family:
             beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
             title = self.by.label if given else _wrapped(self.by.label)
             look = {"handles": handles, "title": title, "alignment": "left", "borderaxespad": 0.0}
-            _legend.legend(axes[0], legend, given, outside=beside, **look)
+            _style.legend(axes[0], legend, given, outside=beside, **look)
             return
         if handles:
-            _legend.legend(axes[0], legend, given, handles=handles)
+            _style.legend(axes[0], legend, given, handles=handles)
         numbers = self.values.astype(float) * self.by.factor
         log = _scales.in_ratio(numbers)
         colours = ListedColormap(self.colours)
@@ -262,7 +325,7 @@ def along(data: Data, by: str | None) -> str:
     raise unknown("parameter for", "x", data.columns)
 
 
-def _family(data: Data, x: str) -> str | None:
+def _beside(data: Data, x: str) -> str | None:
     """The axis that is left beside x, if it is one."""
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():

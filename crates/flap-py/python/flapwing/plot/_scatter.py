@@ -8,15 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 
-from . import _legend, _style
+from . import _scales, _style
 from ._checks import checked
-from ._data import Data
-from ._docs import completed
-from ._points import points
+from .._data import Data, distinct
 
 
 @checked
-@completed
 def scatter(
     table: Any,
     x: str | None = None,
@@ -45,10 +42,22 @@ def scatter(
         peak, or another measure.
     cmap : str, optional
         A colour map of matplotlib, for numbers; by default as for `heatmap`.
-    %(where)s
-    %(legend)s
-    %(colorbar)s
-    %(axes)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
 
     Raises
     ------
@@ -85,7 +94,7 @@ def scatter(
         ax.set_xlabel(across.label)
         ax.set_ylabel(up.label)
         if color is not None and data.shown(color).text:
-            _legend.legend(ax, legend, given, ncols=4, borderaxespad=0.2)
+            _style.legend(ax, legend, given, ncols=4, borderaxespad=0.2)
     return ax
 
 
@@ -95,3 +104,31 @@ def _third(data: Data, taken: list[str]) -> str | None:
         return data.usual("motion", "color", taken)
     except ValueError:
         return None
+
+
+def points(
+    ax: Axes,
+    data: Data,
+    x: np.ndarray,
+    y: np.ndarray,
+    color: str | None,
+    cmap: str | Colormap | None,
+    colorbar: bool | Axes,
+) -> float:
+    """Draws designs as points, in the colours of a column, and gives the size of the points."""
+    size = _style.size(0.62 if len(data) <= 2000 else 0.4)
+    look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
+    if color is None:
+        ax.scatter(x, y, color=_style.PLAIN, **look)
+        return size
+    shown = data.shown(color)
+    if not shown.text:
+        colours = _scales.colours(shown.values, cmap, log=_scales.in_ratio(distinct(shown.values)))
+        drawn = ax.scatter(x, y, c=shown.values, cmap=colours.cmap, norm=colours.norm, **{**look, "alpha": None})
+        colours.bar(ax, drawn, colorbar, shown.label)
+        return size
+    words = distinct(data[color])
+    for word, shade in zip(words, _style.shades(words, True)):
+        mask = data[color].astype(str) == word
+        ax.scatter(x[mask], y[mask], color=shade, label=str(word), **look)
+    return size

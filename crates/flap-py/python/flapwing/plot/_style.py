@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Iterator, Sequence, cast
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, cast
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -12,8 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 
-from .. import _flapwing
-from . import _labels
+from .. import _flapwing, _labels
 
 if TYPE_CHECKING:
 
@@ -25,22 +24,18 @@ if TYPE_CHECKING:
         @figure.setter
         def figure(self, value: Any) -> None: ...
 
-    class DrawnOrFigure(Drawn, Figure):  # type: ignore[misc]
-        """Axes with a picture or a figure of panels, for type checkers: the contents of a table decide which."""
-
 else:
     Drawn = Axes
-    DrawnOrFigure = Axes
 
 # The colours of `flap plot`: those of series are Okabe and Ito's, which readers with any colour vision tell apart.
-_TABLE: dict[str, Any] = _flapwing.colours()
-COLOURS: list[str] = _TABLE["series"]
+_TABLE = _flapwing.colours()
+COLOURS = _TABLE["series"]
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = COLOURS[:6]
-DARK: str = _TABLE["dark"]
-PLAIN: str = _TABLE["plain"]
-MISSING: str = _TABLE["missing"]
-BISTABLE: str = _TABLE["bistable"]
-BRANCHES: dict[str, str] = _TABLE["branches"]
+DARK = _TABLE["dark"]
+PLAIN = _TABLE["plain"]
+MISSING = _TABLE["missing"]
+BISTABLE = _TABLE["bistable"]
+BRANCHES = _TABLE["branches"]
 GREY = "#777777"
 
 # More lines than this get a colour bar in place of a legend.
@@ -120,6 +115,30 @@ def figure_of(ax: Axes) -> Figure:
     while not isinstance(figure, Figure):  # a part of a figure
         figure = figure.figure
     return figure
+
+
+#: The place of a legend above axes, from their left edge.
+_ABOVE: Mapping[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
+
+
+def legend(
+    ax: Axes,
+    wanted: bool | str,
+    given: bool,
+    *,
+    inside: str = "best",
+    outside: Mapping[str, Any] = _ABOVE,
+    **options: Any,
+) -> None:
+    """A legend, if `wanted`: outside of new axes, or inside of axes that are given. A place as `wanted` is inside all axes."""
+    if wanted is False:
+        return
+    if wanted is True and not given:
+        ax.legend(**{**outside, **options})
+        return
+    for name in ("borderaxespad", "ncols"):
+        options.pop(name, None)
+    ax.legend(loc=wanted if isinstance(wanted, str) else inside, frameon=True, **options)
 
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:

@@ -4,121 +4,19 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any, Iterable, Mapping, NamedTuple, Sequence
+from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from .._mistakes import refused, unknown
-from . import _correlations, _labels, _legend, _style
+from .._mistakes import refused
+from ..analysis import RankCorrelation, Sensitivity, rank_correlations, sensitivities
+from .. import _labels
+from . import _style
 from ._checks import checked
-from ._docs import completed
-
-
-class Sensitivity(NamedTuple):
-    """The change of a measure with one parameter; numbers are in SI units, and in the measure's own."""
-
-    parameter: str
-    """The parameter's name."""
-    value: float
-    """Its value in the design."""
-    below: float
-    """The lower value tried."""
-    above: float
-    """The upper value tried."""
-    measure: str
-    """The measure's name."""
-    base: float
-    """The measure of the design itself."""
-    low: float
-    """The measure with the lower value; NaN if there is no periodic motion."""
-    high: float
-    """The measure with the upper value; NaN if there is no periodic motion."""
-    unit: str
-    """The parameter's unit."""
-    measure_unit: str
-    """The measure's unit."""
-
-    @property
-    def swing(self) -> float:
-        """The larger of the two changes of the measure, without its sign; infinite if both are unknown."""
-        changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
-        return max(changes, default=math.inf)
-
-
-def sensitivities(
-    design: str,
-    measure: str,
-    parameters: Mapping[str, float | tuple[float, float]] | Iterable[str] | None = None,
-    *,
-    change: float = 0.05,
-    **fixed: Any,
-) -> list[Sensitivity]:
-    """Change each parameter of a design slightly, down and up, and compute the change of a measure.
-
-    Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
-    that follow the one that is changed, such as the bias that follows the voltage.
-
-    Parameters
-    ----------
-    design : str
-        A preset.
-    measure : str
-        A measure of its model.
-    parameters : mapping or iterable of str, optional
-        The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
-        By default all numbers that are not zero, except those that follow others and those that cannot take such
-        values, such as whole numbers.
-    change : float
-        The relative change of parameters that have none of their own.
-    **fixed
-        Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options.
-        Solver settings, as for `flapwing.evaluate`.
-
-    Returns
-    -------
-    list of Sensitivity
-        By falling `swing`.
-
-    Raises
-    ------
-    ValueError
-        Unknown design, measure or parameter; a change of zero; a design whose motion is not periodic.
-    """
-    import flapwing
-
-    known = flapwing.params(design)
-    ranges = _ranges(known, parameters, change, fixed)
-    # A parameter that is both given and changed has its number from the row of the design itself.
-    both = {name: value for name, value in fixed.items() if name in ranges}
-    others = {name: value for name, value in fixed.items() if name not in ranges}
-    free = (name for name, each in known.items() if isinstance(each.value, float) and name not in fixed)
-    base = flapwing.evaluate(design, both or {(name := next(free)): known[name].value}, **others)
-    if measure not in base:
-        raise unknown("measure", measure, flapwing.measures(design))
-    start = float(base[measure][0])
-    if math.isnan(start):
-        raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
-    found = []
-    for name, spread in ranges.items():
-        value = float(base[name][0]) if name in both else _number(known[name].value)
-        below, above = spread if isinstance(spread, tuple) else sorted((value * (1 - spread), value * (1 + spread)))
-        if below == above and parameters is None:
-            continue
-        if below == above:
-            raise ValueError(f"`{name}` is {value:g}, which no relative change alters: give the two values to try")
-        unchanged = {other: given for other, given in fixed.items() if other != name}
-        rows = flapwing.evaluate(design, {name: np.array([below, above])}, **unchanged)
-        if parameters is None and (rows["status"] == "invalid").all():
-            continue
-        low, high = (float(each) for each in rows[measure])
-        units = (known[name].unit, base.units.get(measure, ""))
-        found.append(Sensitivity(name, value, below, above, measure, start, low, high, *units))
-    return sorted(found, key=lambda each: (-each.swing, each.parameter))
 
 
 @checked
-@completed
 def tornado(
     design: Any,
     measure: str | None = None,
@@ -138,13 +36,22 @@ def tornado(
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset; or the result of `sensitivities`, and then no points are run; or the results of a sample.
+        A preset; or the result of `flapwing.analysis.sensitivities`, and then no points are run; or the results of a sample.
     measure, parameters, change, **fixed
-        As for `sensitivities`. Of a sample, as for `rank_correlations`, without `change`.
+        As for `flapwing.analysis.sensitivities`. Of a sample, as for `flapwing.analysis.rank_correlations`, without
+        `change`.
     top : int
         The largest number of parameters that are drawn.
-    %(legend)s
-    %(axes)s
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
+        and inside axes that are given.
+    ax : matplotlib Axes, optional
+        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        By default those of a new figure.
+
+    Returns
+    -------
+    matplotlib Axes
         The horizontal axis is the change of the measure in percent of the design's own, or the correlation.
 
     Raises
@@ -154,7 +61,7 @@ def tornado(
     """
     if _is_table(design):
         names = None if parameters is None else list(parameters)
-        return _correlations.draw(_correlations.rank_correlations(design, measure, names, **fixed), top, ax)
+        return _correlations(rank_correlations(design, measure, names, **fixed), top, ax)
     if isinstance(design, str):
         if measure is None:
             raise TypeError("`measure` is needed: a measure of the model, such as lift_mean_mn")
@@ -210,7 +117,40 @@ def tornado(
         rest = len(found) - len(shown)
         left = f"; {rest} smaller {'one' if rest == 1 else 'ones'} not shown" if rest else ""
         title = f"each parameter alone{left}"
-        _legend.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
+        _style.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
+    return ax
+
+
+def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Drawn:
+    """Bars of correlations, the largest on top."""
+    shown = found[:top]
+    sizes = np.array([each.correlation for each in shown])
+    places = np.arange(len(shown))
+    with _style.style(ax):
+        ax = _style.axes_of(ax, 6.8, 1.3 + 0.32 * len(shown))
+        ax.grid(False, axis="y")
+        ax.barh(places, sizes, height=0.62, color=np.where(sizes > 0, _style.VERMILLION, _style.BLUE).tolist())
+        for place, size in zip(places, sizes):
+            ax.annotate(
+                f"{size:+.2f}".replace("-", "−"),
+                (size, place),
+                xytext=(3 if size > 0 else -3, 0),
+                textcoords="offset points",
+                ha="left" if size > 0 else "right",
+                va="center",
+                fontsize="small",
+                color=_style.ink(ax),
+            )
+        ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
+        ax.set_yticks(places, labels=[_labels.words(each.parameter, "") for each in shown])
+        ax.tick_params(axis="y", length=0)
+        ax.set_ylim(len(shown) - 0.4, -0.6)
+        ax.set_xlim(-1.2, 1.2)
+        # Of columns that have nothing to do with each other, 95 % of the correlations are smaller.
+        chance = 1.96 / np.sqrt(max(found[0].designs, 2) - 1)
+        words = _labels.lowered(_labels.words(found[0].measure, _labels.unit_of(found[0].measure)))
+        note = f"{found[0].designs} designs; sizes below {chance:.2f} may be chance"
+        ax.set_xlabel(f"Rank correlation (Spearman) with {words}\n{note}")
     return ax
 
 
@@ -219,42 +159,6 @@ def _is_table(design: Any) -> bool:
     if isinstance(design, str):
         return bool(os.path.splitext(design)[1])
     return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
-
-
-def _ranges(
-    known: Mapping[str, Any], parameters: Any, change: float, fixed: Mapping[str, Any]
-) -> dict[str, float | tuple[float, float]]:
-    """The relative change, or the two values, of each parameter."""
-    if parameters is None:
-        chosen: dict[str, Any] = {
-            name: change
-            for name, parameter in known.items()
-            if isinstance(parameter.value, float) and (name in fixed or parameter.value != 0.0)
-        }
-    elif isinstance(parameters, Mapping):
-        chosen = dict(parameters)
-    else:
-        chosen = dict.fromkeys([parameters] if isinstance(parameters, str) else parameters, change)
-    for name, spread in chosen.items():
-        if name not in known:
-            raise unknown("parameter", name, known)
-        if name not in fixed and not isinstance(known[name].value, float):
-            value = known[name].value
-            if value is None:
-                raise ValueError(f"`{name}` is not set in this preset: give it a value, as in `{name}=…`")
-            raise ValueError(f"`{name}` is {value!r}: only numbers can be changed by a little")
-        if isinstance(spread, (tuple, list)):
-            if len(spread) != 2:
-                raise ValueError(f"`{name}` needs two values to try, not {len(spread)}")
-            chosen[name] = (float(spread[0]), float(spread[1]))
-        elif not 0 < float(spread) < math.inf:
-            raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
-    return chosen
-
-
-def _number(value: float | str | None) -> float:
-    assert isinstance(value, float), "`_ranges` lets numbers alone pass"
-    return value
 
 
 def _named(each: Sensitivity) -> str:

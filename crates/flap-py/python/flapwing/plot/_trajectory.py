@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from . import _labels, _legend, _style
+from .. import _labels
+from . import _style
 from ._checks import checked
-from ._data import Data, Shown
+from .._data import Data, Shown
 
 _ANGLES = ("stroke_deg", "pitch_deg")
 
@@ -131,7 +132,7 @@ def trajectory(
             each.set_ylabel(_labels.titled(words[0] if len(words) == 1 else _common(words, unit), unit))
             each.margins(x=0.0)
             if len(each.lines) > 1 or label is not None:
-                _legend.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
+                _style.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
         if factor == 1.0:
             over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import os
-from base64 import b64encode
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.animation import FuncAnimation
+from matplotlib.animation import FuncAnimation, HTMLWriter
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from . import _labels, _legend, _style
+from .. import _labels
+from . import _style
 from ._checks import checked
-from ._data import Data
+from .._data import Data
 
 # Chords of the past that are shown, and how far apart they are, in cycles.
 _PAST, _APART = 9, 1.0 / 36.0
@@ -28,71 +26,36 @@ _STEPS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 90)
 # Strokes that are drawn larger than they are, peak to peak (rad).
 _SMALL = np.radians(11.0)
 
-# The largest GIF that a notebook keeps (bytes).
-_NOTEBOOK = 1_000_000
-
 
 class WingPath(FuncAnimation):
-    """An animation, saved in the format that the file's name ends in, and shown by notebooks."""
+    """An animation, which notebooks show with buttons."""
 
     def __init__(self, scene: _Scene) -> None:
         self._scene = scene
         super().__init__(scene.figure, scene.draw, frames=scene.cycle.frames, interval=40, blit=False)
 
-    def save(  # type: ignore[override]  # what it leaves out goes through `options`
-        self, filename: str | os.PathLike[str], writer: Any = None, fps: int = 25, **options: Any
+    def save(  # type: ignore[override]  # the rest goes through `options`
+        self, filename: str | os.PathLike[str], writer: Any = None, **options: Any
     ) -> None:
         """Save the animation.
 
         Parameters
         ----------
         filename : path
-            Ending in ``.gif`` (written with Pillow); in ``.html``, a page with buttons; or in anything else that
-            matplotlib's writer (ffmpeg by default) writes.
-        writer, fps, **options
-            As for matplotlib's ``Animation.save``; of the options, a GIF or page knows ``dpi`` alone.
+            Ending in ``.gif``; in ``.html``, a page with buttons; or in anything else that matplotlib's writer (ffmpeg by
+            default) writes.
+        writer, **options
+            As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
         """
         ending = Path(filename).suffix.lower()
-        if writer is None and ending in (".html", ".htm"):
-            with mpl.rc_context({"savefig.dpi": options.get("dpi", "figure")}):
-                Path(filename).write_text(self.to_jshtml(fps=fps), encoding="utf-8")
-        elif writer is None and ending == ".gif":
-            self._save_gif(filename, fps, options.get("dpi", "figure"))
-        else:
-            if writer is None or isinstance(writer, str):
-                options["fps"] = fps
-            super().save(os.fspath(filename), writer=writer, **options)
-
-    def _save_gif(self, file: str | os.PathLike[str] | BytesIO, fps: int, dpi: float | str) -> None:
-        """One palette for all frames makes a third of the size, and one drawing for each half of the time."""
-        from PIL import Image
-
-        self._draw_was_started = True  # else matplotlib warns of an animation that was never drawn
-        images: list[Any] = []
-        palette = None
-        for frame in range(self._scene.cycle.frames):
-            self._scene.draw(frame)
-            with BytesIO() as buffer:
-                self._scene.figure.savefig(buffer, format="png", dpi=dpi, facecolor=self._scene.figure.get_facecolor())
-                with Image.open(buffer) as drawn:
-                    image = drawn.convert("RGB")
-            if palette is None:
-                palette = _palette(image)
-            images.append(image.quantize(palette=palette, dither=Image.Dither.NONE))
-        first, *others = images
-        first.save(file, format="GIF", save_all=True, append_images=others, duration=round(1000 / fps), loop=0)
+        if writer is None and ending == ".gif":
+            writer = "pillow"
+        elif writer is None and ending in (".html", ".htm"):
+            writer = HTMLWriter(fps=options.get("fps", 25), embed_frames=True, default_mode="loop")
+        super().save(os.fspath(filename), writer=writer, **options)
 
     def _repr_html_(self) -> str:
-        dpi = float(self._scene.figure.dpi)
-        while True:
-            with BytesIO() as buffer:
-                self._save_gif(buffer, fps=25, dpi=dpi)
-                gif = buffer.getvalue()
-            if len(gif) <= _NOTEBOOK or dpi < 20.0:
-                break
-            # Sizes grow with the number of pixels, or a little less.
-            dpi *= max(0.5, min(0.9, (_NOTEBOOK / len(gif)) ** 0.5))
-        return f'<img src="data:image/gif;base64,{b64encode(gif).decode()}" alt="One cycle of the wing">'
+        return self.to_jshtml()
 
 
 @checked
@@ -128,7 +91,7 @@ def wing_path(
         The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
         1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
-        default as the model of the table has it.
+        default as the model of the table has it, and for a table without a model such that the trailing edge lags.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above the axes.
     ax : matplotlib Axes, optional
@@ -137,7 +100,7 @@ def wing_path(
     Returns
     -------
     WingPath
-        A matplotlib ``FuncAnimation``; `save` knows ``.gif`` and ``.html``. Notebooks show a GIF of at most 1 MB.
+        A matplotlib ``FuncAnimation``, whose `save` writes ``.gif`` and ``.html`` too.
 
     Raises
     ------
@@ -152,25 +115,12 @@ def wing_path(
     if lift is not None and lift != "lift_mn":
         data[lift]
     cycle = _Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
-    sign = _pitch_sign(data) if pitch_sign is None else pitch_sign
+    sign = _pitch_sign(data, cycle) if pitch_sign is None else pitch_sign
     if radius is None:
         swept = float(np.radians(np.ptp(cycle.stroke)))
         radius = 2.5 / swept if 0.0 < swept < _SMALL else 3.0
     with _style.style(ax):
         return WingPath(_Scene(cycle, sign, radius, legend, ax))
-
-
-def _palette(image: Any) -> Any:
-    """The most frequent colours of a picture, as they are; Pillow cannot tell apart those within a few parts in 256."""
-    from PIL import Image
-
-    chosen: list[tuple[int, ...]] = []
-    for _, colour in sorted(image.getcolors(image.width * image.height), reverse=True):
-        if all(max(abs(a - b) for a, b in zip(colour, other)) > 8 for other in chosen):
-            chosen.append(colour)
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([channel for colour in chosen[:64] for channel in colour])
-    return palette
 
 
 class _Cycle:
@@ -251,7 +201,7 @@ class _Scene:
             handles.append(self.shaft)
         above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
         look: dict[str, Any] = {"handles": handles, "ncols": 3, "borderaxespad": 0.1}
-        _legend.legend(ax, legend, self.given, inside="lower left", outside=above, **look)
+        _style.legend(ax, legend, self.given, inside="lower left", outside=above, **look)
 
     def _curves(self, ax: Axes) -> Any:
         phase = np.append(self.cycle.phase, 1.0)
@@ -313,9 +263,9 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
     return float(t[-1] - t[n - 1 - shift])
 
 
-def _pitch_sign(data: Data) -> int:
-    """1 if the trailing edge lags at a positive pitch, -1 if it leads, as in the four-bar's paper."""
-    model = data.meta.get("model")
-    if model is not None:
-        return -1 if model == "four-bar" else 1
-    return -1 if "lift_added_mass_mn" in data else 1
+def _pitch_sign(data: Data, cycle: _Cycle) -> int:
+    """1 if the trailing edge lags at a positive pitch, -1 if it leads: as the model has it, else such that it lags on average."""
+    sign = data.meta.get("pitch_sign")
+    if sign is not None:
+        return int(sign)
+    return -1 if np.sum(cycle.pitch * np.gradient(cycle.stroke)) < 0 else 1

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Sequence, overload
+from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .._mistakes import unknown
-from . import _labels, _style
+from .. import _labels
+from . import _style
 from ._checks import checked
-from ._data import Data, scattered
-from ._docs import completed
+from .._data import Data, scattered
 from ._response import Family, along
 
 #: Columns of the force (mN) and of the torque (µN·m).
@@ -33,65 +33,53 @@ class _Effects(NamedTuple):
     values: np.ndarray
 
 
-# An array, chosen inputs and given axes make a map, `x` makes panels. Otherwise the contents of the table decide.
-@overload
-def wrench(table: np.ndarray | list[Any], *, inputs: Sequence[str] | None = None, **options: Any) -> _style.Drawn: ...
-@overload
-def wrench(table: Any, *, inputs: Sequence[str], **options: Any) -> _style.Drawn: ...
-@overload
-def wrench(table: Any, *, ax: Axes, **options: Any) -> _style.Drawn: ...
-@overload
-def wrench(table: Any, *, x: str, **options: Any) -> Figure: ...
-@overload
-def wrench(table: Any, **options: Any) -> _style.DrawnOrFigure: ...
 @checked
-@completed
-def wrench(
+def control_matrix(
     table: Any,
     *,
     inputs: Sequence[str] | None = None,
-    x: str | None = None,
     where: Mapping[str, Any] | None = None,
     colorbar: bool | Axes = True,
     ax: Axes | None = None,
     **slices: Any,
-) -> Axes | Figure:
-    """Draw what inputs do to the force and torque of a vehicle.
+) -> _style.Drawn:
+    """Draw the changes of force and torque of a vehicle with its inputs, as a map.
 
-    Derivatives are drawn as a map: an input in each column, force and torque in rows, the change per unit of the input as
-    a number. Colours compare the changes of one input with each other: which force or torque it makes. 1 µN·m counts as
-    1 mN, and ``≈0`` stands for nothing, and for less than a thousandth of the input's largest change. Rows over one
-    parameter are drawn as six small panels, three forces above three torques.
+    An input is in each column, force and torque are in rows; the number is the change per unit of the input. Colours compare
+    the changes of one input with each other: which force or torque it makes. 1 µN·m counts as 1 mN, and ``≈0`` stands for
+    nothing, and for less than a thousandth of the input's largest change.
 
     Parameters
     ----------
     table : Table, array, data frame, mapping of columns, or path
         One row of `evaluate` with ``gradient=``; or what ``flap vehicle --format csv`` prints; or an array of derivatives
         with six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and a column for each of
-        `inputs`. Any other results of a vehicle become panels.
+        `inputs`.
     inputs : list of str, optional
         The inputs to show, in order. Of an array, the names of its columns.
-    x : str, optional
-        The parameter along the panels; by default the grid's axis.
-    %(where)s
-    %(colorbar)s
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+    colorbar : bool or matplotlib Axes
+        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
-        Axes to draw the map in, in the look of their figure; by default those of a new figure.
+        Axes to draw in, in the look of their figure; by default those of a new figure.
 
     Returns
     -------
-    matplotlib Axes, or Figure of the panels
+    matplotlib Axes
 
     Raises
     ------
     ValueError
-        No column of a force or torque; several rows with derivatives; an unknown input; an array of another shape.
+        No derivatives of a force or torque; several rows with derivatives; an unknown input; an array of another shape.
 
     Examples
     --------
     >>> import numpy as np
     >>> effects = np.array([[0, 0], [0, 3e-4], [7e-3, 0], [0, 7e-3], [0, 0], [0, 0]])
-    >>> ax = wrench(effects, inputs=["amplitude", "amplitude_difference"])
+    >>> ax = control_matrix(effects, inputs=["amplitude", "amplitude_difference"])
     >>> [label.get_text() for label in ax.get_yticklabels()][3]
     'Roll torque (µN·m)'
     """
@@ -99,11 +87,61 @@ def wrench(
     if effects is None:
         data = Data.of(table).slice(where, slices)
         effects = _of_gradient(data, inputs) or _of_command(data, inputs)
-        if effects is None:
-            if ax is not None:
-                raise ValueError("`ax` is for a map of derivatives; panels make a figure of their own")
-            return _panels(data, x)
+    if effects is None:
+        raise ValueError(
+            "the table has no derivatives of force and torque\n"
+            "give evaluate the argument gradient=, or draw the rows with plot.force_panels"
+        )
     return _map(effects, colorbar, ax)
+
+
+@checked
+def force_panels(
+    table: Any, *, x: str | None = None, where: Mapping[str, Any] | None = None, **slices: Any
+) -> Figure:
+    """Draw force and torque of a vehicle over one parameter: six small panels, three forces above three torques.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of a vehicle.
+    x : str, optional
+        The parameter along the panels; by default the grid's axis.
+    where, **slices
+        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
+        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+
+    Returns
+    -------
+    matplotlib Figure
+
+    Raises
+    ------
+    ValueError
+        Results that are not of a vehicle; an unknown column or value.
+    """
+    data = Data.of(table).slice(where, slices)
+    outputs = [name for name in (*FORCES, *TORQUES) if name in data]
+    if len(outputs) != 6:
+        raise ValueError(f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle")
+    x = along(data, None) if x is None else x
+    if not data.on_a_grid(x):
+        raise scattered(x)
+    data.numbers(x)
+    data = data.for_picture([x])
+    with _style.style():
+        figure = _style.new_figure(7.2, 3.9)
+        axes = figure.subplots(2, 3, sharex=True)
+        family = Family(data, data, x, None)
+        for each, name in zip(axes.flat, outputs):
+            family.draw(each, name)
+            each.axhline(0.0, color=_style.GREY, linewidth=_style.width(0.5), zorder=1)
+        family.mark(axes[0, 2])
+        for each in axes[1]:
+            each.set_xlabel(family.x.label)
+        figure.align_ylabels(axes)
+    return figure
 
 
 def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
@@ -121,16 +159,16 @@ def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
 
 def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
     """The effects in the one row of a table with derivatives."""
-    told = data.meta.get("gradient")
-    if not told:
+    gradient = data.meta.get("gradient")
+    if not gradient:
         return None
     if len(data) != 1:
         raise ValueError(f"the table has {len(data)} rows with derivatives: choose one, such as table[:1]")
-    outputs = [name for name in (*FORCES, *TORQUES) if name in told["of"]]
+    outputs = [name for name in (*FORCES, *TORQUES) if name in gradient["of"]]
     if not outputs:
-        raise ValueError(f"the table has derivatives of {', '.join(told['of'])}, and of no force or torque")
-    names = dict(zip(((of, by) for of in told["of"] for by in told["with_respect_to"]), told["columns"]))
-    by = _chosen(inputs, told["with_respect_to"])
+        raise ValueError(f"the table has derivatives of {', '.join(gradient['of'])}, and of no force or torque")
+    names = dict(zip(((of, by) for of in gradient["of"] for by in gradient["with_respect_to"]), gradient["columns"]))
+    by = _chosen(inputs, gradient["with_respect_to"])
     values = np.array([[float(data[names[of, name]][0]) for name in by] for of in outputs])
     return _Effects(outputs, [(name, _per(data.unit(names[outputs[0], name]))) for name in by], values)
 
@@ -162,14 +200,14 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
     return list(known if inputs is None else inputs)
 
 
-def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> Axes:
+def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Drawn:
     """The map of the effects, with their numbers."""
     values = effects.values
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
     shares = values / np.where(largest > 0, largest, 1.0)
     with _style.style(ax):
-        ax = _style.axes_of(ax, 2.4 + 1.15 * len(effects.inputs), 3.6)
+        ax = drawn = _style.axes_of(ax, 2.4 + 1.15 * len(effects.inputs), 3.6)
         ax.grid(False)
         mesh = ax.imshow(shares, cmap="RdBu_r", vmin=-1.0, vmax=1.0, aspect="auto")
         for row, column in np.ndindex(values.shape):
@@ -183,7 +221,7 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> Axes:
             ax.axvline(line, color="white", linewidth=_style.width(1.0))
         ax.tick_params(length=0)
         _style.colour_bar(ax, mesh, colorbar, label="Share of the input's largest change")
-    return ax
+    return drawn
 
 
 def _input(name: str, unit: str) -> str:
@@ -197,27 +235,3 @@ def _cell(value: float, share: float) -> str:
     if not np.isfinite(value):
         return "?"
     return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))
-
-
-def _panels(data: Data, x: str | None) -> Figure:
-    """Forces over torques, each over one parameter."""
-    outputs = [name for name in (*FORCES, *TORQUES) if name in data]
-    if len(outputs) != 6:
-        raise ValueError(f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle")
-    x = along(data, None) if x is None else x
-    if not data.on_a_grid(x):
-        raise scattered(x)
-    data.numbers(x)
-    data = data.for_picture([x])
-    with _style.style():
-        figure = _style.new_figure(7.2, 3.9)
-        axes = figure.subplots(2, 3, sharex=True)
-        family = Family(data, data, x, None)
-        for each, name in zip(axes.flat, outputs):
-            family.draw(each, name)
-            each.axhline(0.0, color=_style.GREY, linewidth=_style.width(0.5), zorder=1)
-        family.mark(axes[0, 2])
-        for each in axes[1]:
-            each.set_xlabel(family.x.label)
-        figure.align_ylabels(axes)
-    return figure

@@ -1,17 +1,80 @@
-"""The search for the best parameters: nonlinear least squares from several starts."""
+"""The search for the best parameters: nonlinear least squares from several starts, side by side."""
 
 from __future__ import annotations
 
+import queue
+import threading
 from dataclasses import dataclass
 from functools import partial
-from typing import Callable, Sequence
+from typing import Any, Callable, Mapping, Sequence, TypeVar
 
 import numpy as np
 
-from ._free import Space
+from .._types import Array, Mask
+from ._data import DataSet
 from ._model import Answer, Model
-from ._together import Ask, together
-from ._types import Array, Mask
+from ._parameters import Space
+
+
+_Result = TypeVar("_Result")
+
+#: A question: the model at a set of coordinates.
+Ask = Callable[[Array], Answer]
+
+
+class _Ended(Exception):
+    """The searches end, because the one that answers has."""
+
+
+def together(searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]) -> list[_Result]:
+    """The results of the searches, each of which asks for the model one set of coordinates at a time.
+
+    Searches run in threads; `answer` is called in this one, with the questions of all searches that have not ended. So
+    Ctrl-C ends all of them.
+    """
+    inbox: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
+    replies: list[queue.SimpleQueue[Answer | None]] = [queue.SimpleQueue() for _ in searches]
+
+    def work(place: int) -> None:
+        def ask(x: Array) -> Answer:
+            inbox.put((place, "asks", x.copy()))
+            reply = replies[place].get()
+            if reply is None:
+                raise _Ended
+            return reply
+
+        try:
+            inbox.put((place, "found", searches[place](ask)))
+        except _Ended:
+            pass
+        except BaseException as error:  # raised by the thread that waits
+            inbox.put((place, "failed", error))
+
+    threads = [threading.Thread(target=work, args=(place,), daemon=True) for place in range(len(searches))]
+    for thread in threads:
+        thread.start()
+    found: dict[int, _Result] = {}
+    asked: dict[int, Array] = {}
+    try:
+        while len(found) < len(searches):
+            place, kind, content = inbox.get()
+            if kind == "failed":
+                raise content
+            if kind == "found":
+                found[place] = content
+            else:
+                asked[place] = content
+            if asked and len(asked) + len(found) == len(searches):
+                places = sorted(asked)
+                answers = answer([asked[place] for place in places])
+                asked = {}
+                for place, one in zip(places, answers):
+                    replies[place].put(one)
+    finally:
+        for reply in replies:
+            reply.put(None)
+    return [found[place] for place in range(len(searches))]
+
 
 #: Tolerances of the integration: of the first looks, of the searches from all starts, and of the last one.
 LOOK, COARSE, FINE = 1e-4, 1e-5, 1e-6
@@ -184,3 +247,36 @@ def weights(residuals: Array, loss: str) -> Array:
         "arctan": lambda z: 1 / (1 + z**2),
     }
     return np.asarray(derivatives[loss](square))
+
+
+def first_guesses(sets: list[DataSet]) -> dict[str, float]:
+    """Standard errors of measures for which none is known, before a fit: a share of the largest reading."""
+    largest: dict[str, float] = {}
+    for one in sets:
+        for measure, values in one.measured.items():
+            largest[measure] = max(largest.get(measure, 0.0), float(np.abs(values).max()))
+    return {measure: 0.03 * size or 1.0 for measure, size in largest.items()}
+
+
+def new_guesses(
+    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
+) -> None:
+    """Standard errors of such measures, from the residuals."""
+    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
+    freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
+    for measure in guesses:
+        mine = used & (which == measure)
+        residuals = (answer.values - target.measured)[mine]
+        if len(residuals):
+            robust = 1.4826 * float(np.median(np.abs(residuals)))
+            spread = float(np.sqrt(np.mean(residuals**2))) if target.loss == "linear" else robust
+            guesses[measure] = max(spread / np.sqrt(freedom), 1e-9 * float(np.abs(target.measured[mine]).max()), 1e-300)
+
+
+def sigmas(sets: list[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
+    parts, begin = [], 0
+    for one in sets:
+        for measure, measured in one.measured.items():
+            parts.append(one.noise[measure].of(values[begin : begin + len(one)], measured, guesses[measure]))
+            begin += len(one)
+    return np.concatenate(parts)

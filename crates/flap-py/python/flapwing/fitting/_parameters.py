@@ -8,17 +8,16 @@ from typing import Any, Mapping, Sequence
 import numpy as np
 
 from .. import _flapwing
-from .._types import Value
-from ._columns import Names
-from ._readings import DataSet
-from ._types import Array
+from .._types import Array, Value
+from ._data import DataSet, Names
+
 
 #: Bounds of a parameter that has none, as factors on its value in the design.
 _REACH = 3.0
 
 
 @dataclass(frozen=True)
-class Free:
+class FreeParameter:
     """A free parameter of `fit`.
 
     Attributes
@@ -143,19 +142,19 @@ def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) ->
             )
 
 
-def _free_of(name: str, given: Any) -> Free:
+def _free_of(name: str, given: Any) -> FreeParameter:
     if given is None:
-        return Free()
-    if isinstance(given, Free):
+        return FreeParameter()
+    if isinstance(given, FreeParameter):
         return given
     if isinstance(given, (tuple, list)) and len(given) == 2:
-        return Free(given[0], given[1])
+        return FreeParameter(given[0], given[1])
     raise TypeError(
-        f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.Free, or None for the bounds by default"
+        f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.FreeParameter, or None for the bounds by default"
     )
 
 
-def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -> list[Coordinate]:
+def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[DataSet]) -> list[Coordinate]:
     nominal = names.nominal.get(name)
     nominal = float(nominal) if isinstance(nominal, (int, float)) and np.isfinite(nominal) else None
     low, high = (_value(names, name, bound) for bound in (free.low, free.high))
@@ -189,7 +188,7 @@ def _coordinates(name: str, free: Free, names: Names, sets: Sequence[DataSet]) -
     ]
 
 
-def _check_bounds(name: str, low: float, high: float, free: Free, unit: str) -> None:
+def _check_bounds(name: str, low: float, high: float, free: FreeParameter, unit: str) -> None:
     if low < high:
         return
     lower, upper = (
@@ -198,12 +197,12 @@ def _check_bounds(name: str, low: float, high: float, free: Free, unit: str) -> 
     )
     told = f"free[{name!r}]: the lower bound {lower} is not less than the upper one {upper}"
     if free.low is None or free.high is None:
-        help = "give both bounds"
+        remedy = "give both bounds"
     elif low == high:
-        help = f"give a range, or set the parameter by a keyword: fit(..., {name}={low:g})"
+        remedy = f"give a range, or set the parameter by a keyword: fit(..., {name}={low:g})"
     else:
-        help = "exchange them"
-    raise ValueError(f"{told}\n{help}")
+        remedy = "exchange them"
+    raise ValueError(f"{told}\n{remedy}")
 
 
 def _value(names: Names, name: str, given: Any) -> float | None:

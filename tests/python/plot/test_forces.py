@@ -45,7 +45,7 @@ def course(**columns):
 
 
 def test_an_array_is_a_map_with_its_numbers():
-    ax = drawn(plot.wrench(EFFECTS, inputs=["amplitude_difference", "bias"]))
+    ax = drawn(plot.control_matrix(EFFECTS, inputs=["amplitude_difference", "bias"]))
     assert labels(ax.yaxis) == ROWS
     assert cells(ax) == [
         ["≈0", "≈0"],
@@ -62,7 +62,7 @@ def test_an_array_is_a_map_with_its_numbers():
 
 
 def test_derivatives_are_a_map(slopes):
-    ax = drawn(plot.wrench(slopes))
+    ax = drawn(plot.control_matrix(slopes))
     assert labels(ax.yaxis) == ROWS
     assert [text.replace("\n", " ") for text in labels(ax.xaxis)] == [
         "Drive voltage, peak to peak per V",
@@ -73,7 +73,7 @@ def test_derivatives_are_a_map(slopes):
     assert float(shown[2][0]) == pytest.approx(slopes.gradient[0, 2, 0], rel=1e-2)
     assert float(shown[4][2].replace("−", "-")) == pytest.approx(slopes.gradient[0, 4, 2], rel=1e-2)
     assert (np.abs(ax.images[0].get_array()).argmax(axis=0) == [2, 3, 4]).all()
-    ax = plot.wrench(slopes, inputs=["drive_offset"])
+    ax = plot.control_matrix(slopes, inputs=["drive_offset"])
     assert cells(ax) == [[row[2]] for row in shown]
 
 
@@ -82,14 +82,14 @@ def test_what_the_command_prints_is_the_same_map(flap, tmp_path, robot, slopes):
     grid.write_text(flapwing.Grid(robot).text, encoding="utf-8")
     names = "amplitude,amplitude_difference,bias"
     file.write_text(flap("vehicle", grid, "--inputs", names, "--format", "csv").stdout, encoding="utf-8")
-    ax = drawn(plot.wrench(file))
-    assert [row[1] for row in cells(ax)] == [row[1] for row in cells(plot.wrench(slopes))]
+    ax = drawn(plot.control_matrix(file))
+    assert [row[1] for row in cells(ax)] == [row[1] for row in cells(plot.control_matrix(slopes))]
     assert labels(ax.xaxis)[0] == "Amplitude\nper V"
 
 
 def test_rows_over_an_input_are_six_panels(robot):
     table = flapwing.sweep({**robot, "axes": {"drive_offset": {"from": "-20 V", "to": "20 V", "step": "10 V"}}})
-    figure = drawn(plot.wrench(table))
+    figure = drawn(plot.force_panels(table))
     assert isinstance(figure, Figure)
     assert [ax.get_ylabel() for ax in figure.axes] == ROWS
     assert [ax.get_xlabel() for ax in figure.axes] == [""] * 3 + ["Drive offset (V)"] * 3
@@ -101,30 +101,30 @@ def test_rows_over_an_input_are_six_panels(robot):
 def test_rows_without_measures_are_gaps():
     table = course(drive_offset=np.arange(4.0))
     table["status"][1] = "unsettled"
-    figure = drawn(plot.wrench(table))
+    figure = drawn(plot.force_panels(table))
     assert np.isnan(lines(figure.axes[0])[0].get_ydata()[1])
 
 
 def test_given_axes_take_a_map():
     _, ax = plt.subplots()
-    assert plot.wrench(EFFECTS, inputs=["a", "b"], ax=ax, colorbar=False) is ax
+    assert plot.control_matrix(EFFECTS, inputs=["a", "b"], ax=ax, colorbar=False) is ax
     assert len(ax.figure.axes) == 1
 
 
 def test_mistakes_are_told_before_a_figure_is_made(slopes, robot):
-    assert "six rows" in message(ValueError, plot.wrench, EFFECTS[:5], inputs=["a", "b"])
-    assert "`inputs` names 0 columns" in message(ValueError, plot.wrench, EFFECTS)
-    told = message(ValueError, plot.wrench, slopes, inputs=["amplitude"])
+    assert "six rows" in message(ValueError, plot.control_matrix, EFFECTS[:5], inputs=["a", "b"])
+    assert "`inputs` names 0 columns" in message(ValueError, plot.control_matrix, EFFECTS)
+    told = message(ValueError, plot.control_matrix, slopes, inputs=["amplitude"])
     assert told.startswith("there is no input `amplitude`\nthere are drive_voltage_pp,")
     two = flapwing.evaluate(robot, {"drive_frequency": [110.0, 120.0]}, gradient=["drive_offset"])
-    assert "2 rows with derivatives: choose one, such as table[:1]" in message(ValueError, plot.wrench, two)
+    assert "2 rows with derivatives: choose one, such as table[:1]" in message(ValueError, plot.control_matrix, two)
     table = course(drive_offset=np.tile(np.arange(3.0), 2), drive_voltage_pp=np.repeat([180.0, 200.0], 3))
     with pytest.warns(UserWarning, match="drawn: drive_offset = 1 V, the middle of 3 values"):
-        assert len(plot.wrench(table).axes) == 6
-    assert len(plot.wrench(table, drive_voltage_pp=180.0).axes) == 6
-    _, ax = plt.subplots()
-    assert "`ax` is for a map" in message(ValueError, plot.wrench, course(drive_offset=np.arange(3.0)), ax=ax)
+        assert len(plot.force_panels(table).axes) == 6
+    assert len(plot.force_panels(table, drive_voltage_pp=180.0).axes) == 6
+    told = message(ValueError, plot.control_matrix, course(drive_offset=np.arange(3.0)))
+    assert told.startswith("the table has no derivatives of force and torque\ngive evaluate the argument gradient=")
     single = {"drive_frequency": np.arange(3.0), "lift_mean_mn": np.arange(3.0)}
-    assert "it is of no vehicle" in message(ValueError, plot.wrench, single)
+    assert "it is of no vehicle" in message(ValueError, plot.force_panels, single)
     by_power = flapwing.evaluate(robot, {"drive_offset": [0.0]}, gradient=["drive_offset"], measures=["power_mean_mw"])
-    assert "of no force or torque" in message(ValueError, plot.wrench, by_power)
+    assert "of no force or torque" in message(ValueError, plot.control_matrix, by_power)

@@ -7,18 +7,16 @@ from typing import Any, Mapping, Sequence, SupportsIndex
 
 import numpy as np
 
-from .. import _arguments
+from .. import _arguments, _flapwing
 from .._progress import Progress, shown
-from .._types import Design, Value
-from . import _errors, _free, _goodness, _identify, _profile, _readings, _search
-from ._columns import Names
-from ._estimate import Effort, Estimate, Unsettled
-from ._held import held_out, held_rows
+from .._types import Array, Design, Mask, Places, Value
+from . import _data, _intervals, _parameters, _search, _solution
+from ._data import DataSet, Names
 from ._model import Answer, Model
-from ._readings import DataSet
 from ._result import Fit
 from ._search import FINE, Found, Target
-from ._types import Array, Mask, Places
+from ._solution import Effort, Estimate, Unsettled
+
 
 #: Losses of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
@@ -43,7 +41,7 @@ def fit(
     progress: Progress = False,
     **keywords: Value,
 ) -> Fit:
-    """Fit parameters of a design to readings, and say how well the data know them.
+    """Fit parameters of a design to readings, and compute how well the data determine them.
 
     Nonlinear least squares (`scipy.optimize.least_squares`) with derivatives of the settled motions, from several starts.
     Needs SciPy.
@@ -55,7 +53,7 @@ def fit(
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         One or several data sets: parameters of the operating points, and measures. See `Readings`.
     free : list of str, or dict
-        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `Free`, or None. Values are in SI
+        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `FreeParameter`, or None. Values are in SI
         units or text with a unit. Default: from a third of the design's value to three times it.
     sigma : float, str or dict, optional
         The standard error of readings that have none of their own: a number in the measure's unit, ``"1 deg"``, or ``"3 %"``
@@ -103,16 +101,16 @@ def fit(
     _check(loss, starts, seed)
     begun = time.perf_counter()
     names = Names(_with_keywords(design, keywords))
-    sets = _readings.resolve(data, names, sigma)
-    space = _free.space(free, names, sets, keywords)
+    sets = _data.resolve(data, names, sigma)
+    space = _parameters.space(free, names, sets, keywords)
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran))
         measured = np.concatenate([values for one in sets for values in one.measured.values()])
-        held = held_rows(hold_out, sets, seed, len(measured), names)
+        held = _data.held_rows(hold_out, sets, seed, len(measured), names)
         _check_count(model, sets, len(measured) - int(held.sum()))
-        guesses = _errors.first_guesses(sets)
-        target = Target(measured, _errors.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
-        indistinct = _identify.indistinct(model, target, seed)
+        guesses = _search.first_guesses(sets)
+        target = Target(measured, _search.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
+        indistinct = _intervals.indistinct(model, target, seed)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
         made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), indistinct)
     agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
@@ -140,17 +138,17 @@ def _finish(
     quantile = _quantile(sigma_known, readings - len(model.space))
     profiles = None
     if profile:
-        profiles, better = _profile.profiles(model, target, found, covariance, quantile)
+        profiles, better = _intervals.profiles(model, target, found, covariance, quantile)
         if better is not None:
             # A lower valley on the way: the fit is there.
             target, found, answer = _settle(model, sets, target, better, guesses)
             covariance = _covariance(model, target, found, answer)
-            profiles, _ = _profile.profiles(model, target, found, covariance, quantile)
+            profiles, _ = _intervals.profiles(model, target, found, covariance, quantile)
     counted = target.used & np.isfinite(answer.values)
     difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
     scaled = np.where(counted, difference / target.sigma, np.nan)
-    residuals = _goodness.of_residuals(sets, units, difference, scaled, counted)
+    residuals = _solution.of_residuals(sets, units, difference, scaled, counted)
     priors = model.space.prior(found.x)[0]
     jacobian = target.jacobian(model.space, found.x, answer)
     made = Fit(
@@ -163,15 +161,15 @@ def _finish(
         quantile=quantile,
         sigma_known=sigma_known,
         guesses=guesses,
-        combinations=_identify.combinations(model.space, jacobian, ("best known", "worst known")),
+        combinations=_intervals.combinations(model.space, jacobian, ("best known", "worst known")),
         indistinct=indistinct,
-        goodness=_goodness.goodness(residuals, priors, len(model.space), sigma_known),
+        goodness=_solution.goodness(residuals, priors, len(model.space), sigma_known),
         unsettled=_unsettled(sets, answer, held),
         without_slopes=int((answer.gaps & counted).sum()),
         converged=found.converged,
     )
     if held.any():
-        made.held_out = held_out(sets, target, answer, held, covariance, quantile)
+        made.held_out = _solution.held_out(sets, target, answer, held, covariance, quantile)
     return made
 
 
@@ -184,8 +182,8 @@ def _settle(
         found = _search.polish(model, target, found.x)
         answer = model.at([found.x], rtol=FINE)[0]
         used = target.used & np.isfinite(answer.values)
-        _errors.new_guesses(sets, target, used, answer, len(model.space), guesses)
-        sigma = _errors.sigmas(sets, answer.values, guesses)
+        _search.new_guesses(sets, target, used, answer, len(model.space), guesses)
+        sigma = _search.sigmas(sets, answer.values, guesses)
         is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
         if is_same:
             break
@@ -200,7 +198,7 @@ def _covariance(model: Model, target: Target, found: Found, answer: Answer) -> A
 
 
 def _estimates(
-    model: Model, x: Array, covariance: Array, profiles: list[_profile.Profile] | None, quantile: float
+    model: Model, x: Array, covariance: Array, profiles: list[_intervals.Profile] | None, quantile: float
 ) -> dict[str, Estimate]:
     estimates = {}
     space = model.space
@@ -252,11 +250,11 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
     lost = _unsettled(sets, answer, held)
     told = "too few readings have a settled motion at the best parameters found: "
     for one, reading in zip(lost, _lost(answer, held)):
-        reason = model.reason(int(reading), found.x) if one.status == "invalid" else None
-        if reason is not None:
+        reason = model.reason(int(reading), found.x) if one.status == "invalid" else ""
+        if reason:
             count = sum(other.status == "invalid" for other in lost)
             return (
-                f"{told}{count} of {len(answer.values)} are invalid, first {one.set} row {one.row}, because {reason}\n"
+                f"{told}{count} of {len(answer.values)} are invalid, first {one.data_set} row {one.row}, because {reason}\n"
                 "change these parameters of the design, or give bounds in which they go together"
             )
     statuses = ", ".join(sorted({one.status for one in lost}))
@@ -271,9 +269,7 @@ def _quantile(sigma_known: bool, freedom: int) -> float:
 
 def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:
     """The design, once the keywords have been checked with it."""
-    from .._flapwing import check
-
-    check(design, keywords=dict(keywords))
+    _flapwing.check(design, keywords=dict(keywords))
     return design
 
 

@@ -1,13 +1,12 @@
-"""Tables as those of other libraries."""
+"""The columns of a table, and tables as those of other libraries."""
 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ._column import Column
 from ._flapwing import split_unit
 
 if TYPE_CHECKING:
@@ -15,9 +14,50 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
+class Column(NamedTuple):
+    """A column as the native part hands it over."""
+
+    unit: str
+    doc: str
+    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
+    cells: np.ndarray[Any, Any]
+    words: list[str] | None
+
+    @property
+    def is_flag(self) -> bool:
+        """True for a column of True, False and unknown."""
+        return self.words is None and self.cells.dtype == np.int8
+
+    def values(self) -> np.ndarray[Any, Any]:
+        """The cells as they are shown, read-only: a table stays as it was computed."""
+        if self.words is not None:
+            words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
+            values = words[self.cells]
+        elif self.is_flag:
+            known = self.known()
+            # Like an array of pandas: flags are numbers where one of them is missing.
+            values = self.flags() if known.all() else np.where(known, self.cells, np.nan)
+        else:
+            values = self.cells.view()
+        values.flags.writeable = False
+        return values
+
+    def flags(self) -> np.ndarray[Any, Any]:
+        """A column of flags as True and False; unknown ones, which `known` tells apart, are False."""
+        return np.equal(self.cells, 1)
+
+    def known(self) -> np.ndarray[Any, Any]:
+        """A mask, True for cells that hold a value."""
+        if self.is_flag:
+            return np.greater_equal(self.cells, 0)
+        if self.cells.dtype == np.float64:
+            return ~np.isnan(self.cells)
+        return np.ones(len(self.cells), dtype=np.bool_)
+
+
 #: The columns of a table by name, the axes of its grid with their values, and the origin of its rows.
 Columns = dict[str, Column]
-Dims = list[dict[str, np.ndarray[Any, Any]]]
+Axes = list[dict[str, np.ndarray[Any, Any]]]
 Meta = dict[str, Any]
 
 
@@ -65,16 +105,16 @@ def _origin(meta: Meta) -> dict[str, str]:
 
 
 def _plain(value: Any) -> Any:
-    """A value that JSON does not know, such as a number of NumPy, as one that it knows."""
+    """A value that JSON has no notation for, such as a number of NumPy, as one that it has."""
     return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else str(value)
 
 
-def to_xarray(columns: Columns, dims: Dims, meta: Meta) -> xarray.Dataset:
+def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
     """See `Table.to_xarray`."""
     import xarray
 
-    names, shape, places = _layout(columns, dims)
-    axes = {name for dim in dims for name in dim}
+    names, shape, places = _layout(columns, axes)
+    along = {name for axis in axes for name in axis}
     is_whole = len(places) == int(np.prod(shape))
 
     def spread(column: Column) -> np.ndarray[Any, Any]:
@@ -97,49 +137,49 @@ def to_xarray(columns: Columns, dims: Dims, meta: Meta) -> xarray.Dataset:
     variables = {
         name: (names, spread(column), about(name))
         for name, column in columns.items()
-        if name not in axes and not (dims and name == "point")
+        if name not in along and not (axes and name == "point")
     }
     coordinates: dict[str, Any] = {
-        name: (names[place], values, about(name)) for place, dim in enumerate(dims) for name, values in dim.items()
+        name: (names[place], values, about(name)) for place, axis in enumerate(axes) for name, values in axis.items()
     }
-    for name in _places(columns, dims):
+    for name in _places(columns, axes):
         coordinates[name] = variables.pop(name)
     return xarray.Dataset(variables, coordinates, _origin(meta))
 
 
-def _layout(columns: Columns, dims: Dims) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
+def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
     """The dimensions, their lengths, and the place of each row among all cells."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
-    if not dims:
+    if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())
         return ["time_s" if is_motion else "row"], [rows], np.arange(rows)
-    names = [next(iter(dim)) for dim in dims]
-    shape = [len(next(iter(dim.values()))) for dim in dims]
+    names = [next(iter(axis)) for axis in axes]
+    shape = [len(next(iter(axis.values()))) for axis in axes]
     if "point" in columns:
         return names, shape, columns["point"].cells.astype(np.intp)
-    indices = [_along(columns, dim, rows) for dim in dims]
+    indices = [_along(columns, axis, rows) for axis in axes]
     return names, shape, np.ravel_multi_index(indices, shape) if rows else np.zeros(0, np.intp)
 
 
-def _along(columns: Columns, dim: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
+def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
     """The place of each row along an axis, by the columns of its parameters."""
-    length = len(next(iter(dim.values())))
+    length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)
-    names = [name for name in dim if name in columns]
-    places = {key: place for place, key in enumerate(zip(*(dim[name].tolist() for name in names)))}
+    names = [name for name in axis if name in columns]
+    places = {key: place for place, key in enumerate(zip(*(axis[name].tolist() for name in names)))}
     keys = list(zip(*(columns[name].values().tolist() for name in names)))
     if len(places) < length or not all(key in places for key in keys):
         raise ValueError(
-            f"no column tells where the rows are along the axis of {', '.join(dim)}\n"
+            f"no column gives the places of the rows along the axis of {', '.join(axis)}\n"
             'keep `point` or the parameters of the axes among the columns: table[["point", …]]'
         )
     return np.array([places[key] for key in keys], np.intp)
 
 
-def _places(columns: Columns, dims: Dims) -> list[str]:
+def _places(columns: Columns, axes: Axes) -> list[str]:
     """The columns that say where a row is on its curve or in time, in a table without axes."""
-    if dims:
+    if axes:
         return []
     names = list(columns)
     if names[:1] == ["time_s"]:

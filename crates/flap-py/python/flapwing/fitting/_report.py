@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from html import escape
+from typing import Sequence
 
 import numpy as np
 
-from ._estimate import Estimate
-from ._solution import Solution
-from ._predict import table
+from ._solution import Estimate, Solution
+
 
 #: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above the
 #: third, standard errors are called too large.
@@ -77,7 +77,7 @@ def _verdict(one: Estimate) -> str:
 def _remarks(fit: Solution) -> list[str]:
     told = [f"cannot be told by such data: {one}" for one in fit.indistinct]
     if fit.unsettled:
-        listed = ", ".join(f"{one.set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
+        listed = ", ".join(f"{one.data_set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
         count = len(fit.unsettled)
         subject = "1 reading does" if count == 1 else f"{count} readings do"
@@ -111,7 +111,7 @@ def _quality(fit: Solution) -> list[str]:
         if one.is_structured:
             p = min(one.p_runs, one.p_neighbours)
             lines.append(
-                f"residuals of {one.measure} in {one.set} are STRUCTURED (p = {p:.1g}): neighbours err alike, so the model lacks "
+                f"residuals of {one.measure} in {one.data_set} are STRUCTURED (p = {p:.1g}): neighbours err alike, so the model lacks "
                 "something there, and errors and intervals are too small"
             )
     if fit.held_out is not None:
@@ -128,7 +128,7 @@ def _residuals(fit: Solution) -> tuple[list[str], list[list[str]]]:
     rows = []
     for one in fit.goodness.residuals:
         largest = float(np.nanmax(np.abs(one.values))) if np.isfinite(one.values).any() else np.nan
-        rows.append([one.set, one.measure, str(one.count), f"{one.rms:.3g}", f"{largest:.3g}", one.unit])
+        rows.append([one.data_set, one.measure, str(one.count), f"{one.rms:.3g}", f"{largest:.3g}", one.unit])
     return heads, rows
 
 
@@ -144,3 +144,13 @@ def _course(fit: Solution) -> list[str]:
         f"{one.agreed} of {one.starts} starts ended at this fit; "
         f"{one.points:,} points with {one.rhs_evals:.3g} right-hand sides in {one.seconds:.1f} s"
     ]
+
+
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Lines of columns."""
+    widths = [max(len(line[place]) for line in [heads, *rows]) for place in range(len(heads))]
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows]
+    )
+
+

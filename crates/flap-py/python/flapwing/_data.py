@@ -9,10 +9,12 @@ from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
-from .._flapwing import quantity, usual_measure
-from .._mistakes import listed as names_listed
-from .._mistakes import reading, refused, unknown
 from . import _labels
+from ._flapwing import quantity, usual_measure
+from ._mistakes import listed as names_listed
+from ._mistakes import reading, refused, unknown
+from ._sweep import read
+from ._table import Table
 
 # Statuses whose rows have measures.
 MEASURED = ("periodic", "unstable")
@@ -24,11 +26,12 @@ class Data:
     """Columns of equal length with their units, and which of them are the axes of a grid."""
 
     def __init__(
-        self, columns: Mapping[str, Any], units: Mapping[str, str], dims: list[list[str]], meta: Mapping[str, Any]
+        self, columns: Mapping[str, Any], units: Mapping[str, str], grid_axes: list[list[str]], meta: Mapping[str, Any]
     ) -> None:
         self.columns = dict(columns)
         self.units = units
-        self.dims = dims
+        #: The names of the parameters along each axis of the grid; empty for rows of no grid.
+        self.grid_axes = grid_axes
         self.meta = meta
 
     @classmethod
@@ -37,9 +40,7 @@ class Data:
         if isinstance(data, Data):
             return data
         if isinstance(data, (str, os.PathLike)):
-            import flapwing
-
-            data = flapwing.read(data)
+            data = read(data)
         allowed = "it must be a flapwing.Table, a data frame, a mapping of columns or a path"
         with reading("table", data, allowed):
             has_names = hasattr(data, "columns") or hasattr(data, "keys")
@@ -49,12 +50,11 @@ class Data:
             names = [str(name) for name in (data.columns if hasattr(data, "columns") else data.keys())]
             columns = {name: _column(data[name]) for name in names}
             units = getattr(data, "units", None)
-            dims = getattr(data, "dims", None) or []
             meta = getattr(data, "meta", None)
         return cls(
             columns,
             units if isinstance(units, Mapping) else {},
-            [list(dim) for dim in dims] if isinstance(dims, (list, tuple)) else [],
+            [list(axis) for axis in data.axes] if isinstance(data, Table) else [],
             meta if isinstance(meta, Mapping) else {},
         )
 
@@ -78,7 +78,7 @@ class Data:
 
     def rows(self, mask: np.ndarray) -> Data:
         """Those rows alone."""
-        return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.dims, self.meta)
+        return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.grid_axes, self.meta)
 
     def unit(self, name: str) -> str:
         """The unit of a column, as flap writes it."""
@@ -96,8 +96,8 @@ class Data:
     def parameters(self) -> list[str]:
         """The columns that say which point a row is: those of the grid's axes, else those left of the status."""
         names = list(self.columns)
-        if self.dims:
-            return [name for dim in self.dims for name in dim if name in self.columns]
+        if self.grid_axes:
+            return [name for axis in self.grid_axes for name in axis if name in self.columns]
         if "status" in names:
             names = names[: names.index("status")]
             return [name for name in names if name not in _NOT_PARAMETERS]
@@ -155,8 +155,8 @@ class Data:
 
     def axes(self) -> list[str]:
         """One parameter for each axis with more than one value; parameters that follow others are not axes."""
-        if self.dims:
-            firsts = [next((name for name in dim if name in self.columns), "") for dim in self.dims]
+        if self.grid_axes:
+            firsts = [next((name for name in axis if name in self.columns), "") for axis in self.grid_axes]
             return [name for name in firsts if name and len(distinct(self.columns[name])) > 1]
         kept: list[str] = []
         combinations = 1
@@ -172,22 +172,22 @@ class Data:
         names = list(self.columns)
         if "branch" not in names or names[-1] == "branch":
             return None
-        return str(self.meta.get("along") or names[names.index("branch") + 1])
+        return str(self.meta.get("parameter") or names[names.index("branch") + 1])
 
     def axis(self, name: str) -> str:
         """The axis that a parameter belongs to: with parameters that move together, the first of them."""
-        for dim in self.dims:
-            if name in dim:
-                return next(member for member in dim if member in self.columns)
+        for axis in self.grid_axes:
+            if name in axis:
+                return next(member for member in axis if member in self.columns)
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
         """A parameter's values: if it has an axis of its own, those without a row in this slice of `whole` too."""
-        return distinct((whole if [name] in self.dims else self)[name])
+        return distinct((whole if [name] in self.grid_axes else self)[name])
 
     def on_a_grid(self, name: str) -> bool:
         """True if a parameter has an axis; those of a ``[sample]`` are scattered."""
-        return not any(name in dim for dim in self.dims if dim[0] not in self.columns)
+        return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
         """A number per row, equal for rows that agree in all of these columns."""

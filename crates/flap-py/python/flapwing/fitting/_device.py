@@ -12,6 +12,7 @@ import numpy as np
 from .. import _flapwing
 from ._solution import Solution
 
+
 #: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
 
@@ -33,23 +34,23 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     """The text of a device."""
     fitted = _fitted(fit, data_set)
     names = fit._model.names
-    base = {name: value for name, value, *_ in _flapwing.params(names.grid.preset)}
+    base = {parameter["name"]: parameter["value"] for parameter in _flapwing.params(names.grid.preset)}
     good = fit.goodness
     readings = sum(one.count for one in good.residuals)
     quality = f"chi-square {good.chi_square:.4g} for {good.freedom} degrees of freedom"
-    before, sources = _flapwing.origins(names.grid)
-    described = "; ".join(part for part in (_FITTED.sub("", before), f"fitted to {readings} readings, {quality}") if part)
+    origins = _flapwing.origins(names.grid)
+    described = "; ".join(part for part in (_FITTED.sub("", origins["description"]), f"fitted to {readings} readings, {quality}") if part)
     lines = [
         f"description = {_text(described)}",
         f'preset = "{names.grid.preset}"',
         "",
         "[params]",
     ]
-    errors, pairs = _flapwing.uncertainty(names.grid)
+    before = _flapwing.uncertainty(names.grid)
     # A value that is fitted or set anew has another error and another source, or none.
     anew = {*fitted, *fit._model.keywords}
-    kept = {name: error for name, error in errors if name not in anew}
-    told = {name: source for name, source in sources if name not in anew}
+    kept = {name: error for name, error in before["errors"].items() if name not in anew}
+    told = {name: source for name, source in origins["sources"].items() if name not in anew}
     for name, value in _set(fit).items():
         known_by = [f"sd = {kept[name]!r}"] if name in kept else []
         known_by += [f"source = {_text(told[name])}"] if name in told else []
@@ -67,7 +68,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
             lines.append(f'{name} = {{ value = {one.value!r}, sd = {one.error!r}, source = "fitted{doubt}" }}')
         else:
             lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
-    coefficients = [pair for pair in pairs if pair[0] in kept and pair[1] in kept]
+    coefficients = [
+        (*one["between"], one["coefficient"]) for one in before["correlations"] if all(name in kept for name in one["between"])
+    ]
     correlations = fit.correlations
     for number, (name, row) in enumerate(known):
         for other, column in known[:number]:

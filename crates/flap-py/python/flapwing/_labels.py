@@ -7,7 +7,7 @@ from typing import Iterator
 
 import numpy as np
 
-from .._flapwing import better, printed, scale, split_unit, unit_of, words
+from ._flapwing import better, printed, scale, split_unit, unit_of, words
 
 __all__ = ["better", "label", "lowered", "number", "printed", "readable", "split_unit", "titled", "unit_of", "words", "wrapped"]
 

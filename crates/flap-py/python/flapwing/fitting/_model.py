@@ -1,4 +1,4 @@
-"""The model of a fit: readings at many sets of parameters, in one batch."""
+"""The model of a fit: readings at many sets of parameters, in one batch, also on branches of hysteresis."""
 
 from __future__ import annotations
 
@@ -11,11 +11,86 @@ from .. import _flapwing
 from .._evaluate import evaluate
 from .._point import run
 from .._table import Table
-from ._branch import Way, states_along
-from ._columns import Names
-from ._free import Space
-from ._readings import DataSet
-from ._types import Array, Mask, Places
+from .._types import Array, Mask, Places
+from ._data import DataSet, Names
+from ._parameters import Space
+
+
+#: The longest step along a way, as a share of the parameter: between readings that are farther apart there are more.
+_STEP = 0.02
+
+
+@dataclass(frozen=True)
+class Way:
+    """Points that were run one after another, as a parameter rises or falls."""
+
+    parameter: str
+    falls: bool
+    rows: Places
+
+
+def states_along(
+    ways: Sequence[Way],
+    columns: Mapping[str, Any],
+    rows: int,
+    times: int,
+    names: Sequence[str],
+    run: Callable[..., Table],
+) -> dict[str, Array] | None:
+    """The states from which motions on the ways begin; None if there are no ways.
+
+    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`. The
+    ways of all of them are followed side by side, a point of each in a batch.
+    """
+    if not ways:
+        return None
+    curves = [curve for way in ways for copy in range(times) for curve in _curves(way, columns, copy * rows)]
+    begin = {name: np.full(rows * times, np.nan) for name in names}
+    last: dict[int, dict[str, float]] = {}
+    for step in range(max(len(curve) for curve in curves)):
+        here = [(number, curve[step]) for number, curve in enumerate(curves) if step < len(curve)]
+        chosen = [place for _, (place, _, _) in here]
+        batch = {name: _taken(values, chosen) for name, values in columns.items()}
+        for position, (_, (_, along, value)) in enumerate(here):
+            batch[along][position] = value
+        states = {
+            name: np.array([last[number][name] if number in last else np.nan for number, _ in here]) for name in names
+        }
+        table = run(batch, return_states=True, initial_state=states)
+        for position, (number, (place, along, value)) in enumerate(here):
+            state = {name: float(table[name][position]) for name in names}
+            if all(np.isfinite(component) for component in state.values()):
+                last[number] = state
+            if value == columns[along][place]:
+                for name in names:
+                    begin[name][place] = last.get(number, state)[name]
+    return begin
+
+
+def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
+    """The points along a way, for each group that differs in other parameters: the row, the parameter and its value."""
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for row in way.rows + offset:
+        key = tuple(values[row] for name, values in columns.items() if name != way.parameter)
+        groups.setdefault(key, []).append(int(row))
+    curves = []
+    for group in groups.values():
+        group.sort(key=lambda row: float(columns[way.parameter][row]), reverse=way.falls)
+        curve: list[tuple[int, str, float]] = []
+        for row in group:
+            value = float(columns[way.parameter][row])
+            if curve:
+                before = curve[-1][2]
+                between = int(abs(value - before) / (_STEP * max(abs(value), abs(before), 1e-300)))
+                curve += [(row, way.parameter, one) for one in np.linspace(before, value, between + 2)[1:-1].tolist()]
+            curve.append((row, way.parameter, value))
+        curves.append(curve)
+    return curves
+
+
+def _taken(values: Any, places: list[int]) -> Any:
+    return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]
+
 
 #: The tolerances of the integration and of settling for states from which motions begin: near the motion is enough.
 _NEARBY, _SETTLED = 1e-4, 1e-4
@@ -112,11 +187,13 @@ class Model:
         }
         nearby = self._run({**keywords, **loose}, measures[:1])
         begin = states_along(ways, columns, rows, len(xs), self.names.states, nearby)
-        table = self._run(keywords, measures)(columns, begin=begin, gradient=self.space.parameters if slopes else None)
+        table = self._run(keywords, measures)(
+            columns, initial_state=begin, gradient=self.space.parameters if slopes else None
+        )
         return self._split(table, asked, rows, xs, slopes)
 
-    def reason(self, reading: int, x: Array) -> str | None:
-        """The reason why the point of a reading is impossible at a set of coordinates; None if it is not."""
+    def reason(self, reading: int, x: Array) -> str:
+        """The reason why the point of a reading is impossible at a set of coordinates; empty if it is not."""
         of_set, row = self.asked.of_set[reading], self.asked.row[reading]
         free = {
             one.parameter: float(value)
@@ -124,8 +201,7 @@ class Model:
             if one.of_set in (None, of_set)
         }
         point = {name: values[row] for name, values in self.points.items()}
-        reason = run(self.names.grid, **{**self.keywords, **point, **free})["reason"]
-        return None if reason is None else str(reason)
+        return run(self.names.grid, **{**self.keywords, **point, **free}).reason
 
     def _run(self, keywords: Mapping[str, Any], measures: list[str]) -> Callable[..., Table]:
         def rows(columns: Mapping[str, Any], **options: Any) -> Table:
@@ -200,7 +276,7 @@ def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list
     ways, begin = [], 0
     for one in sets:
         if one.branch is not None:
-            ways.append(Way(one.along, one.branch == "down", np.arange(begin, begin + len(one))))
+            ways.append(Way(one.parameter, one.branch == "down", np.arange(begin, begin + len(one))))
         begin += len(one)
     return points, ways
 

@@ -1,0 +1,174 @@
+"""The dictionaries that the native part returns."""
+
+from __future__ import annotations
+
+from typing import Any, TypedDict
+
+import numpy as np
+
+Floats = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class NativeColumn(TypedDict):
+    """A column of a table."""
+
+    name: str
+    unit: str
+    doc: str
+    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
+    cells: np.ndarray[Any, Any]
+    words: list[str] | None
+
+
+class NativeSummary(TypedDict, total=False):
+    """Counts of a run; empty if nothing was left to run."""
+
+    rows: int
+    counts: dict[str, int]
+    excluded: int
+    unsatisfied: dict[str, int]
+    cycles: int
+    rhs_evals: int
+    #: The first few invalid points with the reason.
+    invalid: list[tuple[int, str]]
+
+
+class NativeTable(TypedDict, total=False):
+    """A table: without `columns` if its rows are in a file."""
+
+    columns: list[NativeColumn]
+    summary: NativeSummary
+    axes: list[dict[str, Any]]
+    meta: dict[str, Any]
+    #: The number of all designs of a response.
+    designs: int
+    #: Units that a file records, by column.
+    units: dict[str, str]
+    warnings: list[str]
+    verified: bool
+
+
+class NativeRow(TypedDict):
+    """The row of a point; see `flapwing.Row`."""
+
+    status: str
+    measures: dict[str, float]
+    cycles: int
+    residual: float
+    period: int
+    floquet_max: float
+    stable: bool | float
+    error_estimate: float
+    rhs_evals: int
+    reason: str
+
+
+class NativeParameter(TypedDict):
+    """A parameter; see `flapwing.Parameter`."""
+
+    name: str
+    value: float | str
+    unit: str
+    symbol: str
+    doc: str
+    allowed: str
+    options: list[str]
+
+
+class NativeMeasure(TypedDict):
+    """A measure; see `flapwing.Measure`."""
+
+    name: str
+    unit: str
+    doc: str
+
+
+class NativePeak(TypedDict):
+    """See `flapwing.DrivenPeak`."""
+
+    frequency_hz: float
+    stroke_pp_deg: float
+    pitch_pp_deg: float
+
+
+class NativeSine(TypedDict):
+    """See `flapwing.DampedSine`."""
+
+    frequency_hz: float
+    decay_1_s: float
+    relative_rms: float
+
+
+class NativeGap(TypedDict):
+    """See `flapwing.FrequencyGap`."""
+
+    start_hz: float
+    stop_hz: float
+    status: str
+
+
+class NativeResonances(TypedDict):
+    """See `flapwing.Resonances`."""
+
+    linear_hz: dict[str, float]
+    impulse_fit: NativeSine | None
+    stroke_spectrum_hz: list[float]
+    pitch_spectrum_hz: list[float]
+    driven: list[NativePeak]
+    larger_at_hz: float
+    gaps: list[NativeGap]
+
+
+class NativeCorrelation(TypedDict):
+    """The correlation of two parameters."""
+
+    between: list[str]
+    coefficient: float
+
+
+class NativeUncertainty(TypedDict):
+    """Standard errors by parameter, in SI units, and correlations."""
+
+    errors: dict[str, float]
+    correlations: list[NativeCorrelation]
+
+
+class NativeOrigins(TypedDict):
+    """The description of a design, and the sources of its parameters by name."""
+
+    description: str
+    sources: dict[str, str]
+
+
+class NativeColours(TypedDict):
+    """The colours of pictures."""
+
+    series: list[str]
+    branches: dict[str, str]
+    dark: str
+    plain: str
+    missing: str
+    bistable: str
+
+
+class NativeWays(TypedDict):
+    """Bands in which two ways differ, and the rows of each after which it jumps to the other."""
+
+    bands: list[tuple[float, float]]
+    up: list[int]
+    down: list[int]
+
+
+class NativeBars(TypedDict):
+    """A histogram: ends of the bars, their heights, and pairs of a percentage and the value at it."""
+
+    edges: Floats
+    counts: Floats
+    percentiles: list[tuple[int, float]]
+
+
+class NativeIdentity(TypedDict):
+    """The identity of a process, which decides the bits of its rows."""
+
+    build: str
+    arithmetic: str

@@ -1,0 +1,299 @@
+"""Numbers about results: sensitivities, rank correlations and Pareto fronts. `flapwing.plot` draws them.
+
+    >>> from flapwing import analysis
+    >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
+    [True, True, False]
+
+`non_dominated` needs moocore: ``pip install "flapwing[analysis]"``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Iterable, Mapping
+
+import numpy as np
+
+from ._data import Data, is_text
+from ._evaluate import evaluate
+from ._flapwing import correlations
+from ._listing import measures, params
+from ._mistakes import unknown
+from ._results import Parameter
+from ._types import Mask
+
+__all__ = ["RankCorrelation", "Sensitivity", "non_dominated", "rank_correlations", "sensitivities"]
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """The change of a measure with one parameter.
+
+    Attributes
+    ----------
+    parameter : str
+        The parameter's name.
+    value : float
+        Its value in the design, in SI units.
+    below, above : float
+        The lower and the upper value tried, in SI units.
+    measure : str
+        The measure's name.
+    base : float
+        The measure of the design itself, in the measure's unit.
+    low, high : float
+        The measure with the lower and with the upper value; nan if there is no periodic motion.
+    unit, measure_unit : str
+        The units of the parameter and of the measure.
+    """
+
+    parameter: str
+    value: float
+    below: float
+    above: float
+    measure: str
+    base: float
+    low: float
+    high: float
+    unit: str
+    measure_unit: str
+
+    @property
+    def swing(self) -> float:
+        """The larger of the two changes of the measure, without its sign; infinite if both are unknown."""
+        changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
+        return max(changes, default=math.inf)
+
+
+def sensitivities(
+    design: str,
+    measure: str,
+    parameters: Mapping[str, float | tuple[float, float]] | Iterable[str] | None = None,
+    *,
+    change: float = 0.05,
+    **fixed: Any,
+) -> list[Sensitivity]:
+    """Change each parameter of a design slightly, down and up, and compute the change of a measure.
+
+    Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
+    that follow the one that is changed, such as the bias that follows the voltage.
+
+    Parameters
+    ----------
+    design : str
+        A preset.
+    measure : str
+        A measure of its model.
+    parameters : mapping or iterable of str, optional
+        The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
+        By default all numbers that are not zero, except those that follow others and those that cannot take such
+        values, such as whole numbers.
+    change : float
+        The relative change of parameters that have none of their own.
+    **fixed
+        Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options.
+        Solver settings, as for `flapwing.evaluate`.
+
+    Returns
+    -------
+    list of Sensitivity
+        By falling `swing`.
+
+    Raises
+    ------
+    ValueError
+        Unknown design, measure or parameter; a change of zero; a design whose motion is not periodic.
+
+    Examples
+    --------
+    >>> (found,) = sensitivities("ozaki2018-large", "lift_mean_mn", {"drive_voltage_pp": 0.1})
+    >>> found.high > found.base > found.low
+    True
+    """
+    known = params(design)
+    ranges = _ranges(known, parameters, change, fixed)
+    # A parameter that is both given and changed has its number from the row of the design itself.
+    both = {name: value for name, value in fixed.items() if name in ranges}
+    others = {name: value for name, value in fixed.items() if name not in ranges}
+    free = (name for name, each in known.items() if each.is_number and name not in fixed)
+    base = evaluate(design, both or {(name := next(free)): known[name].value}, **others)
+    if measure not in base:
+        raise unknown("measure", measure, measures(design))
+    start = float(base[measure][0])
+    if math.isnan(start):
+        raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
+    found = []
+    for name, spread in ranges.items():
+        value = float(base[name][0]) if name in both else float(known[name].value)
+        below, above = spread if isinstance(spread, tuple) else sorted((value * (1 - spread), value * (1 + spread)))
+        if below == above and parameters is None:
+            continue
+        if below == above:
+            raise ValueError(f"`{name}` is {value:g}, which no relative change alters: give the two values to try")
+        unchanged = {other: given for other, given in fixed.items() if other != name}
+        rows = evaluate(design, {name: np.array([below, above])}, **unchanged)
+        if parameters is None and (rows["status"] == "invalid").all():
+            continue
+        low, high = (float(each) for each in rows[measure])
+        units = (known[name].unit, base.units.get(measure, ""))
+        found.append(Sensitivity(name, value, below, above, measure, start, low, high, *units))
+    return sorted(found, key=lambda each: (-each.swing, each.parameter))
+
+
+def _ranges(
+    known: Mapping[str, Parameter], parameters: Any, change: float, fixed: Mapping[str, Any]
+) -> dict[str, float | tuple[float, float]]:
+    """The relative change, or the two values, of each parameter."""
+    if parameters is None:
+        chosen: dict[str, Any] = {
+            name: change
+            for name, parameter in known.items()
+            if parameter.is_number and (name in fixed or parameter.value != 0.0)
+        }
+    elif isinstance(parameters, Mapping):
+        chosen = dict(parameters)
+    else:
+        chosen = dict.fromkeys([parameters] if isinstance(parameters, str) else parameters, change)
+    for name, spread in chosen.items():
+        if name not in known:
+            raise unknown("parameter", name, known)
+        if name not in fixed and not known[name].is_number:
+            value = known[name].value
+            if isinstance(value, float):
+                raise ValueError(f"`{name}` is not set in this preset: give it a value, as in `{name}=…`")
+            raise ValueError(f"`{name}` is {value!r}: only numbers can be changed by a little")
+        if isinstance(spread, (tuple, list)):
+            if len(spread) != 2:
+                raise ValueError(f"`{name}` needs two values to try, not {len(spread)}")
+            chosen[name] = (float(spread[0]), float(spread[1]))
+        elif not 0 < float(spread) < math.inf:
+            raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
+    return chosen
+
+
+@dataclass(frozen=True)
+class RankCorrelation:
+    """The rank correlation (Spearman) of a parameter with a measure.
+
+    Attributes
+    ----------
+    parameter : str
+        The parameter's name.
+    correlation : float
+        From -1 (a larger parameter always means a smaller measure) to 1.
+    measure : str
+        The measure's name.
+    designs : int
+        The number of designs that have the measure.
+    """
+
+    parameter: str
+    correlation: float
+    measure: str
+    designs: int
+
+
+def rank_correlations(
+    table: Any,
+    measure: str | None = None,
+    parameters: Iterable[str] | None = None,
+    *,
+    where: Mapping[str, Any] | None = None,
+    **slices: Any,
+) -> list[RankCorrelation]:
+    """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
+
+    Equal values share the mean of their ranks. A parameter that follows an earlier one, in its order or in the reverse of
+    it, is left out, as is one that has the same value in all designs.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of a sample, or of a grid.
+    measure : str, optional
+        A column of numbers. By default the mean lift, or another measure of the table.
+    parameters : iterable of str, optional
+        Parameters, or any columns of numbers. By default all parameters of the table.
+    where, **slices
+        The rows to compare, as for `flapwing.plot.histogram`.
+
+    Returns
+    -------
+    list of RankCorrelation
+        By falling size of the correlation.
+
+    Raises
+    ------
+    ValueError
+        An unknown column or value; no design that has the measure; no parameter that varies.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = {
+    ...     "hinge_stiffness": np.array([1.0, 2.0, 3.0, 4.0]),
+    ...     "status": np.array(["periodic"] * 4),
+    ...     "lift_mean_mn": np.array([9.0, 7.0, 8.0, 5.0]),
+    ... }
+    >>> [(found.parameter, round(found.correlation, 2)) for found in rank_correlations(table)]
+    [('hinge_stiffness', -0.8)]
+    """
+    data = Data.of(table).slice(where, slices).one_sample()
+    measure = data.usual("benefit", "measure") if measure is None else measure
+    values = np.where(data.measured(), data.numbers(measure), np.nan)
+    designs = int(np.isfinite(values).sum())
+    if not designs:
+        raise ValueError(f"no row has a number for `{measure}`")
+    names = _parameters(data) if parameters is None else list(parameters)
+    columns = [np.ascontiguousarray(data.numbers(name)) for name in names]
+    found = correlations(columns, np.ascontiguousarray(values))
+    if not found:
+        raise ValueError("no parameter has several values in these rows: there is nothing to compare")
+    return [RankCorrelation(names[place], size, measure, designs) for place, size in found]
+
+
+def _parameters(data: Data) -> list[str]:
+    """The parameters that are numbers, those of a sample first."""
+    names = [name for name in data.parameters() if not is_text(data[name])]
+    return sorted(names, key=data.on_a_grid)
+
+
+def non_dominated(costs: Any) -> Mask:
+    """Mark the points that are not dominated, where smaller is better in every column.
+
+    A point is dominated if another is nowhere larger and somewhere smaller. Equal points do not dominate each other.
+
+    Parameters
+    ----------
+    costs : array_like, shape (n, k)
+        A row per point, a column per objective, k >= 1; negate what is to be large.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+        True for the points of the front; False where a cost is NaN.
+
+    Raises
+    ------
+    ValueError
+        `costs` is not two-dimensional.
+    ImportError
+        moocore is not installed.
+
+    Examples
+    --------
+    >>> non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0], [3.0, 3.0]]).tolist()
+    [True, True, False, False]
+    """
+    try:
+        import moocore
+    except ImportError:
+        raise ImportError('non_dominated needs moocore: pip install "flapwing[analysis]", or pip install moocore') from None
+    costs = np.asarray(costs, dtype=float)
+    if costs.ndim != 2 or costs.shape[1] < 1:
+        raise ValueError(f"costs must have shape (n, k), not {costs.shape}")
+    front: Mask = ~np.isnan(costs).any(axis=1)
+    if front.any():
+        front[front] = moocore.is_nondominated(costs[front], keep_weakly=True)
+    return front

@@ -1,0 +1,275 @@
+"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Sequence
+
+import numpy as np
+
+from .._types import Array
+from ._model import Answer, Model
+from ._parameters import Coordinate, Space
+from ._search import FINE, NOTHING, Ask, Found, Target, minimise, sobol, together
+
+
+#: Values that are tried on each side.
+_TRIES = 6
+
+#: Values between the estimate and the end of the interval that are added to the ends, as shares of the way.
+_BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
+
+#: How near to the wanted height a profile comes.
+_NEAR = 0.03
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The profile likelihood of a parameter.
+
+    Attributes
+    ----------
+    value : array
+        Values of the parameter in SI units, rising.
+    rise : array
+        The signed root of the rise of the cost, in standard errors: 0 at the estimate, about a straight line if the
+        parameter is well known.
+    low, high : float
+        Ends of the 95 % interval, in SI units.
+    open_below, open_above : bool
+        True where the interval goes on to the end of the range: the data do not bound the parameter there.
+    """
+
+    value: Array
+    rise: Array
+    low: float
+    high: float
+    open_below: bool
+    open_above: bool
+
+    @property
+    def is_flat(self) -> bool:
+        """True if the data bound the parameter on neither side, or on one only."""
+        return self.open_below or self.open_above
+
+
+@dataclass(frozen=True)
+class _Side:
+    """One side of a profile: coordinates, heights and whether the end of the range came first."""
+
+    x: list[float]
+    height: list[float]
+    end: float
+    is_open: bool
+    best: Found | None
+
+
+@dataclass(frozen=True)
+class _Walks:
+    """The fit from which profiles begin: its target, its estimate, and the height at which they end."""
+
+    space: Space
+    target: Target
+    found: Found
+    covariance: Array
+    height: float
+
+    def side(self, ask: Ask, held: int, way: float) -> _Side:
+        """The profile to one side, up to the height or to the end of the range."""
+        here = self.found.x[held]
+        end = self.space.high[held] if way > 0 else self.space.low[held]
+        error = np.sqrt(self.covariance[held, held])
+        # Others move with it as the derivatives at the estimate say.
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slope = self.covariance[:, held] / self.covariance[held, held]
+        slope = np.where(np.isfinite(slope), slope, 0.0)
+        step = self.height * error if np.isfinite(error) and error > 0 else np.inf
+        inner, outer = (0.0, 0.0), None
+        side = _Side([], [], float(here), False, None)
+        best: Found | None = None
+        reached, is_open = here, False
+        # The cost is to be known to a part of its rise.
+        tolerance = float(np.clip(0.02 / max(self.found.cost, 1e-300), 1e-8, 1e-3))
+        for _ in range(_TRIES):
+            limit = abs(end - here)
+            step = min(step, limit)
+            x = np.clip(self.found.x + slope * way * step, self.space.low, self.space.high)
+            x[held] = here + way * step
+            tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
+            if tried.cost < self.found.cost - 1e-3 and (best is None or tried.cost < best.cost):
+                best = tried
+            rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost))))
+            side.x.append(float(here + way * step))
+            side.height.append(rise)
+            if rise < self.height and step >= limit:
+                is_open = True
+                break
+            reached = here + way * step
+            if abs(rise - self.height) < _NEAR * self.height:
+                reached = here + way * step * self.height / rise
+                break
+            if rise < self.height:
+                inner = (step, rise)
+            else:
+                outer = (step, rise)
+            if outer is None:
+                step = step * min(4.0, self.height / max(rise, 0.25 * self.height)) * 1.02
+            else:
+                share = (self.height - inner[1]) / (outer[1] - inner[1])
+                step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
+                reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
+        if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * self.height):
+            # It ends at the end of the range, or hardly rises.
+            reached, is_open = end, True
+        for share in _BETWEEN:
+            self._between(ask, held, share, tried.x, side, tolerance)
+        return _Side(side.x, side.height, float(reached), is_open, best)
+
+    def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
+        """A further value of a profile, on the way to the one that was tried last."""
+        x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
+        tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
+        side.x.append(float(x[held]))
+        side.height.append(float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost)))))
+
+
+def profiles(
+    model: Model, target: Target, found: Found, covariance: Array, height: float
+) -> tuple[list[Profile], Found | None]:
+    """The profiles of all coordinates up to `height` standard errors; and a better fit, if one came up."""
+    space = model.space
+    walks = _Walks(space, target, found, covariance, height)
+    sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
+
+    def answer(xs: list[Array]) -> list[Answer]:
+        return model.at(xs, rtol=FINE)
+
+    ends = together(sides, answer)
+    better = min((side.best for side in ends if side.best is not None), key=lambda one: one.cost, default=None)
+    made = []
+    for held, coordinate in enumerate(space.coordinates):
+        below, above = ends[2 * held], ends[2 * held + 1]
+        x = np.array([*below.x, found.x[held], *above.x])
+        rise = np.array([*(-np.array(below.height)), 0.0, *above.height])
+        order = np.argsort(x)
+        values = np.asarray(coordinate.value(x[order]))
+        low, high = coordinate.value(below.end), coordinate.value(above.end)
+        if values[0] > values[-1]:
+            values, rise, order = values[::-1], -rise[order][::-1], np.arange(len(values))
+            made.append(Profile(values, rise, high, low, above.is_open, below.is_open))
+        else:
+            made.append(Profile(values, rise[order], low, high, below.is_open, above.is_open))
+    return made, better
+
+
+#: Sets of parameters that are looked at, and those of them that count.
+_SETS_LOOKED_AT, _PLACES = 6, 4
+
+#: The tolerance of the integration for it.
+_RTOL = 1e-7
+
+#: A parameter that changes all readings by less than this share of their standard errors over its whole range changes none.
+_EFFECT = 1e-2
+
+#: The share of the largest component below which one is left out of words.
+_SHARE = 0.05
+
+
+def indistinct(model: Model, target: Target, seed: int) -> list[str]:
+    """Directions that the readings cannot tell at any values of the parameters: a sentence for each.
+
+    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind tell the
+    parameters apart. A product of parameters has one and the same null space in logarithms at all of these sets, a sum in
+    the parameters themselves: then derivatives under each other have it too.
+    """
+    space = model.space
+    looks = sobol(space, _SETS_LOOKED_AT, seed)
+    answers = model.at(looks, rtol=_RTOL)
+    # A motion that does not settle tells nothing: the sets with most readings.
+    settled = sorted(range(len(looks)), key=lambda place: -np.isfinite(answers[place].values).sum())[:_PLACES]
+    jacobians = [target.jacobian(space, looks[place], answers[place]) for place in settled]
+    ranges = space.high - space.low
+    idle = np.linalg.norm(np.concatenate(jacobians), axis=0) * ranges < _EFFECT
+    told = [f"{label} changes no reading" for label, is_idle in zip(space.labels, idle) if is_idle]
+    active = np.flatnonzero(~idle)
+    jacobians = [jacobian[:, active] for jacobian in jacobians]
+    if not len(active):
+        return told
+    wanted = min(len(_null(jacobian)) for jacobian in jacobians)
+    slopes = [space.slopes(looks[place])[active] for place in settled]
+    scales = np.array([one.slope(0.0) for one in space.coordinates])[active]
+    linear = [jacobian / slope * scales for jacobian, slope in zip(jacobians, slopes)]
+    for matrix, where in (
+        (np.concatenate(jacobians), ""),
+        (np.concatenate(linear), " of their values in the design"),
+        (jacobians[0], " about where they are"),
+    ):
+        null = _null(matrix)
+        if wanted and len(null) >= wanted:
+            for direction in _sparse(null):
+                whole = np.zeros(len(space))
+                whole[active] = direction
+                told.append(f"{_in_words(space, whole)}{where} changes no reading")
+            break
+    return told
+
+
+def _null(jacobian: Array) -> Array:
+    """The directions that change nothing."""
+    lengths = np.linalg.norm(jacobian, axis=0)
+    lengths[lengths == 0.0] = 1.0
+    _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
+    sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
+    return np.asarray(directions[sizes < NOTHING * sizes[0]] / lengths)
+
+
+def _sparse(directions: Array) -> list[Array]:
+    """Combinations of directions with as few parameters as elimination makes them."""
+    rows = [row / np.abs(row).max() for row in directions]
+    for place in range(len(rows)):
+        pivot = int(np.argmax(np.abs(rows[place])))
+        rows[place] = rows[place] / rows[place][pivot]
+        for other in range(len(rows)):
+            if other != place:
+                rows[other] = rows[other] - rows[other][pivot] * rows[place]
+    return [row / np.abs(row).max() for row in rows if np.abs(row).max() > 0]
+
+
+def _in_words(space: Space, direction: Array) -> str:
+    """A direction in words: what changes together, with the largest share 1 %."""
+    largest = int(np.argmax(np.abs(direction)))
+    scaled = direction / direction[largest]
+    named = []
+    for place in np.argsort(-np.abs(scaled), kind="stable"):
+        if abs(scaled[place]) < _SHARE:
+            continue
+        way = "up" if scaled[place] > 0 else "down"
+        one = space.coordinates[place]
+        size = _size(one, 0.01 * abs(float(scaled[place])))
+        named.append(f"{one.label} {way} by {size}")
+    return " with ".join([named[0], ", ".join(named[1:])]) if len(named) > 1 else named[0]
+
+
+def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
+    """The best and the worst known combination of parameters, in words: the error is that of the parameter named first."""
+    if len(space) < 2:
+        return []
+    _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
+    told = []
+    for label, place in zip(labels, (0, -1)):
+        direction = directions[place]
+        if sizes[place] <= NOTHING * sizes[0]:
+            error = "not known at all"
+        else:
+            largest = int(np.argmax(np.abs(direction)))
+            error = f"known to {_size(space.coordinates[largest], abs(direction[largest]) / sizes[place])}"
+        told.append(f"{label}: {_in_words(space, direction)}, {error}")
+    return told
+
+
+def _size(one: Coordinate, change: float) -> str:
+    """A change of a coordinate in words."""
+    if not one.log:
+        return f"{change * one.width:.2g} {one.unit}".rstrip()
+    return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

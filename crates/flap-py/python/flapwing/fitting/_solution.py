@@ -1,0 +1,342 @@
+"""The solution of a fit, of which its predictions, its report and its device are made; tests of its residuals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Mapping, Sequence
+
+import numpy as np
+
+from .._types import Array, Mask, Places
+from ._data import DataSet
+from ._intervals import Profile
+from ._model import Answer, Model
+from ._search import Target
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """The estimate of a parameter.
+
+    Attributes
+    ----------
+    parameter, unit : str
+        The parameter and its SI unit.
+    value : float
+        The value, in SI units.
+    error : float
+        Standard error, by the derivatives at the estimate.
+    low, high : float
+        Ends of the 95 % interval, by the profile likelihood if it was computed.
+    open_below, open_above : bool
+        True where the interval goes on to the end of the range: the data do not bound the parameter there.
+    profile : Profile or None
+        The profile likelihood, if it was computed.
+    at_bound : bool
+        True if the estimate is at an end of its range.
+    """
+
+    parameter: str
+    unit: str
+    value: float
+    error: float
+    low: float
+    high: float
+    open_below: bool
+    open_above: bool
+    profile: Profile | None
+    at_bound: bool
+
+    @property
+    def is_known(self) -> bool:
+        """True if the data bound the parameter on both sides."""
+        return not (self.open_below or self.open_above) and bool(np.isfinite(self.error))
+
+
+@dataclass(frozen=True)
+class Unsettled:
+    """A reading that does not count, because the model's motion does not settle there.
+
+    Attributes
+    ----------
+    data_set, measure : str
+        The data set and the measure.
+    row : int
+        The row in the data set, from 1.
+    status : str
+        The status of the motion.
+    """
+
+    data_set: str
+    measure: str
+    row: int
+    status: str
+
+
+@dataclass(frozen=True)
+class HeldOut:
+    """Readings that were held out, and predicted.
+
+    Attributes
+    ----------
+    count : int
+        Number of readings.
+    rms : dict of str to float
+        Root of the mean square of the errors of prediction by measure, in its unit.
+    covered : float
+        The share of the readings in their 95 % bands, noise included.
+    """
+
+    count: int
+    rms: dict[str, float]
+    covered: float
+
+
+@dataclass(frozen=True)
+class Effort:
+    """The work of a fit.
+
+    Attributes
+    ----------
+    starts : int
+        Number of searches.
+    agreed : int
+        Number of searches that ended at the best fit.
+    points : int
+        Number of design points that were run.
+    rhs_evals : int
+        Evaluations of the equations of motion.
+    seconds : float
+        Time (s).
+    """
+
+    starts: int
+    agreed: int
+    points: int
+    rhs_evals: int
+    seconds: float
+
+
+#: The probability below which residuals are called structured, shared among all tests.
+_SIGNIFICANT = 0.01
+
+#: Residuals below which nothing is tested.
+_FEWEST = 8
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """The residuals of a measure in a data set.
+
+    Attributes
+    ----------
+    data_set : str
+        Name of the data set.
+    measure, unit : str
+        The measure and its unit.
+    values : array
+        Model less reading, in the measure's unit; nan where the motion does not settle.
+    scaled : array
+        The same in standard errors.
+    rms : float
+        Root of the mean square, in the measure's unit.
+    count : int
+        Number of readings that count.
+    p_runs, p_neighbours : float
+        The probability of as few changes of sign, and of neighbours as alike, if residuals are noise.
+    is_structured : bool
+        True if residuals follow a pattern: the model lacks something.
+    """
+
+    data_set: str
+    measure: str
+    unit: str
+    values: Array
+    scaled: Array
+    rms: float
+    count: int
+    p_runs: float
+    p_neighbours: float
+    is_structured: bool = False
+
+
+@dataclass(frozen=True)
+class Goodness:
+    """The quality of a fit.
+
+    Attributes
+    ----------
+    chi_square : float
+        Sum of the squares of the residuals in standard errors.
+    freedom : int
+        Degrees of freedom.
+    p : float
+        The probability of so large a sum of squares, if the model is right and standard errors are as given; nan if
+        standard errors are estimated.
+    residuals : list of Residuals
+        The residuals by data set and measure.
+    """
+
+    chi_square: float
+    freedom: int
+    p: float
+    residuals: list[Residuals]
+
+    @property
+    def is_structured(self) -> bool:
+        """True if residuals follow a pattern: the model lacks something."""
+        return any(one.is_structured for one in self.residuals)
+
+
+def order(points: Mapping[str, Array | list[str]]) -> Places:
+    """The order of a data set's rows in which neighbours are alike: along the parameter with most values, others outside."""
+    numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
+    if not numbers:
+        return np.arange(len(next(iter(points.values()), [])))
+    names = sorted(numbers, key=lambda name: -len(np.unique(numbers[name])))
+    return np.lexsort([numbers[name] for name in names])
+
+
+def of_residuals(
+    sets: Sequence[DataSet], units: Mapping[str, str], values: Array, scaled: Array, used: Mask
+) -> list[Residuals]:
+    """The residuals by data set and measure."""
+    found, begin = [], 0
+    for one in sets:
+        for measure in one.measured:
+            part = slice(begin, begin + len(one))
+            begin += len(one)
+            counts = used[part] & np.isfinite(values[part])
+            in_order = order(one.points) if one.points else np.arange(len(one))
+            noise = scaled[part][in_order][counts[in_order]]
+            rms = float(np.sqrt(np.mean(values[part][counts] ** 2))) if counts.any() else np.nan
+            p_runs, p_neighbours = _runs(noise), _neighbours(noise)
+            found.append(
+                Residuals(
+                    one.name,
+                    measure,
+                    units[measure],
+                    values[part].copy(),
+                    scaled[part].copy(),
+                    rms,
+                    int(counts.sum()),
+                    p_runs,
+                    p_neighbours,
+                )
+            )
+    limit = _SIGNIFICANT / max(1, 2 * len(found))
+    return [
+        Residuals(**{**vars(one), "is_structured": bool(min(one.p_runs, one.p_neighbours) < limit)}) for one in found
+    ]
+
+
+def _runs(noise: Array) -> float:
+    """The probability of so few runs of one sign (Wald and Wolfowitz)."""
+    from scipy.stats import norm
+
+    signs = noise[noise != 0] > 0
+    above, below = int(signs.sum()), int((~signs).sum())
+    count = above + below
+    if count < _FEWEST:
+        return 1.0
+    if min(above, below) == 0:
+        return float(2.0**-count)
+    runs = 1 + int(np.count_nonzero(signs[1:] != signs[:-1]))
+    mean = 1 + 2 * above * below / count
+    variance = (mean - 1) * (mean - 2) / (count - 1)
+    return float(norm.cdf((runs + 0.5 - mean) / np.sqrt(max(variance, 1e-12))))
+
+
+def _neighbours(noise: Array) -> float:
+    """The probability of neighbours so alike: the correlation of each residual with the next."""
+    from scipy.stats import norm
+
+    count = len(noise)
+    square = float(noise @ noise)
+    if count < _FEWEST or square == 0.0:
+        return 1.0
+    likeness = float(noise[1:] @ noise[:-1]) / square
+    return float(norm.sf(likeness * np.sqrt(count)))
+
+
+def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_known: bool) -> Goodness:
+    """The quality of a fit from its residuals, with those of what was known beforehand."""
+    from scipy.stats import chi2
+
+    scaled = [one.scaled[np.isfinite(one.scaled)] for one in residuals]
+    total = float(sum(part @ part for part in scaled) + priors @ priors)
+    freedom = sum(len(part) for part in scaled) + len(priors) - parameters
+    p = float(chi2.sf(total, freedom)) if sigma_known and freedom > 0 else np.nan
+    return Goodness(total, freedom, p, residuals)
+
+
+def held_out(
+    sets: Sequence[DataSet], target: Target, answer: Answer, held: Mask, covariance: Array, quantile: float
+) -> HeldOut:
+    """The errors of prediction of readings that were held out."""
+    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
+    error = answer.values - target.measured
+    known = np.where(np.isfinite(covariance), covariance, 0.0)
+    of_model = np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)
+    inside = np.abs(error) <= quantile * np.sqrt(target.sigma**2 + np.maximum(0.0, of_model))
+    settled = held & np.isfinite(error)
+    rms = {
+        str(measure): float(np.sqrt(np.mean(error[settled & (which == measure)] ** 2)))
+        for measure in dict.fromkeys(which[settled].tolist())
+    }
+    return HeldOut(int(held.sum()), rms, float(np.mean(inside[held])))
+
+
+class Solution:
+    """Estimates with their uncertainty, and the model and the data that they are of; see `Fit`."""
+
+    def __init__(
+        self,
+        *,
+        model: Model,
+        sets: list[DataSet],
+        x: Array,
+        covariance: Array,
+        information: Array,
+        estimates: dict[str, Estimate],
+        quantile: float,
+        sigma_known: bool,
+        guesses: Mapping[str, float],
+        combinations: list[str],
+        indistinct: list[str],
+        goodness: Goodness,
+        unsettled: list[Unsettled],
+        without_slopes: int,
+        converged: bool,
+    ) -> None:
+        self.estimates, self.combinations, self.indistinct = estimates, combinations, indistinct
+        self.goodness, self.unsettled, self.without_slopes, self.converged = (
+            goodness,
+            unsettled,
+            without_slopes,
+            converged,
+        )
+        self.sigma_known = sigma_known
+        self.held_out: HeldOut | None = None
+        self.effort = Effort(1, 1, 0, 0, 0.0)
+        self._model, self._sets, self._x, self._quantile = model, sets, x, quantile
+        self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """The fitted values of parameters that all data sets share, in SI units: ``run(design, **fit.values)``."""
+        space = self._model.space
+        return {one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None}
+
+    @property
+    def covariance(self) -> Array:
+        """The covariance of the estimates in SI units; infinite for what is not known."""
+        slopes = self._model.space.slopes(self._x)
+        return np.asarray(self._covariance * np.outer(slopes, slopes))
+
+    @property
+    def correlations(self) -> Array:
+        """The correlations of the estimates."""
+        errors = np.sqrt(np.diag(self._covariance))
+        with np.errstate(invalid="ignore"):
+            return np.asarray(self._covariance / np.outer(errors, errors))
