@@ -170,7 +170,9 @@ def main() -> None:
         figure = picture.get_figure(root=True)
         assert figure is not None
         save(figure, folder / f"py-{name}.png", name not in MAPS)
-    wing_path().save(folder / "py-wing-path.gif", dpi=56)
+    path = folder / "py-wing-path.gif"
+    wing_path().save(path, dpi=56)
+    share_colours(path)
     plt.close("all")
 
 
@@ -184,6 +186,18 @@ def save(figure: Figure, path: Path, few: bool) -> None:
     if few:
         drawn = drawn.quantize(256, dither=Image.Dither.NONE)
     drawn.save(path, optimize=True)
+
+
+def share_colours(path: Path) -> None:
+    """A GIF in which all frames have the colours of the first: a third of the size."""
+    from PIL import Image, ImageSequence
+
+    with Image.open(path) as animation:
+        duration = animation.info["duration"]
+        frames = [frame.convert("RGB") for frame in ImageSequence.Iterator(animation)]
+    colours = frames[0].quantize(64, dither=Image.Dither.NONE)
+    first, *others = [frame.quantize(palette=colours, dither=Image.Dither.NONE) for frame in frames]
+    first.save(path, save_all=True, append_images=others, duration=duration, loop=0)
 
 
 if __name__ == "__main__":
