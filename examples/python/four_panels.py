@@ -47,6 +47,7 @@ def four_panels() -> Figure:
 
     figure, ((a, b), (c, d)) = plt.subplots(2, 2, figsize=(7.0, 5.0), layout="constrained")
     plot.response(large[large["drive_voltage_pp"] % 20 == 0], "lift_mean_mn", hinge_stiffness=9e-5, ax=a)
+    a.set_ylim(0.0, 8.0)  # room for the legend above the curves
     plot.heatmap(large, "efficiency_gf_per_w", drive_voltage_pp=100, ax=b)
     plot.pareto(large, maximize="lift_mean_mn", minimize="power_mean_mw", color="drive_frequency", ax=c)
     plot.hysteresis(loop, ax=d)
