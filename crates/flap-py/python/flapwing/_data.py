@@ -136,7 +136,7 @@ class Data:
         return data
 
     def _at_the_middle(self, axes: Sequence[str]) -> Data:
-        """The rows at the middle value of each of these axes; a warning tells the values."""
+        """The rows at the middle value of each of these axes; a warning gives the values."""
         data = self
         for name in axes:
             values = distinct(data[name])
@@ -314,7 +314,7 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """The error for a parameter that has no axis, and is asked for as one."""
+    """The error for a parameter that has no axis, and is named as one."""
     return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.scatter draws such designs")
 
 

@@ -51,7 +51,7 @@ def evaluate(
         units or of options, or one value for all points. A masked array must have no masked values. Of a `Table`, or of
         some of its rows, the parameters are taken, and its measures are left out.
     threads : int, optional
-        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
@@ -63,7 +63,7 @@ def evaluate(
     gradient : list of str, optional
         Parameters by which rows have derivatives of their measures while the motion stays settled. `Table.gradient` is
         an array of them, of the shape n x measures x parameters: in the unit of the measure's column per SI unit of the
-        parameter. They replace those of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
+        parameter. They replace the derivatives of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
         row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides which motion is

@@ -21,7 +21,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Returns
     -------
     dict of str to Parameter
-        By name, in the order of the model's table. Those of a vehicle follow those of its model.
+        By name, in the order of the model's table. A vehicle's own parameters follow the parameters of its model.
 
     Raises
     ------
@@ -74,7 +74,7 @@ def states(design: Design, /) -> dict[str, State]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        As for `params`. A vehicle has those of each wing, with the wing's name in front.
+        As for `params`. A vehicle has the states of each wing, with the wing's name in front.
 
     Returns
     -------

@@ -110,7 +110,7 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """Ends the server. The page says that it is gone."""
+        """End the server. The page then shows that the server is gone."""
         self._server.stop()
 
 

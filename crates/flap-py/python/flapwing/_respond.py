@@ -56,7 +56,7 @@ def respond(
     return_states : bool, optional
         Add columns of the state at the beginning of a drive period of each motion, for `initial_state` of `evaluate`.
     threads : int, optional
-        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of

@@ -51,10 +51,10 @@ class Row(Mapping[str, Any]):
         parameter is in range, but together they are impossible).
     measures : dict of str to float
         The measures, each named after its quantity, its kind of measure and its unit: ``stroke_pp_deg``,
-        ``lift_mean_mn``, ``power_mean_mw``; then those of the grid's ``[measure]``, of which conditions are bool. All are
-        nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
+        ``lift_mean_mn``, ``power_mean_mw``; then the measures of the grid's ``[measure]``, of which conditions are bool.
+        All are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
     cycles : int
-        Drive periods integrated, those of the measurement included.
+        Drive periods integrated, including the measurement.
     residual : float
         Change of the state over the last period of the motion, in the units of settle_tol. nan if no period was
         completed.
@@ -209,7 +209,7 @@ class DampedSine:
     decay_1_s : float
         Decay (1/s).
     relative_rms : float
-        Root mean square of the residuals, relative to that of the stroke.
+        Root mean square of the residuals, relative to the root mean square of the stroke.
     """
 
     frequency_hz: float

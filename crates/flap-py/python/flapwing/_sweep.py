@@ -49,7 +49,7 @@ def sweep(
         Replace the results in `out`, which stay until the new ones are complete. By default an existing
         file is an error, unless it is empty or holds the complete rows of the same grid: then nothing is run.
     threads : int, optional
-        Threads, 1 or more; with `client`, those of each task. Default: one per core; with `client`, 1. Rows do not
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of

@@ -64,12 +64,12 @@ class Table:
     ----------
     axes : list of dict
         The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
-        with their values, which are read-only. Empty if the rows are not those of a grid with axes.
+        with their values, which are read-only. Empty for rows without a grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
         call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
-        points with the reason; `keywords`, those of the call, which replace values of the grid. Tables of some of the rows or columns
+        points with the reason; `keywords` of the call, which replace values of the grid. Tables of some of the rows or columns
         have copies of them, with `rows` and `counts` of their own.
     """
 
@@ -206,7 +206,7 @@ class Table:
     def gradient(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Derivatives of the measures, of the shape rows x measures x parameters.
 
-        ``meta["gradient"]`` has the names of both, in order, and that of each column. Derivatives are in the unit of the
+        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. Derivatives are in the unit of the
         measure's column per SI unit of the parameter; of a grid's ``[gradient]``, per per cent of it. One that is not
         known is nan, and the column ``gradient_gap`` has the reason.
         """
@@ -230,7 +230,7 @@ class Table:
         """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
 
         Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`, and the entries of `meta` as
-        text, those that are no text as JSON. Columns that are not copied
+        text, or as JSON if they are not text. Columns that are not copied
         are read-only: ``frame.copy()`` may be changed.
         """
         return _columns.to_pandas(self._columns, self.meta)
@@ -263,8 +263,8 @@ class Table:
         that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
         coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
         that have no row, because the grid excludes them, are nan, 0 or empty text; flags are float64 then. Rows find their places by
-        `point`, or by the parameters of the axes; without either the order of the rows would say nothing, and a ValueError
-        tells so. The attributes of the Dataset are the entries of `meta`, those that are no text as JSON.
+        `point`, or by the parameters of the axes; without either, a ValueError is raised. The attributes of the Dataset are
+        the entries of `meta`, as JSON if they are not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

@@ -47,14 +47,14 @@ class Wing(_Entries):
     mirrored : bool, optional
         True for a wing on the right: the image of the wing at `position`, behind the plane of x and z.
     preset, device : str, path, optional
-        The design of the wing, if it is not that of the vehicle: a preset by its name, or a device file by its path.
+        The design of the wing, if it differs from the vehicle's design: a preset by its name, or a device file by its path.
     params : dict, optional
         Parameters that this wing has of its own.
 
     Raises
     ------
     TypeError
-        A value of the wrong type. Other mistakes are told by `Vehicle`, with their place.
+        A value of the wrong type. `Vehicle` reports other mistakes, with their place.
 
     Examples
     --------
@@ -112,8 +112,8 @@ class Vehicle(_Entries):
 
     It is a mapping of the entries of a grid file with a section ``[vehicle]``, so that a dictionary with more sections is
     a grid. Parameters of the model hold for all wings; ``left_NAME`` is that of the wing `left` alone, and
-    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Wings do not feel each other,
-    and the body is held still. Axes of the body: x forward, y to the left, z up.
+    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Interaction between
+    wings is left out, and the body is held still. Axes of the body: x forward, y to the left, z up.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ class Vehicle(_Entries):
             vehicle["total_mass"] = total_mass
         vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
         self._held["vehicle"] = vehicle
-        # Mistakes are told here, with their place.
+        # Mistakes are reported here, with their place.
         self._preset = Grid(self._held).preset
 
     def __repr__(self) -> str:
@@ -189,7 +189,7 @@ def _design(design: Any) -> dict[str, Any]:
     if isinstance(design, os.PathLike) or (isinstance(design, str) and os.path.exists(design)):
         return {"device": os.fspath(design)}
     if isinstance(design, str):
-        # Told as a mistake in a grid, with the presets there are; a path as a file that is not there.
+        # Reported as a mistake in a grid, with the names of the presets; a path as a file that is missing.
         return {"device" if design.endswith(".toml") or os.path.basename(design) != design else "preset": design}
     allowed = "it must be the name of a preset, the path of a device, or a dictionary of grid entries"
     raise refused("design", design, allowed)

@@ -352,12 +352,12 @@ class Readings:
     ----------
     columns : dict, Table, DataFrame or path
         Columns of the operating points and of measures, or a CSV file of them. A column has the name of a parameter or a
-        measure; its unit is SI or that of the measure, another one in the name (``drive_frequency_khz``,
+        measure; its unit is SI or the unit of the measure, another one in the name (``drive_frequency_khz``,
         ``hinge_stiffness (uN*m/rad)``), or one in each cell (``"0.12 kHz"``). ``frequency_hz`` stands for
         ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors, in the measure's
         unit or as ``"3 %"``.
     name : str, optional
-        The name in reports. Default: that of the file, or the number of the data set.
+        The name in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional
         The standard error of a reading: a number in the measure's unit, ``"1 deg"`` or ``"3 %"`` of the model's value; or
         such by measure. Without one it is estimated from the residuals.

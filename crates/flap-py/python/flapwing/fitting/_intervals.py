@@ -177,10 +177,10 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, seed: int) -> list[str]:
-    """Directions that the readings cannot tell at any values of the parameters: a sentence for each.
+    """Directions that no reading can distinguish at any values of the parameters: a sentence for each.
 
-    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind tell the
-    parameters apart. A product of parameters has one and the same null space in logarithms at all of these sets, a sum in
+    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind distinguish
+    the parameters. A product of parameters has one and the same null space in logarithms at all of these sets, a sum in
     the parameters themselves: then derivatives under each other have it too.
     """
     space = model.space

@@ -26,7 +26,7 @@ class FreeParameter:
         Bounds, in SI units or with a unit. Default: a third of the design's value, and three times it. The first search
         begins at the design's value, or in the middle of the bounds if it is outside of them.
     prior : (value, error), optional
-        What is known of it beforehand, and its standard error: in SI units, with a unit, or the error as ``"5 %"``.
+        A value known beforehand, and its standard error: in SI units, with a unit, or the error as ``"5 %"``.
     per_set : bool
         True if each data set has a value of its own, as of a wing that was changed between experiments.
     """

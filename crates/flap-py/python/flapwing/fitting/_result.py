@@ -274,9 +274,9 @@ class Fit(Solution):
         target : str or dict
             A parameter, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency": 110}``.
         count : int
-            Readings wanted. A point may come twice: a repeated reading tells more too.
+            Readings wanted. A point may come twice: a repeated reading adds information too.
         measures : list of str, optional
-            Measures that could be read. Default: those of the data.
+            Measures that could be read. Default: the measures of the data.
 
         Returns
         -------

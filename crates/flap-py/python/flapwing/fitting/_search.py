@@ -99,7 +99,7 @@ class Target:
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
         """Model less reading in standard errors, then what is known beforehand.
 
-        A reading where the motion does not settle counts as that of a wing at rest: so large that the search avoids it.
+        A reading where the motion does not settle counts as a reading of a wing at rest: so large that the search avoids it.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]

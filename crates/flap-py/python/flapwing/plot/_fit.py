@@ -31,7 +31,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Parameters
     ----------
     result : Fit
-        What `flapwing.fit` returned.
+        The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
         One of the three pictures. Default: all of them.
 

@@ -65,8 +65,8 @@ def heatmap(
         A colour map of matplotlib. By default viridis; for values of both signs a map that is white at zero, with a
         line there.
     vmin, vmax : float, optional
-        The ends of the colours, in the unit of the colour bar; by default those of the values. An arrow of the colour
-        bar says that there are values beyond an end.
+        The ends of the colours, in the unit of the colour bar; by default the ends of the values. An arrow at an
+        end of the colour bar marks values beyond it.
     where, **slices
         Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
         with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
@@ -78,7 +78,7 @@ def heatmap(
         False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
         Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
-        By default those of a new figure.
+        Default: axes of a new figure.
 
     Returns
     -------

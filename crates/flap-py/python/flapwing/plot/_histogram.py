@@ -42,7 +42,7 @@ def histogram(
         neither drawn nor chosen is fixed at its middle value, which a warning gives.
     ax : matplotlib Axes, optional
         Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
-        By default those of a new figure.
+        Default: axes of a new figure.
 
     Returns
     -------

@@ -48,7 +48,7 @@ def hysteresis(
         and inside axes that are given.
     ax : matplotlib Axes, optional
         Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
-        By default those of a new figure.
+        Default: axes of a new figure.
 
     Returns
     -------

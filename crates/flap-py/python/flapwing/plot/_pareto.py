@@ -31,8 +31,8 @@ def pareto(
 ) -> _style.Drawn:
     """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
-    Designs without a periodic motion, or with a NaN among the objectives, are left out. The front's designs are
-    those of `flapwing.analysis.non_dominated`. With two objectives a stepped line bounds the values that they reach; with more they have
+    Designs without a periodic motion, or with a NaN among the objectives, are left out. `flapwing.analysis.non_dominated`
+    computes the front. With two objectives a stepped line bounds the values that they reach; with more they have
     rings.
 
     Parameters
@@ -57,7 +57,7 @@ def pareto(
         False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
         Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
-        By default those of a new figure.
+        Default: axes of a new figure.
 
     Returns
     -------

@@ -57,7 +57,7 @@ def response(
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure; by default those of a new figure.
+        Axes to draw in, in the look of their figure; by default axes of a new figure.
 
     Returns
     -------

@@ -53,7 +53,7 @@ def scatter(
         False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
     ax : matplotlib Axes, optional
         Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
-        By default those of a new figure.
+        Default: axes of a new figure.
 
     Returns
     -------

@@ -79,7 +79,7 @@ def trajectory(
     Raises
     ------
     ValueError
-        An unknown column; signals of several units, portraits, or a unit that is not that of the motions in it, with `ax`.
+        An unknown column; signals of several units, portraits, or, with `ax`, another unit than the motions in it.
 
     Examples
     --------
