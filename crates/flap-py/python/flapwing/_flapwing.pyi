@@ -418,7 +418,7 @@ def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None =
 def identity() -> NativeIdentity:
     """The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`."""
 
-def command(line: Sequence[str]) -> int:
+def command(line: list[str]) -> int:
     """Runs a command line, whose first word is the name of the program, and returns the exit code."""
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable:
