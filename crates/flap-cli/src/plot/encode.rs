@@ -1,11 +1,11 @@
-//! Formats of picture files.
+//! Formats of picture files: SVG, and PNG.
 
 use std::path::Path;
 
+use kuva::backend::raster::RasterBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::render::render::Scene;
+use kuva::render::render::{Primitive, Scene};
 
-use super::raster;
 use crate::failure::Failure;
 
 /// The format of a picture file.
@@ -19,7 +19,7 @@ pub(super) enum Format {
 pub(super) fn bytes(scene: Scene, format: Format) -> Result<Vec<u8>, String> {
     match format {
         Format::Svg => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
-        Format::Png => raster::bytes(scene),
+        Format::Png => png(scene),
     }
 }
 
@@ -42,4 +42,274 @@ pub(super) fn format(out: &Path) -> Result<Format, Failure> {
 /// The ending of a name in small letters; empty if there is none.
 pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
+}
+
+/// Pixels per unit of a picture's size.
+const SCALE: u32 = 2;
+
+/// Most pixels of a picture that is drawn larger and averaged.
+const MOST_PIXELS: f64 = 1e8;
+
+/// A picture as PNG, with [`SCALE`] times as many pixels each way as it has units.
+///
+/// It is drawn twice as large and averaged, for smooth lines and points.
+fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
+    scene.elements = scene.elements.into_iter().flat_map(dashes).collect();
+    let turned = take_turned(&mut scene);
+    let fine = 2 * SCALE;
+    let is_large = scene.width * scene.height * f64::from(fine * fine) > MOST_PIXELS;
+    let draw = |scene: &Scene| {
+        let scale = if is_large { SCALE } else { fine };
+        Image::read(&RasterBackend::new().with_scale(scale as f32).render_scene(scene)?)
+    };
+    let mut image = draw(&scene)?;
+    if let Some(turned) = turned {
+        image.darken_turned(&draw(&turned)?);
+    }
+    if is_large { image.write() } else { image.halved().write() }
+}
+
+/// An image of rows of pixels, three or four bytes each.
+struct Image {
+    width: usize,
+    height: usize,
+    channels: usize,
+    bytes: Vec<u8>,
+}
+
+impl Image {
+    fn read(png: &[u8]) -> Result<Image, String> {
+        let mut reader =
+            png::Decoder::new(std::io::Cursor::new(png)).read_info().map_err(|error| error.to_string())?;
+        let size = reader.output_buffer_size().ok_or("an image too large")?;
+        let mut bytes = vec![0; size];
+        let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+        let channels = info.color_type.samples();
+        Ok(Image { width: info.width as usize, height: info.height as usize, channels, bytes })
+    }
+
+    /// Lays dark marks on white over the image, after a quarter turn to the left.
+    fn darken_turned(&mut self, marks: &Image) {
+        for row in 0..self.height.min(marks.width) {
+            for column in 0..self.width.min(marks.height) {
+                let from = (column * marks.width + marks.width - 1 - row) * marks.channels;
+                let to = (row * self.width + column) * self.channels;
+                for channel in 0..3 {
+                    let share = u16::from(marks.bytes[from + channel]) * u16::from(self.bytes[to + channel]);
+                    #[expect(clippy::cast_possible_truncation, reason = "a share of a byte is a byte")]
+                    let darker = ((share + 127) / 255) as u8;
+                    self.bytes[to + channel] = darker;
+                }
+            }
+        }
+    }
+
+    /// Every pixel the mean of two by two.
+    fn halved(&self) -> Image {
+        let (width, height) = (self.width / 2, self.height / 2);
+        let mut bytes = Vec::with_capacity(width * height * 3);
+        let at = |row: usize, column: usize, channel: usize| {
+            u16::from(self.bytes[(row * self.width + column) * self.channels + channel])
+        };
+        for row in (0..2 * height).step_by(2) {
+            for column in (0..2 * width).step_by(2) {
+                for channel in 0..3 {
+                    let sum = at(row, column, channel)
+                        + at(row + 1, column, channel)
+                        + at(row, column + 1, channel)
+                        + at(row + 1, column + 1, channel);
+                    #[expect(clippy::cast_possible_truncation, reason = "a mean of bytes is a byte")]
+                    bytes.push(((sum + 2) / 4) as u8);
+                }
+            }
+        }
+        Image { width, height, channels: 3, bytes }
+    }
+
+    /// The bytes of the pixels' colours.
+    fn opaque(&self) -> Vec<u8> {
+        self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
+    }
+
+    fn write(&self) -> Result<Vec<u8>, String> {
+        let side = |length: usize| u32::try_from(length).map_err(|error| error.to_string());
+        let mut png = Vec::new();
+        let mut encoder = png::Encoder::new(&mut png, side(self.width)?, side(self.height)?);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::High);
+        // Flat colours repeat byte by byte.
+        encoder.set_filter(png::Filter::NoFilter);
+        let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+        writer.write_image_data(&self.opaque()).map_err(|error| error.to_string())?;
+        writer.finish().map_err(|error| error.to_string())?;
+        Ok(png)
+    }
+}
+
+/// A dashed line as its dashes: the library begins its pattern anew at every point, so that lines of many points come out
+/// solid.
+fn dashes(element: Primitive) -> Vec<Primitive> {
+    const ON: f64 = 7.0;
+    const OFF: f64 = 5.0;
+    let Primitive::PolyLine { points, stroke, stroke_width, stroke_dasharray: Some(_) } = &element else {
+        return vec![element];
+    };
+    let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+    let (mut on, mut left) = (true, ON);
+    let mut piece: Vec<(f64, f64)> = points.first().copied().into_iter().collect();
+    for two in points.windows(2) {
+        let (mut from, to) = (two[0], two[1]);
+        loop {
+            let length = (to.0 - from.0).hypot(to.1 - from.1);
+            if length <= left {
+                left -= length;
+                piece.push(to);
+                break;
+            }
+            let share = left / length;
+            from = (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+            piece.push(from);
+            if on {
+                pieces.push(std::mem::take(&mut piece));
+            }
+            on = !on;
+            left = if on { ON } else { OFF };
+            piece = vec![from];
+        }
+    }
+    if on && piece.len() > 1 {
+        pieces.push(piece);
+    }
+    let line = |points| Primitive::PolyLine {
+        points,
+        stroke: stroke.clone(),
+        stroke_width: *stroke_width,
+        stroke_dasharray: None,
+    };
+    pieces.into_iter().map(line).collect()
+}
+
+/// Takes the text that reads upwards out of a scene: the library draws turned letters without smooth edges, bolder than others. It comes back upright, in a scene that is as wide as the other is high: a
+/// quarter turn to the left brings it to its places.
+fn take_turned(scene: &mut Scene) -> Option<Scene> {
+    let mut turned = Scene::new(scene.height, scene.width);
+    turned.text_color.clone_from(&scene.text_color);
+    turned.font_family.clone_from(&scene.font_family);
+    // Of nested groups, where each begins.
+    let mut groups = vec![(0.0, 0.0)];
+    for element in &mut scene.elements {
+        match element {
+            Primitive::GroupStart { transform, .. } => {
+                let (x, y) = groups.last().copied().unwrap_or_default();
+                let (right, down) = transform.as_deref().and_then(shift).unwrap_or_default();
+                groups.push((x + right, y + down));
+            }
+            Primitive::GroupEnd => drop(groups.pop()),
+            Primitive::Text { x, y, content, rotate: Some(angle), size, anchor, bold, color }
+                if (*angle + 90.0).abs() < 1e-6 =>
+            {
+                let (left, top) = groups.last().copied().unwrap_or_default();
+                turned.add(Primitive::Text {
+                    x: scene.height - (*y + top),
+                    y: *x + left,
+                    content: std::mem::take(content),
+                    size: *size,
+                    anchor: *anchor,
+                    rotate: None,
+                    bold: *bold,
+                    color: color.clone(),
+                });
+            }
+            _ => {}
+        }
+    }
+    (!turned.elements.is_empty()).then_some(turned)
+}
+
+/// The shift that a transformation `translate(x, y)` makes.
+fn shift(transform: &str) -> Option<(f64, f64)> {
+    let inside = transform.strip_prefix("translate(")?.strip_suffix(')')?;
+    let (x, y) = inside.split_once([',', ' ']).unwrap_or((inside, "0"));
+    Some((x.trim().parse().ok()?, y.trim().parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kuva::render::color::Color;
+    use kuva::render::render::TextAnchor;
+
+    #[test]
+    fn dashes_do_not_depend_on_how_many_points_a_line_has() {
+        let ends = |count: u32| {
+            let line = Primitive::PolyLine {
+                points: (0..=count).map(|i| (f64::from(i) * 60.0 / f64::from(count), 0.0)).collect(),
+                stroke: Color::from("#000000"),
+                stroke_width: 1.0,
+                stroke_dasharray: Some("8 4".to_owned()),
+            };
+            let pieces = dashes(line).into_iter().filter_map(|piece| match piece {
+                Primitive::PolyLine { points, .. } => {
+                    Some((points[0].0.round(), points[points.len() - 1].0.round()))
+                }
+                _ => None,
+            });
+            pieces.collect::<Vec<_>>()
+        };
+        let five = [(0.0, 7.0), (12.0, 19.0), (24.0, 31.0), (36.0, 43.0), (48.0, 55.0)];
+        assert_eq!(ends(1), five);
+        assert_eq!(ends(100), five);
+    }
+
+    #[test]
+    fn marks_are_turned_to_the_left() {
+        // Two by one pixels: dark, then white. Turned to the left, dark is below.
+        let marks = Image { width: 2, height: 1, channels: 3, bytes: vec![0, 0, 0, 255, 255, 255] };
+        let mut image = Image { width: 1, height: 2, channels: 4, bytes: vec![200; 8] };
+        image.darken_turned(&marks);
+        assert_eq!(image.opaque(), [200, 200, 200, 0, 0, 0]);
+    }
+
+    #[test]
+    fn images_are_averaged() {
+        let bytes = [0, 0, 0, 4, 8, 12, 0, 0, 0, 4, 8, 12].to_vec();
+        let image = Image { width: 2, height: 2, channels: 3, bytes }.halved();
+        assert_eq!((image.width, image.height), (1, 1));
+        assert_eq!(image.bytes, [2, 4, 6]);
+        let again = Image::read(&image.write().unwrap()).unwrap();
+        assert_eq!(again.bytes, image.bytes);
+    }
+
+    #[test]
+    fn turned_text_is_taken_with_the_place_of_its_group() {
+        let text = |rotate: Option<f64>| Primitive::Text {
+            x: 10.0,
+            y: 20.0,
+            content: "a".to_owned(),
+            size: 12,
+            anchor: TextAnchor::Middle,
+            rotate,
+            bold: false,
+            color: None,
+        };
+        let mut scene = Scene::new(300.0, 200.0);
+        scene.add(text(None));
+        assert!(take_turned(&mut scene).is_none());
+        scene.add(Primitive::GroupStart {
+            transform: Some("translate(100,5.5)".to_owned()),
+            title: None,
+            extra_attrs: None,
+        });
+        scene.add(text(Some(-90.0)));
+        let turned = take_turned(&mut scene).unwrap();
+        assert_eq!((turned.width, turned.height, turned.elements.len()), (200.0, 300.0, 1));
+        let Primitive::Text { x, y, content, rotate: None, .. } = &turned.elements[0] else { panic!("text") };
+        assert_eq!((*x, *y, content.as_str()), (200.0 - 25.5, 110.0, "a"));
+        assert!(take_turned(&mut scene).is_none_or(|left| {
+            left.elements
+                .iter()
+                .all(|one| matches!(one, Primitive::Text { content, .. } if content.is_empty()))
+        }));
+    }
 }

@@ -5,11 +5,11 @@ use flap_sweep::picture::sample::{Histogram, MARKED, histogram};
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Scene, TextAnchor};
 
-use super::chosen::Chosen;
 use super::ink;
 use super::label::Label;
 use super::panel::{Axis, LETTER, Panel};
 use super::scale;
+use super::selection::Selection;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
@@ -19,18 +19,18 @@ use crate::failure::Failure;
 const LINE: f64 = 17.0;
 
 /// Draws the histogram of column `x`.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let column = chosen.columns.x;
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let column = selection.columns.x;
     let label = table.label(column);
     let numbers = table.numbers(column)?;
-    let values: Vec<f64> = chosen.rows.iter().map(|&row| numbers[row] * label.factor).collect();
+    let values: Vec<f64> = selection.rows.iter().map(|&row| numbers[row] * label.factor).collect();
     let Some(found) = histogram(&values) else {
-        return Err(chosen.nothing(table, column));
+        return Err(selection.nothing(table, column));
     };
     let designs: usize = found.counts.iter().sum();
     console::say(&told(&table.columns[column].name, designs, &found, &label));
 
-    let mut notes = chosen.notes.clone();
+    let mut notes = selection.notes.clone();
     notes.push(format!("{designs} designs"));
     if designs < values.len() {
         notes.push(format!("{} of {} without a value", values.len() - designs, values.len()));
@@ -40,7 +40,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let room = (MARKED.len() as f64 + 0.6) * LINE / (size.height - 130.0).max(80.0);
     let ends = (found.edges[0], found.edges[found.edges.len() - 1]);
     let panel = Panel {
-        title: chosen.title.clone(),
+        title: selection.title.clone(),
         notes,
         ..Panel::new(
             Axis::linear(label.text(), scale::padded(ends, 0.03)),

@@ -6,12 +6,12 @@ use kuva::render::annotations::ShadedRegion;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
-use super::chosen::Chosen;
 use super::ink::{self, Look};
 use super::label::{Label, digits};
 use super::panel::{Axis, Panel};
 use super::response::{Line, family, ordered};
 use super::scale;
+use super::selection::Selection;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, Table};
@@ -39,42 +39,42 @@ struct Jump {
 }
 
 /// Draws column `y` over column `x`, a line for each branch.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
-    let lines = family(table, chosen)?;
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
+    let lines = family(table, selection)?;
     let shown = scale::even(lines.len(), MOST_CURVES);
     if shown.len() < lines.len() {
         let (drawn, all) = (shown.len(), lines.len());
         console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where chooses one"));
     }
     let curves = (shown.iter())
-        .map(|&number| curve(table, chosen, &lines[number], (x.factor, y.factor)))
+        .map(|&number| curve(table, selection, &lines[number], (x.factor, y.factor)))
         .collect::<Result<Vec<Curve>, Failure>>()?;
     let drawn: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.branches.concat()).collect();
     let Some([width, height]) = scale::extent(&drawn) else {
-        return Err(chosen.nothing(table, chosen.columns.y));
+        return Err(selection.nothing(table, selection.columns.y));
     };
 
     let (mut plots, mut jumps) = (Vec::new(), Vec::new());
     for (place, curve) in curves.iter().enumerate() {
         let mut named = false;
         for kind in 0..BRANCHES.len() {
-            let mut look = if chosen.columns.by.is_some() {
+            let mut look = if selection.columns.by.is_some() {
                 let name = if named { String::new() } else { curve.name.clone() };
-                Look::new(name, ink::line_colour(place, curves.len(), ordered(table, chosen)))
+                Look::new(name, ink::line_colour(place, curves.len(), ordered(table, selection)))
             } else {
                 Look::new(BRANCHES[kind].name, BRANCHES[kind].colour)
             };
             look.dashed = kind == UNSTABLE;
             // The way down often lies on the way up, which must be seen below it.
-            look.width = if chosen.columns.by.is_some() { 1.8 } else { [4.0, 1.8, 1.6][kind] };
+            look.width = if selection.columns.by.is_some() { 1.8 } else { [4.0, 1.8, 1.6][kind] };
             jumps.extend(curve.jumps(kind, &look.colour));
             let lines = ink::line(&curve.with_gaps(kind), &look);
             named |= !lines.is_empty();
             plots.extend(lines);
         }
     }
-    let mut notes = chosen.notes.clone();
+    let mut notes = selection.notes.clone();
     let missing = drawn.iter().filter(|point| !point.1.is_finite()).count();
     if missing > 0 {
         notes.push(format!("{missing} of {} points without a value", drawn.len()));
@@ -82,16 +82,16 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let bands = if let [only] = &curves[..] { only.compared.bands.clone() } else { Vec::new() };
     notes.extend(bistable(&bands, &x));
     let has_unstable = || curves.iter().any(|curve| !curve.branches[UNSTABLE].is_empty());
-    if chosen.columns.by.is_some() && has_unstable() {
+    if selection.columns.by.is_some() && has_unstable() {
         notes.push("dashed: unstable".to_owned());
     }
     let panel = Panel {
-        title: chosen.title.clone(),
+        title: selection.title.clone(),
         notes,
         x: Axis::linear(x.text(), scale::padded(width, 0.02)),
         y: Axis::linear(y.text(), scale::from_zero(height)),
         plots,
-        legend: Some(chosen.columns.by.map_or_else(String::new, |by| table.label(by).text())),
+        legend: Some(selection.columns.by.map_or_else(String::new, |by| table.label(by).text())),
         bar: false,
     };
     let mut layout = panel.layout(size);
@@ -108,8 +108,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
 }
 
 /// The branches of a design, and the difference between its ways up and down.
-fn curve(table: &Table, chosen: &Chosen, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
-    let (x, y) = (table.numbers(chosen.columns.x)?, table.numbers(chosen.columns.y)?);
+fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
+    let (x, y) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
     let is_branch = words(table, "branch")?;
     let is_bistable = words(table, "bistable")?;
     let mut branches = BRANCHES.map(|_| Vec::new());

@@ -6,12 +6,11 @@ use kuva::render::render::{Primitive, Scene};
 
 use flap_sweep::picture::colours;
 
-use super::bar;
-use super::chosen::{Chosen, Columns};
 use super::ink;
 use super::panel::{Axis, Panel};
 use super::scale;
-use super::shades::Shades;
+use super::selection::{Columns, Selection};
+use super::shades::{self, Shades};
 use crate::args::Size;
 use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
@@ -35,36 +34,36 @@ struct Grid {
 }
 
 /// Draws column `color` over the columns `x` and `y`.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let Columns { x, y, color: Some(color), .. } = chosen.columns else {
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let Columns { x, y, color: Some(color), .. } = selection.columns else {
         return Err(Failure::Bug("a map without a colour".to_owned()));
     };
     let branch = table.columns.iter().position(|column| column.name == "branch");
     let grid = match branch.map(|branch| branch + 1) {
-        Some(followed) if followed == x => curves(table, chosen, [x, y], color)?,
-        Some(followed) if followed == y => curves(table, chosen, [y, x], color)?.turned(),
-        _ => grid(table, chosen, color)?,
+        Some(followed) if followed == x => curves(table, selection, [x, y], color)?,
+        Some(followed) if followed == y => curves(table, selection, [y, x], color)?.turned(),
+        _ => grid(table, selection, color)?,
     };
     let label = table.label(color);
     let Some(range) = scale::range(grid.cells.iter().map(|cell| cell.value)) else {
-        return Err(chosen.nothing(table, color));
+        return Err(selection.nothing(table, color));
     };
     let bar = Axis::linear(label.text(), scale::padded(range, 0.0));
     let missing = grid.cells.iter().filter(|cell| !cell.value.is_finite()).count();
 
-    let mut notes = chosen.notes.clone();
+    let mut notes = selection.notes.clone();
     if missing > 0 {
         notes.push(format!("{missing} of {} cells without a value", grid.cells.len()));
     }
     let Grid { cells, x, y } = grid;
     let panel =
-        Panel { title: chosen.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
+        Panel { title: selection.title.clone(), notes, x, y, plots: Vec::new(), legend: None, bar: true };
     let frame = ComputedLayout::from_layout(&panel.layout(size));
     let ends = (panel.x.range.1, panel.y.range.0);
     let mut scene = panel.scene(size);
     scene.add(drawn(&cells, ends, &frame, &Shades::of(bar.range)));
     ink::frame_lines(&mut scene, &frame);
-    bar::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
+    shades::colour_bar(&mut scene, &frame, &bar, (missing > 0).then_some("no value"));
     Ok(scene)
 }
 
@@ -77,8 +76,9 @@ impl Grid {
 }
 
 /// Cells of a grid, in which every value of `x` meets every value of `y`.
-fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
-    let [across, up] = [chosen.columns.x, chosen.columns.y].map(|column| side(table, chosen, column));
+fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
+    let [across, up] =
+        [selection.columns.x, selection.columns.y].map(|column| side(table, selection, column));
     let (across, up) = (across?, up?);
     let colours = table.numbers(color)?;
     let columns = across.edges.len() - 1;
@@ -86,10 +86,10 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
     check_count(count, &format!("{columns} times {}", up.edges.len() - 1))?;
     let factor = table.label(color).factor;
     let mut values: Vec<Option<f64>> = vec![None; count];
-    for (place, &row) in chosen.rows.iter().enumerate() {
+    for (place, &row) in selection.rows.iter().enumerate() {
         let cell = &mut values[up.codes[place] * columns + across.codes[place]];
         if cell.is_some() {
-            return Err(several(table, chosen));
+            return Err(several(table, selection));
         }
         *cell = Some(colours[row] * factor);
     }
@@ -103,20 +103,20 @@ fn grid(table: &Table, chosen: &Chosen, color: usize) -> Result<Grid, Failure> {
 
 /// Cells of curves along the first of `columns`, one for each value of the second. Each curve has values of its own, and its
 /// cells end halfway between them.
-fn curves(table: &Table, chosen: &Chosen, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
+fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
-    let side = side(table, chosen, across)?;
+    let side = side(table, selection, across)?;
     let (places, colours) = (table.numbers(along)?, table.numbers(color)?);
     let (label, factor) = (table.label(along), table.label(color).factor);
-    check_count(chosen.rows.len(), &chosen.rows.len().to_string())?;
+    check_count(selection.rows.len(), &selection.rows.len().to_string())?;
     let mut cells = Vec::new();
     for code in 0..side.edges.len() - 1 {
-        let of_curve = chosen.rows.iter().zip(&side.codes).filter(|(_, other)| **other == code);
+        let of_curve = selection.rows.iter().zip(&side.codes).filter(|(_, other)| **other == code);
         let mut curve: Vec<(f64, f64)> =
             of_curve.map(|(&row, _)| (places[row] * label.factor, colours[row] * factor)).collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         if curve.windows(2).any(|two| two[0].0 == two[1].0) {
-            return Err(several(table, chosen));
+            return Err(several(table, selection));
         }
         let places: Vec<f64> = curve.iter().map(|(place, _)| *place).collect();
         let edges = edges(&places, false);
@@ -138,10 +138,10 @@ struct Side {
     axis: Axis,
 }
 
-fn side(table: &Table, chosen: &Chosen, column: usize) -> Result<Side, Failure> {
+fn side(table: &Table, selection: &Selection, column: usize) -> Result<Side, Failure> {
     // Words have no place on an axis.
     table.numbers(column)?;
-    let Levels { codes, values: Values::Numbers(values) } = Levels::of(table, column, &chosen.rows) else {
+    let Levels { codes, values: Values::Numbers(values) } = Levels::of(table, column, &selection.rows) else {
         return Err(Failure::Bug("numbers without values".to_owned()));
     };
     let label = table.label(column);
@@ -162,8 +162,8 @@ fn check_count(count: usize, shown: &str) -> Result<(), Failure> {
     ))
 }
 
-fn several(table: &Table, chosen: &Chosen) -> Failure {
-    let [x, y] = [chosen.columns.x, chosen.columns.y].map(|column| table.columns[column].name.as_str());
+fn several(table: &Table, selection: &Selection) -> Failure {
+    let [x, y] = [selection.columns.x, selection.columns.y].map(|column| table.columns[column].name.as_str());
     let message = format!("several rows have the same {x} and {y}");
     Failure::usage(message).help("choose one value of each other parameter with --where")
 }

@@ -7,12 +7,12 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::chosen::Chosen;
+use super::ink;
 use super::label::digits;
 use super::panel::{Axis, LETTER, Panel};
-use super::shades::Shades;
-use super::wishes::{INPUT, MEAN};
-use super::{bar, ink};
+use super::selection::Selection;
+use super::selection::{INPUT, MEAN};
+use super::shades::{self, Shades};
 use crate::args::Size;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::failure::Failure;
@@ -30,10 +30,10 @@ const DARK: f64 = 0.6;
 const SIZE: u32 = 12;
 
 /// Draws the change of force and torque per unit of each input.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let inputs = words(table, INPUT)?;
     let units = words(table, "unit")?;
-    let rows = chosen.rows.iter().copied().filter(|&row| inputs[row] != MEAN);
+    let rows = selection.rows.iter().copied().filter(|&row| inputs[row] != MEAN);
     let rows: Vec<usize> = rows.collect();
     if rows.is_empty() {
         return Err(Failure::usage("the file has no inputs: there is nothing to draw"));
@@ -43,8 +43,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let columns = columns?;
     let range = |count: usize| (0.5, count as f64 + 0.5);
     let panel = Panel {
-        title: chosen.title.clone(),
-        notes: chosen.notes.clone(),
+        title: selection.title.clone(),
+        notes: selection.notes.clone(),
         bar: true,
         ..Panel::new(
             Axis::linear("Force (mN), torque (µN·m)".to_owned(), range(COMPONENTS.len())),
@@ -83,7 +83,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     }
     ink::frame_lines(&mut scene, &frame);
     let label = "Share of the input's largest change".to_owned();
-    bar::colour_bar(&mut scene, &frame, &Axis::linear(label, (-1.0, 1.0)), None);
+    shades::colour_bar(&mut scene, &frame, &Axis::linear(label, (-1.0, 1.0)), None);
     Ok(scene)
 }
 

@@ -1,42 +1,32 @@
 //! `flap plot`: pictures and pages of results.
 
-mod bar;
-mod choose;
-mod chosen;
 mod encode;
-mod front;
 mod histogram;
 mod hysteresis;
 mod ink;
-mod kind;
 mod label;
 mod map;
 mod matrix;
 mod page;
 mod panel;
 mod pareto;
-mod pick;
-mod points;
-mod raster;
 mod response;
 mod scale;
 mod scatter;
+mod selection;
 mod shades;
 mod slices;
 mod tornado;
 mod trajectory;
-mod turned;
-mod wishes;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use chosen::Chosen;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
-use wishes::Wishes;
+use selection::{Request, Selection};
 
 use crate::args::{PictureKind, PlotArgs, Size};
 use crate::cmd::outputs;
@@ -72,28 +62,28 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
     let source = Source::open(&args.results, &args.read, true)?;
-    let wishes = Wishes::of(&source, args)?;
+    let request = Request::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
-    let table = filters.read(source, |column| wishes.wants(column), usize::MAX)?;
-    let chosen = choose::choose(&wishes, &table, heading(args))?;
-    let scene = draw(&table, &chosen, args.size)?;
+    let table = filters.read(source, |column| request.wants(column), usize::MAX)?;
+    let selection = selection::select(&request, &table, heading(args))?;
+    let scene = draw(&table, &selection, args.size)?;
     let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;
     write(out, args.overwrite.force, &bytes)?;
-    console::say(&format!("{} in {}", chosen.columns.kind.name(), out.display()));
+    console::say(&format!("{} in {}", selection.columns.kind.name(), out.display()));
     Ok(())
 }
 
-fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    match chosen.columns.kind {
-        PictureKind::Response => response::draw(table, chosen, size),
-        PictureKind::Map => map::draw(table, chosen, size),
-        PictureKind::Scatter => scatter::draw(table, chosen, size),
-        PictureKind::Histogram => histogram::draw(table, chosen, size),
-        PictureKind::Tornado => tornado::draw(table, chosen, size),
-        PictureKind::Pareto => pareto::draw(table, chosen, size),
-        PictureKind::Trajectory => trajectory::draw(table, chosen, size),
-        PictureKind::Hysteresis => hysteresis::draw(table, chosen, size),
-        PictureKind::Matrix => matrix::draw(table, chosen, size),
+fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    match selection.columns.kind {
+        PictureKind::Response => response::draw(table, selection, size),
+        PictureKind::Map => map::draw(table, selection, size),
+        PictureKind::Scatter => scatter::draw(table, selection, size),
+        PictureKind::Histogram => histogram::draw(table, selection, size),
+        PictureKind::Tornado => tornado::draw(table, selection, size),
+        PictureKind::Pareto => pareto::draw(table, selection, size),
+        PictureKind::Trajectory => trajectory::draw(table, selection, size),
+        PictureKind::Hysteresis => hysteresis::draw(table, selection, size),
+        PictureKind::Matrix => matrix::draw(table, selection, size),
     }
 }
 

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use data::{Data, Kind, Start, Value};
 
-use super::choose;
+use super::selection;
+use super::selection::Request;
 use super::slices;
-use super::wishes::Wishes;
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
 use crate::data::axes::Axes;
@@ -23,27 +23,27 @@ const MOST_ROWS: usize = 1 << 17;
 /// The page of results. With `tells`, warnings about the results go to stderr.
 pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
     let source = Source::open(&args.results, &args.read, tells)?;
-    let wishes = Wishes::of(&source, args)?;
+    let request = Request::of(&source, args)?;
     let comparisons = Filters::of(&args.comparisons(), &source)?;
     let table = comparisons.read(source, |_| true, MOST_ROWS)?;
-    let axes = Axes::of(&table, wishes.end);
-    let start = start(&wishes, &table, &axes, args)?;
+    let axes = Axes::of(&table, request.end);
+    let start = start(&request, &table, &axes, args)?;
     if table.of > table.rows {
         console::say(&format!("{} of {} rows are in the page, evenly chosen", table.rows, table.of));
     }
-    let json = Data::new(&table, &axes.columns, &start, wishes.branch()).json();
+    let json = Data::new(&table, &axes.columns, &start, request.branch()).json();
     let data = json.map_err(|error| Failure::Bug(error.to_string()))?;
     Ok(flap_live::page::results(heading, &data))
 }
 
 /// The first view: that of the picture with the same arguments, if there is one.
-fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
+fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (args.values().into_iter())
         .map(|(name, text)| {
             Ok((table.columns[table.find(&name)?].name.clone(), filter(table, &name, &text)?))
         })
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
-    let drawn = choose::columns(wishes, axes).and_then(|columns| {
+    let drawn = selection::columns(request, axes).and_then(|columns| {
         table.numbers(columns.x)?;
         table.numbers(columns.y)?;
         Ok(columns)
@@ -54,8 +54,8 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         Err(failure) if args.kind.is_some() => return Err(failure),
         Err(_) => {
             let numbers = || (0..table.columns.len()).filter(|&column| table.numbers(column).is_ok());
-            let x = wishes.x.or(numbers().next());
-            let y = wishes.y.or(numbers().nth(1)).or(x);
+            let x = request.x.or(numbers().next());
+            let y = request.y.or(numbers().nth(1)).or(x);
             let (Some(x), Some(y)) = (x, y) else {
                 return Err(Failure::usage("no column of the file holds numbers"));
             };
@@ -70,7 +70,7 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
         PictureKind::Map => Kind::Map,
         PictureKind::Pareto => {
             let sign = |aim: Aim| if aim == Aim::Max { "1" } else { "-1" };
-            let (x_aim, y_aim) = choose::aims(wishes, &columns);
+            let (x_aim, y_aim) = selection::aims(request, &columns);
             best = format!("{},{}", sign(x_aim), sign(y_aim));
             Kind::Scatter
         }
@@ -81,7 +81,7 @@ fn start(wishes: &Wishes, table: &Table, axes: &Axes, args: &PlotArgs) -> Result
             return Err(Failure::usage(message).help("a page has lines, points, fronts and maps"));
         }
         PictureKind::Hysteresis => {
-            by = by.or(wishes.branch());
+            by = by.or(request.branch());
             Kind::Line
         }
         PictureKind::Trajectory => {

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use kuva::render::render::Scene;
 
-use super::chosen::Chosen;
 use super::ink::{self, Look};
 use super::panel::{Axis, Panel};
 use super::scale;
+use super::selection::Selection;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, NO_WORD, Table};
@@ -24,14 +24,14 @@ const MOST_POINTS: usize = 4000;
 const WORD_SIZE: f64 = 4.0;
 
 /// Draws column `y` over column `x`.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let (across, words) = places(table, chosen.columns.x)?;
-    let up = table.numbers(chosen.columns.y)?;
-    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
-    let family = family(table, chosen)?;
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let (across, words) = places(table, selection.columns.x)?;
+    let up = table.numbers(selection.columns.y)?;
+    let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
+    let family = family(table, selection)?;
     let shown = scale::even(family.len(), MOST_LINES);
     if shown.len() < family.len() {
-        let by = chosen.columns.by.map_or("", |by| table.columns[by].name.as_str());
+        let by = selection.columns.by.map_or("", |by| table.columns[by].name.as_str());
         let (drawn, all) = (shown.len(), family.len());
         console::say(&format!(
             "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where chooses one"
@@ -47,11 +47,11 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             of_line.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         if points.windows(2).any(|two| two[0].0 == two[1].0) {
-            return Err(several(table, chosen));
+            return Err(several(table, selection));
         }
         missing += points.iter().filter(|point| !point.1.is_finite()).count();
         rows += points.len();
-        let colour = ink::line_colour(place, shown.len(), ordered(table, chosen));
+        let colour = ink::line_colour(place, shown.len(), ordered(table, selection));
         if !words.is_empty() {
             // Words have no order that a line could follow.
             plots.push(ink::points(&points, name, &colour, WORD_SIZE));
@@ -65,14 +65,14 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         drawn.extend(points);
     }
     let Some(heights) = scale::range(drawn.iter().map(|point| point.1)) else {
-        return Err(chosen.nothing(table, chosen.columns.y));
+        return Err(selection.nothing(table, selection.columns.y));
     };
     let mut values: Vec<f64> = drawn.iter().map(|point| point.0).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
     let log = scale::is_log(&values);
     let width = scale::range(values).unwrap_or((0.0, 1.0));
-    let mut notes = chosen.notes.clone();
+    let mut notes = selection.notes.clone();
     if missing > 0 {
         notes.push(format!("{missing} of {rows} points without a value"));
     }
@@ -83,7 +83,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         scale::padded(width, 0.02)
     };
     let panel = Panel {
-        title: chosen.title.clone(),
+        title: selection.title.clone(),
         notes,
         x: if words.is_empty() {
             Axis { log, ..Axis::linear(x.text(), range) }
@@ -92,7 +92,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         },
         y: Axis::linear(y.text(), scale::from_zero(heights)),
         plots,
-        legend: chosen.columns.by.map(|by| table.label(by).text()),
+        legend: selection.columns.by.map(|by| table.label(by).text()),
         bar: false,
     };
     Ok(panel.scene(size))
@@ -114,17 +114,17 @@ pub(super) struct Line {
 }
 
 /// The chosen rows by the value of the column `by`; all of them if there is none.
-pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failure> {
-    let Some(by) = chosen.columns.by else {
-        return Ok(vec![Line { name: String::new(), rows: chosen.rows.clone() }]);
+pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, Failure> {
+    let Some(by) = selection.columns.by else {
+        return Ok(vec![Line { name: String::new(), rows: selection.rows.clone() }]);
     };
-    let levels = Levels::of(table, by, &chosen.rows);
-    if levels.len() * 3 > chosen.rows.len() && levels.len() > MOST_LINES {
+    let levels = Levels::of(table, by, &selection.rows);
+    if levels.len() * 3 > selection.rows.len() && levels.len() > MOST_LINES {
         let name = &table.columns[by].name;
         let message = format!(
             "{} of {} rows have a {name} of their own, so that they form no lines",
             levels.len(),
-            chosen.rows.len()
+            selection.rows.len()
         );
         return Err(Failure::usage(message).help("draw a sample with --kind scatter"));
     }
@@ -137,19 +137,19 @@ pub(super) fn family(table: &Table, chosen: &Chosen) -> Result<Vec<Line>, Failur
         Values::Words(words) => words.clone(),
     };
     let mut lines: Vec<Line> = names.into_iter().map(|name| Line { name, rows: Vec::new() }).collect();
-    for (&row, &code) in chosen.rows.iter().zip(&levels.codes) {
+    for (&row, &code) in selection.rows.iter().zip(&levels.codes) {
         lines[code].rows.push(row);
     }
     Ok(lines)
 }
 
 /// True if the lines have an order, as numbers have.
-pub(super) fn ordered(table: &Table, chosen: &Chosen) -> bool {
-    chosen.columns.by.is_some_and(|by| table.numbers(by).is_ok())
+pub(super) fn ordered(table: &Table, selection: &Selection) -> bool {
+    selection.columns.by.is_some_and(|by| table.numbers(by).is_ok())
 }
 
-fn several(table: &Table, chosen: &Chosen) -> Failure {
-    let name = &table.columns[chosen.columns.x].name;
+fn several(table: &Table, selection: &Selection) -> Failure {
+    let name = &table.columns[selection.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
         "--by draws a line for each value of a column, --where chooses one value, --kind scatter draws points",
     )

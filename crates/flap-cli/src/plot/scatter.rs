@@ -1,33 +1,35 @@
 //! Scatters: two measures of every design, in the colours of a third.
 
+use flap_sweep::picture::colours::{MISSING, PLAIN};
 use kuva::render::layout::ComputedLayout;
+use kuva::render::plots::Plot;
 use kuva::render::render::Scene;
 
-use super::bar;
-use super::chosen::Chosen;
+use super::ink;
 use super::panel::{Axis, Panel};
-use super::points::Points;
 use super::scale;
+use super::selection::Selection;
+use super::shades::{self, Shades};
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
 /// Draws column `y` over column `x`, in the colours of column `color`.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let points = Points::of(table, chosen)?;
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let points = Points::of(table, selection)?;
     let (drawn, all) = (points.shown.len(), points.places.len());
     if drawn < all {
         console::say(&format!("{drawn} of {all} points are drawn, evenly chosen"));
     }
-    let (plots, bar) = points.plots(table, chosen, "")?;
-    let mut notes = chosen.notes.clone();
+    let (plots, bar) = points.plots(table, selection, "")?;
+    let mut notes = selection.notes.clone();
     notes.push(format!("{all} designs"));
     notes.extend(points.note());
     let [width, height] = points.extent;
-    let (x, y) = (table.label(chosen.columns.x), table.label(chosen.columns.y));
+    let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
     let panel = Panel {
-        title: chosen.title.clone(),
+        title: selection.title.clone(),
         notes,
         x: Axis::linear(x.text(), scale::padded(width, 0.04)),
         y: Axis::linear(y.text(), scale::padded(height, 0.04)),
@@ -38,7 +40,90 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let frame = ComputedLayout::from_layout(&panel.layout(size));
     let mut scene = panel.scene(size);
     if let Some(bar) = &bar {
-        bar::colour_bar(&mut scene, &frame, bar, None);
+        shades::colour_bar(&mut scene, &frame, bar, None);
     }
     Ok(scene)
+}
+
+/// Most points of a picture besides a front.
+const MOST_POINTS: usize = 20_000;
+
+/// The radius of points without colours.
+pub(super) const SIZE: f64 = 2.2;
+
+/// Number of shades of coloured points.
+const SHADES: usize = 24;
+
+/// The points of a picture.
+pub(super) struct Points {
+    /// The rows with a place, and their places in shown units.
+    rows: Vec<usize>,
+    pub(super) places: Vec<(f64, f64)>,
+    /// Ranges of the places.
+    pub(super) extent: [(f64, f64); 2],
+    /// Those of `places` that are drawn.
+    pub(super) shown: Vec<usize>,
+    /// Rows without a place.
+    pub(super) missing: usize,
+}
+
+impl Points {
+    /// The rows that have both columns.
+    pub(super) fn of(table: &Table, selection: &Selection) -> Result<Points, Failure> {
+        let (across, up) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
+        let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
+        let has_place = |&row: &usize| across[row].is_finite() && up[row].is_finite();
+        let rows: Vec<usize> = selection.rows.iter().copied().filter(has_place).collect();
+        let places: Vec<(f64, f64)> =
+            rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
+        let Some(extent) = scale::extent(&places) else {
+            return Err(selection.nothing(table, selection.columns.y));
+        };
+        let shown = scale::even(places.len(), MOST_POINTS);
+        let missing = selection.rows.len() - rows.len();
+        Ok(Points { rows, places, extent, shown, missing })
+    }
+
+    /// The note about rows without a place, if there are some.
+    pub(super) fn note(&self) -> Option<String> {
+        let all = self.rows.len() + self.missing;
+        (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))
+    }
+
+    /// The points as one plot, called `name`, or in the colours of the chosen column as several with their colour bar.
+    pub(super) fn plots(
+        &self,
+        table: &Table,
+        selection: &Selection,
+        name: &str,
+    ) -> Result<(Vec<Plot>, Option<Axis>), Failure> {
+        let Some(color) = selection.columns.color else {
+            let plain: Vec<(f64, f64)> = self.shown.iter().map(|&place| self.places[place]).collect();
+            return Ok((vec![ink::points(&plain, name, PLAIN, SIZE)], None));
+        };
+        let values = table.numbers(color)?;
+        let label = table.label(color);
+        let Some(range) = scale::range(self.rows.iter().map(|&row| values[row] * label.factor)) else {
+            return Err(selection.nothing(table, color));
+        };
+        let (low, high) = scale::padded(range, 0.0);
+        let mut groups = vec![Vec::new(); SHADES + 1];
+        for &place in &self.shown {
+            let share = (values[self.rows[place]] * label.factor - low) / (high - low);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to SHADES")]
+            let group =
+                if share.is_finite() { (share * (SHADES - 1) as f64).round() as usize } else { SHADES };
+            groups[group].push(self.places[place]);
+        }
+        let shades = Shades::of((low, high));
+        let plots =
+            groups.iter().enumerate().filter(|(_, points)| !points.is_empty()).map(|(group, points)| {
+                let colour = match group {
+                    SHADES => MISSING.to_owned(),
+                    _ => shades.colour(low + (high - low) * group as f64 / (SHADES - 1) as f64),
+                };
+                ink::points(points, "", &colour, 2.6)
+            });
+        Ok((plots.collect(), Some(Axis::linear(label.text(), (low, high)))))
+    }
 }

@@ -6,9 +6,9 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::chosen::Chosen;
 use super::ink;
 use super::panel::{Axis, Panel};
+use super::selection::Selection;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, Table};
@@ -24,16 +24,16 @@ const THICK: f64 = 0.62;
 const LONG: f64 = 0.82;
 
 /// Draws the correlations of the parameters with column `x`, the largest on top.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let measure = chosen.columns.x;
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let measure = selection.columns.x;
     let values = table.numbers(measure)?;
-    let of_rows = |values: &[f64]| chosen.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+    let of_rows = |values: &[f64]| selection.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
     let values = of_rows(values);
     let designs = values.iter().filter(|value| value.is_finite()).count();
     if designs == 0 {
-        return Err(chosen.nothing(table, measure));
+        return Err(selection.nothing(table, measure));
     }
-    let (places, columns): (Vec<usize>, Vec<Vec<f64>>) = (chosen.parameters.iter())
+    let (places, columns): (Vec<usize>, Vec<Vec<f64>>) = (selection.parameters.iter())
         .filter_map(|&column| match &table.columns[column].cells {
             Cells::Numbers(numbers) => Some((column, of_rows(numbers))),
             _ => None,
@@ -52,8 +52,8 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         console::say(&format!("the {drawn} largest of {all} correlations are drawn"));
     }
 
-    let mut notes = chosen.notes.clone();
-    if chosen.sampled {
+    let mut notes = selection.notes.clone();
+    if selection.sampled {
         // Of independent columns, 95 % of the correlations are smaller.
         let chance = 1.96 / (designs.max(2) as f64 - 1.0).sqrt();
         notes.push(format!("{designs} designs; sizes below {chance:.2} may be chance"));
@@ -64,7 +64,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     let mut letters = words.chars();
     let measured = letters.next().map(|first| first.to_lowercase().chain(letters).collect::<String>());
     let panel = Panel {
-        title: chosen.title.clone(),
+        title: selection.title.clone(),
         notes,
         ..Panel::new(
             Axis::linear(

@@ -5,10 +5,10 @@ use flap_sweep::table::labels;
 use kuva::render::figure::Figure;
 use kuva::render::render::Scene;
 
-use super::chosen::Chosen;
 use super::ink::{self, Look};
 use super::panel::{Axis, LETTER, Panel};
 use super::scale;
+use super::selection::Selection;
 use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
@@ -21,12 +21,12 @@ const MOST_POINTS: usize = 8000;
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
 /// Draws the motion beside its phase portrait.
-pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, Failure> {
-    let time = table.numbers(chosen.columns.x)?;
-    let label = table.label(chosen.columns.x);
+pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let time = table.numbers(selection.columns.x)?;
+    let label = table.label(selection.columns.x);
     let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
     let (mut motions, mut loops) = (Vec::new(), Vec::new());
-    let mut notes = chosen.notes.clone();
+    let mut notes = selection.notes.clone();
     let mut ticking = 0;
     for (place, angle) in ANGLES.iter().enumerate() {
         let column = table.find(&format!("{angle}_deg"))?;
@@ -39,8 +39,9 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
             rates(time, values)
         };
         let motion: Vec<(f64, f64)> =
-            chosen.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
-        let mut around: Vec<(f64, f64)> = chosen.rows.iter().map(|&row| (values[row], rates[row])).collect();
+            selection.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
+        let mut around: Vec<(f64, f64)> =
+            selection.rows.iter().map(|&row| (values[row], rates[row])).collect();
         ticking = motion.len();
         if around.len() > MOST_POINTS {
             around.drain(..around.len() - MOST_POINTS);
@@ -60,7 +61,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
     }
     let (Some([span, angles]), Some([around, rates])) = (scale::extent(&motions), scale::extent(&loops))
     else {
-        return Err(chosen.nothing(table, chosen.columns.x));
+        return Err(selection.nothing(table, selection.columns.x));
     };
     let angle = labels::titled("Angle", &labels::printed("deg"));
     let rate = labels::titled("Rate", &labels::printed("deg/ms"));
@@ -75,7 +76,7 @@ pub(super) fn draw(table: &Table, chosen: &Chosen, size: Size) -> Result<Scene, 
         portrait,
     );
     let right = Panel { legend: Some(String::new()), ..right };
-    Ok(side_by_side(left, right, &chosen.title, &notes, size))
+    Ok(side_by_side(left, right, &selection.title, &notes, size))
 }
 
 /// Two panels below one title.

@@ -1,0 +1,495 @@
+//! The choice of kind, columns and rows for a picture: what the user requested, and what suits the file.
+
+use flap_sweep::picture::measures::{Role, usual};
+use flap_sweep::study::control::COMPONENTS;
+
+use super::scale;
+use super::slices::{self, Taken};
+use crate::args::{Aim, Filter, PictureKind, PlotArgs};
+use crate::console;
+use crate::data::axes::Axes;
+use crate::data::columns::{self, Cells, Column, Table};
+use crate::data::source::Source;
+use crate::data::{filter, quantity};
+use crate::failure::Failure;
+
+/// Columns that some kinds need.
+const NEEDED: [&str; 7] =
+    ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch", "bistable"];
+
+/// The column of `flap vehicle` with the names of inputs.
+pub(super) const INPUT: &str = "input";
+
+/// The name in that column of the row of means.
+pub(super) const MEAN: &str = "mean";
+
+/// The request of the user, as columns of the file.
+pub(super) struct Request<'a> {
+    pub(super) args: &'a PlotArgs,
+    names: Vec<String>,
+    pub(super) x: Option<usize>,
+    pub(super) y: Option<usize>,
+    pub(super) by: Option<usize>,
+    pub(super) color: Option<usize>,
+    /// Columns that must have a value, with it and with their place.
+    pub(super) values: Vec<(String, String)>,
+    pub(super) filters: Vec<usize>,
+    /// The end of the leading parameters: the place of `status`, or of `branch`.
+    pub(super) end: usize,
+    /// The measure over a parameter.
+    pub(super) response: Option<usize>,
+    /// Benefit, cost and size of the motion: three different measures, as long as there are any.
+    pub(super) three: [Option<usize>; 3],
+}
+
+impl<'a> Request<'a> {
+    /// Checks the columns that are asked for.
+    pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
+        let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
+        let names = source.names().to_vec();
+        let place = |name: &str| names.iter().position(|known| known == name);
+        let end = place("branch").or_else(|| place("status")).unwrap_or(0);
+        let values = args.values();
+        let filters = values.iter().map(|(name, _)| source.find(name)).collect::<Result<_, _>>()?;
+        let measures = place("status").map_or(names.len(), |status| status + 1);
+        let behind: Vec<&str> = names[measures..].iter().map(String::as_str).collect();
+        let mut taken = Vec::new();
+        let three = [Role::Benefit, Role::Cost, Role::Motion].map(|role| {
+            let found = usual(role, &behind, &taken)?;
+            taken.push(behind[found]);
+            Some(measures + found)
+        });
+        Ok(Request {
+            x: find(&args.x)?,
+            y: find(&args.y)?,
+            by: find(&args.by)?,
+            color: find(&args.color)?,
+            response: usual(Role::Response, &behind, &[]).map(|found| measures + found),
+            three,
+            args,
+            values,
+            filters,
+            end,
+            names,
+        })
+    }
+
+    /// The names of the columns.
+    pub(super) fn name(&self, column: usize) -> &str {
+        &self.names[column]
+    }
+
+    /// The column of that name.
+    pub(super) fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// True if the cells of a column are needed.
+    pub(super) fn wants(&self, column: usize) -> bool {
+        let [a, b, c] = self.three;
+        let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
+        // Behind `branch` is the parameter that rises and falls.
+        some || self.filters.contains(&column)
+            || column <= self.end + 1
+            || self.matrix().is_some()
+            || NEEDED.contains(&self.names[column].as_str())
+    }
+
+    /// The column with the inputs of a vehicle, if the file has a line for each.
+    pub(super) fn matrix(&self) -> Option<usize> {
+        let has = |name: &str| self.place(name).is_some();
+        let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
+        self.place(INPUT).filter(|_| is_matrix)
+    }
+
+    /// The first of these columns that is not among those asked for.
+    pub(super) fn free(&self, preferred: [Option<usize>; 3]) -> Option<usize> {
+        let asked = [self.x, self.y, self.color];
+        preferred.into_iter().flatten().find(|column| !asked.contains(&Some(*column)))
+    }
+
+    /// The column with the branch of each row of `flap respond`.
+    pub(super) fn branch(&self) -> Option<usize> {
+        self.place("branch")
+    }
+
+    /// The failure of a picture without a column that it needs.
+    pub(super) fn unclear(&self, option: &str, why: &str) -> Failure {
+        Failure::usage(format!("--{option} is not given, and {why}")).help(self.listed())
+    }
+
+    /// The columns, as help.
+    pub(super) fn listed(&self) -> String {
+        columns::listed(self.names.iter().map(String::as_str))
+    }
+}
+
+/// Kind and columns of a picture.
+pub(super) struct Columns {
+    pub(super) kind: PictureKind,
+    /// Column of the horizontal axis; of a tornado, the measure.
+    pub(super) x: usize,
+    /// Column of the vertical axis. A trajectory, a histogram and a tornado have that of `x` once more.
+    pub(super) y: usize,
+    /// Column with one line for each of its values.
+    pub(super) by: Option<usize>,
+    /// Column shown as colour.
+    pub(super) color: Option<usize>,
+}
+
+impl Columns {
+    /// Columns without lines and colours.
+    pub(super) fn plain(kind: PictureKind, x: usize, y: usize) -> Columns {
+        Columns { kind, x, y, by: None, color: None }
+    }
+}
+
+/// The kind and the columns that are asked for, and usual ones where none is named.
+pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
+    let kind = kind(request, axes)?;
+    match kind {
+        PictureKind::Response => response(request, axes),
+        PictureKind::Map => map(request, axes),
+        PictureKind::Scatter => scatter(request),
+        PictureKind::Pareto => pareto(request),
+        PictureKind::Histogram | PictureKind::Tornado => {
+            let x = request.x.or(request.three[0]);
+            let x = x.ok_or_else(|| request.unclear("x", NO_MEASURES))?;
+            Ok(Columns::plain(kind, x, x))
+        }
+        PictureKind::Trajectory => trajectory(request),
+        PictureKind::Hysteresis => hysteresis(request, axes),
+        PictureKind::Matrix => matrix(request),
+    }
+}
+
+const NO_MEASURES: &str = "the file has no measures";
+const NO_VALUES: &str = "no parameter has more than one value";
+
+/// The reason why a picture over axes has none.
+fn no_values(axes: &Axes) -> &'static str {
+    if axes.sampled { "a sample has no axes" } else { NO_VALUES }
+}
+
+/// Refuses a sample where there must be an axis: its designs form no lines and no cells.
+fn refuse_sample(request: &Request, axes: &Axes, columns: &[usize], form: &str) -> Result<(), Failure> {
+    let stray = columns.iter().find(|&&column| axes.members.contains(&column) || column >= request.end);
+    match stray.filter(|_| axes.sampled) {
+        Some(&column) => {
+            let name = request.name(column);
+            let message = format!("a sample has no axes: its designs form no {form} over {name}");
+            Err(Failure::usage(message).help("draw a sample with --kind scatter, histogram or tornado"))
+        }
+        None => Ok(()),
+    }
+}
+
+fn response(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
+    let taken = [request.y, request.by];
+    let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
+    // Words are names of lines; they are across only if nothing else varies.
+    let number = || free().rfind(|column| !axes.words.contains(column));
+    let x = request.x.or_else(|| frequency(request, axes)).or_else(number).or_else(|| free().next_back());
+    let why = no_values(axes);
+    let x = x.ok_or_else(|| request.unclear("x", why))?;
+    let y = request.y.or(request.response);
+    let y = y.ok_or_else(|| request.unclear("y", NO_MEASURES))?;
+    refuse_sample(request, axes, &[x], "lines")?;
+    let by = request.by.or_else(|| if axes.sampled { None } else { free().find(|&column| column != x) });
+    Ok(Columns { by, ..Columns::plain(PictureKind::Response, x, y) })
+}
+
+fn map(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
+    let free = |other: Option<usize>| {
+        let taken = [other, request.color];
+        // Words have no cells.
+        let is_free = move |column: &usize| !taken.contains(&Some(*column)) && !axes.words.contains(column);
+        axes.columns.iter().copied().filter(is_free)
+    };
+    let x = request
+        .x
+        .or_else(|| followed(request).filter(|&followed| request.y != Some(followed)))
+        .or_else(|| frequency(request, axes).filter(|&f| request.y != Some(f)))
+        .or_else(|| free(request.y).next_back());
+    let x = x.ok_or_else(|| request.unclear("x", no_values(axes)))?;
+    let y = request.y.or_else(|| free(Some(x)).next());
+    refuse_sample(request, axes, &[Some(x), y].into_iter().flatten().collect::<Vec<_>>(), "cells")?;
+    let y = y.ok_or_else(|| request.unclear("y", "a map needs two parameters with several numbers"))?;
+    let color = request.color.or(request.three[0]);
+    let color = color.ok_or_else(|| request.unclear("color", NO_MEASURES))?;
+    Ok(Columns { color: Some(color), ..Columns::plain(PictureKind::Map, x, y) })
+}
+
+fn scatter(request: &Request) -> Result<Columns, Failure> {
+    let [benefit, cost, motion] = request.three;
+    let (x, y) = plane(request)?;
+    let left = [motion, benefit, cost].map(|column| column.filter(|column| ![x, y].contains(column)));
+    Ok(Columns {
+        color: request.color.or_else(|| request.free(left)),
+        ..Columns::plain(PictureKind::Scatter, x, y)
+    })
+}
+
+fn pareto(request: &Request) -> Result<Columns, Failure> {
+    let (x, y) = plane(request)?;
+    Ok(Columns { color: request.color, ..Columns::plain(PictureKind::Pareto, x, y) })
+}
+
+/// The columns across and up, by default the cost and the benefit.
+fn plane(request: &Request) -> Result<(usize, usize), Failure> {
+    let [benefit, cost, motion] = request.three;
+    let x = request.x.or_else(|| request.free([cost, motion, benefit]));
+    let x = x.ok_or_else(|| request.unclear("x", "the file has too few measures"))?;
+    let others = [benefit, cost, motion].map(|column| column.filter(|&column| column != x));
+    let y = request.y.or_else(|| request.free(others));
+    let y = y.ok_or_else(|| request.unclear("y", "the file has too few measures"))?;
+    Ok((x, y))
+}
+
+fn trajectory(request: &Request) -> Result<Columns, Failure> {
+    for name in ["time_s", "stroke_deg", "pitch_deg"] {
+        if request.place(name).is_none() {
+            let message = format!("a trajectory needs a column {name}, as `flap run --trajectory` writes it");
+            return Err(Failure::usage(message).help(request.listed()));
+        }
+    }
+    let time = request.place("time_s").unwrap_or(0);
+    Ok(Columns::plain(PictureKind::Trajectory, time, time))
+}
+
+fn matrix(request: &Request) -> Result<Columns, Failure> {
+    let Some(input) = request.matrix() else {
+        let message = "a matrix needs the columns input, unit, value and force and torque, as `flap vehicle --format csv` writes them";
+        return Err(Failure::usage(message).help(request.listed()));
+    };
+    Ok(Columns::plain(PictureKind::Matrix, input, input))
+}
+
+fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
+    let (Some(branch), Some(_)) = (request.branch(), request.place("bistable")) else {
+        let message = "a picture of hysteresis needs the columns `branch` and `bistable`, as `flap respond --out` writes them";
+        return Err(Failure::usage(message).help(request.listed()));
+    };
+    let x = request.x.unwrap_or(branch + 1);
+    let y = request.y.or(request.response);
+    let y = y.ok_or_else(|| request.unclear("y", NO_MEASURES))?;
+    let by = request.by.or_else(|| axes.columns.first().copied());
+    Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
+}
+
+/// The column of the parameter that a response follows.
+fn followed(request: &Request) -> Option<usize> {
+    request.branch().map(|branch| branch + 1)
+}
+
+fn frequency(request: &Request, axes: &Axes) -> Option<usize> {
+    request.place("drive_frequency").filter(|column| axes.columns.contains(column))
+}
+
+/// The kind that is asked for, else the one that suits.
+fn kind(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
+    let kind = match request.args.kind {
+        Some(kind) => kind,
+        None => suitable(request, axes)?,
+    };
+    refuse_strays(request, kind)?;
+    Ok(kind)
+}
+
+fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
+    if request.branch().is_some() {
+        return Ok(PictureKind::Hysteresis);
+    }
+    if request.matrix().is_some() {
+        return Ok(PictureKind::Matrix);
+    }
+    let motion = ["time_s", "stroke_deg", "pitch_deg"].iter().all(|name| request.place(name).is_some());
+    if motion && request.x.is_none() && request.y.is_none() {
+        return Ok(PictureKind::Trajectory);
+    }
+    // A sample has no axes: its designs make points, not lines or cells.
+    if axes.sampled && request.by.is_none() {
+        return Ok(if has_aims(request) { PictureKind::Pareto } else { PictureKind::Scatter });
+    }
+    if let (Some(x), Some(y)) = (request.x, request.y) {
+        return Ok(of_columns(request, axes, x, y));
+    }
+    if request.end == 0 {
+        let message = "cannot tell what to draw: this is neither a sweep nor a motion";
+        return Err(Failure::usage(message).help("name columns with --x and --y").help(request.listed()));
+    }
+    let frequency = request.place("drive_frequency").is_some_and(|column| axes.columns.contains(&column));
+    let numbers = axes.columns.len() - axes.words.len();
+    let lines = request.by.is_some() || numbers < 2 || frequency;
+    let colours = request.color.is_some() && numbers > 1;
+    Ok(if lines && !colours { PictureKind::Response } else { PictureKind::Map })
+}
+
+/// The kind for two columns of a grid.
+fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind {
+    let is_parameter = |column: usize| (1..request.end).contains(&column);
+    match (is_parameter(x), is_parameter(y)) {
+        (true, true) => PictureKind::Map,
+        // Designs along one axis are a curve, of which a front says nothing.
+        (false, false) if request.end > 0 && (axes.columns.len() > 1 || has_aims(request)) => {
+            PictureKind::Pareto
+        }
+        (false, false) if request.end > 0 => PictureKind::Scatter,
+        _ => PictureKind::Response,
+    }
+}
+
+/// True if the user said which direction is better.
+fn has_aims(request: &Request) -> bool {
+    request.args.x_aim.is_some() || request.args.y_aim.is_some()
+}
+
+/// Refuses options that this kind does not have.
+fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
+    use PictureKind::{Histogram, Hysteresis, Map, Pareto, Response, Scatter, Tornado};
+    let strays = [
+        (request.by.is_some(), &[Response, Hysteresis][..], "--by needs", "--kind response or hysteresis"),
+        (request.color.is_some(), &[Map, Scatter, Pareto], "--color needs", "--kind map, scatter or pareto"),
+        (has_aims(request), &[Pareto], "--x-aim and --y-aim need", "--kind pareto"),
+        (
+            request.x.is_some(),
+            &[Response, Map, Scatter, Pareto, Hysteresis, Histogram, Tornado],
+            "--x needs",
+            "another kind",
+        ),
+        (
+            request.y.is_some(),
+            &[Response, Map, Scatter, Pareto, Hysteresis],
+            "--y needs",
+            "another kind, which has an axis for it",
+        ),
+    ];
+    if matches!(kind, Histogram | Tornado) && request.y.is_some() {
+        return Err(Failure::usage(format!("a {} has no --y; name its measure with --x", kind.name())));
+    }
+    match strays.iter().find(|(is_given, kinds, ..)| *is_given && !kinds.contains(&kind)) {
+        Some((_, _, option, home)) => {
+            let message = format!("{option} {home}, and this picture is a {}", kind.name());
+            Err(Failure::usage(message).help("name the kind with --kind"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// All that a picture shows.
+pub(super) struct Selection {
+    pub(super) columns: Columns,
+    /// The better directions of x and y.
+    pub(super) aims: (Aim, Aim),
+    pub(super) rows: Vec<usize>,
+    /// The columns of parameters, those of a sample first.
+    pub(super) parameters: Vec<usize>,
+    /// True if the designs are those of a sample.
+    pub(super) sampled: bool,
+    pub(super) title: String,
+    /// Filters and slices in words.
+    pub(super) notes: Vec<String>,
+}
+
+impl Selection {
+    /// The failure of a picture for which `column` has no number.
+    pub(super) fn nothing(&self, table: &Table, column: usize) -> Failure {
+        let (name, rows) = (&table.columns[column].name, self.rows.len());
+        let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");
+        Failure::usage(message).help(
+            "points whose status is not `periodic` have no measures; `flap results rerun` runs them again",
+        )
+    }
+}
+
+/// Selects kind, columns and rows.
+pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<Selection, Failure> {
+    let axes = Axes::of(table, request.end);
+    let columns = columns(request, &axes)?;
+    let mut values = request.values.clone();
+    let mut filters = request.filters.clone();
+    if let (PictureKind::Map, Some(branch)) = (columns.kind, request.branch())
+        && !filters.contains(&branch)
+        && has_both_ways(table, branch)
+    {
+        console::say("drawn: branch = up; --where branch=down chooses the other way");
+        values.push(("branch".to_owned(), "up".to_owned()));
+        filters.push(branch);
+    }
+    let rows = slices::filtered(table, &values)?;
+    check_span(table, &columns, &rows)?;
+    let label = |column: usize| table.label(column);
+    let mut notes: Vec<String> = (filters.iter().zip(&values))
+        .map(|(&column, (_, value))| format!("{} {}", label(column).words, shown(table, column, value)))
+        .collect();
+    notes.extend(request.args.comparisons().into_iter().map(|filter| match filter {
+        Filter::Comparison(text) | Filter::Equal(_, text) => quantity::printed(&text),
+    }));
+    let slice = slices::sliced(table, &left(&columns, &axes), rows);
+    for Taken { name, value, of, .. } in &slice.taken {
+        console::say(&format!("drawn: {name} = {value}, the middle of {of} values; --where chooses another"));
+    }
+    notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
+    let mut parameters: Vec<usize> = (1..request.end).collect();
+    parameters.sort_by_key(|&column| !table.sample.contains(&table.columns[column].name));
+    Ok(Selection {
+        aims: aims(request, &columns),
+        columns,
+        rows: slice.rows,
+        parameters,
+        sampled: axes.sampled,
+        title,
+        notes,
+    })
+}
+
+/// True if rows are on the way up and on the way down.
+fn has_both_ways(table: &Table, branch: usize) -> bool {
+    let Cells::Words { words, .. } = &table.columns[branch].cells else { return false };
+    ["up", "down"].iter().all(|way| words.iter().any(|word| word == way))
+}
+
+/// Refuses numbers whose differences are beyond the largest float: axes have no place for them.
+fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
+    /// The share of the largest float that margins and ticks need.
+    const LARGEST: f64 = f64::MAX / 16.0;
+    for column in [Some(columns.x), Some(columns.y), columns.color].into_iter().flatten() {
+        let Cells::Numbers(values) = &table.columns[column].cells else { continue };
+        let Some((low, high)) = scale::range(rows.iter().map(|&row| values[row])) else { continue };
+        if high.abs().max(low.abs()) > LARGEST {
+            let name = &table.columns[column].name;
+            let message =
+                format!("the values of {name}, from {low:e} to {high:e}, are too large for a picture");
+            return Err(Failure::usage(message).help(format!("choose rows: --where '{name} < 1e300'")));
+        }
+    }
+    Ok(())
+}
+
+/// A value that the user typed, in the unit that the picture shows.
+fn shown(table: &Table, column: usize, typed: &str) -> String {
+    let Column { name, unit, .. } = &table.columns[column];
+    match filter::number(name, unit, typed) {
+        Ok(Some(number)) => table.label(column).value(number),
+        _ => typed.to_owned(),
+    }
+}
+
+/// The better directions of x and y.
+pub(super) fn aims(request: &Request, columns: &Columns) -> (Aim, Aim) {
+    let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| Aim::of(request.name(column)));
+    (aim(request.args.x_aim, columns.x), aim(request.args.y_aim, columns.y))
+}
+
+/// The axes that a picture has no place for.
+fn left(columns: &Columns, axes: &Axes) -> Vec<usize> {
+    use PictureKind::{Histogram, Matrix, Pareto, Scatter, Tornado, Trajectory};
+    let shown = [Some(columns.x), Some(columns.y), columns.by];
+    let is_left = |column: &usize| match columns.kind {
+        Pareto | Trajectory | Matrix => false,
+        // All designs of a grid; of a sample that is crossed with axes, all its points.
+        Scatter | Histogram | Tornado => axes.sampled && !axes.sample.contains(column),
+        _ => true,
+    };
+    axes.columns.iter().copied().filter(|column| is_left(column) && !shown.contains(&Some(*column))).collect()
+}
