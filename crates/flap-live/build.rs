@@ -36,6 +36,7 @@ impl Joined {
         importers.push(module.to_owned());
         let source = fs::read_to_string(Path::new("web").join(module));
         let source = source.unwrap_or_else(|error| panic!("{error}: the module at the end of {importers:?}"));
+        let source = without_comments(&source);
         let (imports, body) = split(&source);
         let mut variables = String::new();
         for (names, path) in imports {
@@ -50,6 +51,19 @@ impl Joined {
         importers.pop();
         self.modules.insert(module.to_owned());
     }
+}
+
+/// A module without its types, which are in comments `/** … */`, and without comments that have lines of their own. The text
+/// begins with an empty line, so that each import follows a line break.
+fn without_comments(source: &str) -> String {
+    let mut parts = source.split("/**");
+    let mut code = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (_, rest) = part.split_once("*/").expect("a comment ends");
+        code += rest.strip_prefix(' ').unwrap_or(rest);
+    }
+    let lines = code.lines().filter(|line| !line.trim().is_empty() && !line.trim().starts_with("//"));
+    lines.fold(String::from("\n"), |kept, line| kept + line + "\n")
 }
 
 /// The imports of a module, as names in braces and a path, and the rest of its text.

@@ -179,6 +179,15 @@ def test_logarithmic_axes_of_lines_and_maps(page):
     assert all(len(page.labels(axis)) >= 4 for axis in ("x", "y")), [page.labels(axis) for axis in ("x", "y")]
 
 
+def test_points_at_one_x_are_all_in_the_picture(browser, tmp_path):
+    (tmp_path / "one.csv").write_text("a,b,status\n1,5,periodic\n1,7,periodic\n1,30,periodic\n", encoding="utf-8")
+    command("plot", tmp_path / "one.csv", "--html", tmp_path / "one.html", "--kind", "scatter", "--x", "a", "--y", "b")
+    page = Results(browser).open((tmp_path / "one.html").as_uri())
+    assert page.range("x") == pytest.approx([0.95, 1.05])
+    low, high = page.range("y")
+    assert low < 5 and 30 < high < 33
+
+
 # ---- views, slices and filters ----
 
 

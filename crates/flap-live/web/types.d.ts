@@ -99,7 +99,7 @@ export interface Scene {
   points?: PointSet;
   cells?: CellSet;
   /** The ranges of points or cells. */
-  extent?: { x: number[]; y: number[] };
+  extent?: { x: Range; y: Range };
   /** The quantity in which the lines differ. */
   title?: string;
   /** Colours of points and cells. */

@@ -153,7 +153,11 @@ export class Chart {
     const scaleOf = (scale, margin) => ({
       time: false,
       distr: this.scene[scale].log ? LOGARITHMIC : 1,
-      range: (_, low, high) => this.view[scale] ?? axisRange(low, high, this.scene[scale].log, margin),
+      range: (_, ...ends) => {
+        // With points at one x, uPlot widens the range itself.
+        const [low, high] = this.scene.extent?.[scale] ?? ends;
+        return this.view[scale] ?? axisRange(low, high, this.scene[scale].log, margin);
+      },
     });
     return {
       ...this.size(),

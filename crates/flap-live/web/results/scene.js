@@ -208,9 +208,7 @@ const pointsDrawing = (view, rows, scene, xOf, yOf) => {
   const y = Float64Array.from(rows, yOf);
   const colors = Uint32Array.from(rows, shades?.colourOf ?? (() => plain));
   scene.points = { x, y, rows, colors, size: pointSize(rows.length) };
-  const [rangeX, rangeY] = [extentOf(x) ?? [0, 0], extentOf(y) ?? [0, 0]];
-  // Points at one x: the chart draws a line of one value for the range of y.
-  scene.extent = rangeX[0] === rangeX[1] ? { x: [rangeX[0]], y: [rangeY[1]] } : { x: rangeX, y: rangeY };
+  scene.extent = { x: extentOf(x) ?? [0, 0], y: extentOf(y) ?? [0, 0] };
   scene.legend = shades?.legend ?? [];
   scene.bar = shades?.bar ?? null;
   if (view.best) {
