@@ -1,5 +1,6 @@
 """Tables: columns, and what they become elsewhere."""
 
+import dataclasses
 import json
 import pickle
 
@@ -310,7 +311,7 @@ def test_the_origin_is_in_xarray_and_pandas():
             assert json.loads(attributes["solver"]) == told.meta["solver"]
     assert json.loads(table.to_xarray().attrs["keywords"])["rtol"] == float(np.float32(1e-5))
     assert curve.to_xarray().attrs["parameter"] == "drive_frequency"
-    assert json.loads(curve.to_xarray().attrs["verdicts"]) == curve.verdicts
+    assert json.loads(curve.to_xarray().attrs["verdicts"]) == [dataclasses.asdict(verdict) for verdict in curve.verdicts]
 
 
 def test_the_origin_in_a_frame_is_kept_by_parquet(table, tmp_path):

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ._flapwing import split_unit
+from ._results import Verdict
 
 if TYPE_CHECKING:
     import pandas
@@ -106,7 +108,9 @@ def _origin(meta: Meta) -> dict[str, str]:
 
 def _plain(value: Any) -> Any:
     """A value that JSON has no notation for, such as a number of NumPy, as one that it has."""
-    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else str(value)
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    return dataclasses.asdict(value) if isinstance(value, Verdict) else str(value)
 
 
 def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
