@@ -39,7 +39,13 @@ wheels *ARGS:
 lint-workflows:
     ./scripts/lint-workflows.sh
 
-# Formatting and lints.
+# Formats all code; ruff is in the environment that `just test-python` makes.
+format:
+    cargo fmt --all
+    "${CARGO_TARGET_DIR:-target}/python/bin/ruff" format
+    "${CARGO_TARGET_DIR:-target}/python/bin/ruff" check --fix
+
+# Formatting and lints of Rust. `just test-python` checks Python.
 lint:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings

@@ -56,6 +56,10 @@ if ! diff -q - "$made_from" >/dev/null 2>&1 < <(printf '%s\n' "$work" "$version"
 fi
 export PATH="$work/bin:$PATH"
 
+# Format and lints, by ruff.toml. `ruff format` and `ruff check --fix` mend most of what they name.
+ruff format --quiet --check .
+ruff check --quiet .
+
 # Rows are compared with those of the command.
 cargo build --quiet --profile "$profile" --locked -p flap-cli
 folder=$profile

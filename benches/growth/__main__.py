@@ -1,4 +1,4 @@
-"""Measures how the cost and the memory of `flap sweep` grow with the number of points: `python3 benches/growth --help`."""
+"""Measures cost and memory of `flap sweep` over the number of points: `python3 benches/growth --help`."""
 
 from scaling.command import main
 

@@ -56,7 +56,10 @@ def drag(driver, name, steps):
     for step in range(steps):
         time.sleep(max(0.0, begun + step / 60 - time.perf_counter()))
         offset = step % (4 * reach)
-        mouse("mouseMoved", middle + (offset if offset <= reach else 2 * reach - offset if offset <= 3 * reach else offset - 4 * reach))
+        mouse(
+            "mouseMoved",
+            middle + (offset if offset <= reach else 2 * reach - offset if offset <= 3 * reach else offset - 4 * reach),
+        )
     took = time.perf_counter() - begun
     # The last picture is coarse until the slider is released.
     points = driver.execute_script(POINTS)
@@ -66,7 +69,9 @@ def drag(driver, name, steps):
 
 def measured(driver, command, preset, name, steps):
     """Milliseconds of each picture, the values of x in a line at the end, and the steps per second."""
-    server = subprocess.Popen([command, "live", preset, "--no-open"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    server = subprocess.Popen(
+        [command, "live", preset, "--no-open"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
     try:
         driver.get(server.stdout.readline().strip())
         WebDriverWait(driver, 30).until(lambda _: driver.execute_script(AT_REST))
@@ -92,7 +97,9 @@ def main():
         for preset, name in PRESETS.items():
             times, points, rate = measured(driver, arguments.flap, preset, name, arguments.steps)
             last = statistics.quantiles(times, n=20)[-1]
-            print(f"{preset:18}  {len(times):8}  {points:15}  {rate:7.0f}  {statistics.median(times):9.1f}  {last:18.1f}")
+            print(
+                f"{preset:18}  {len(times):8}  {points:15}  {rate:7.0f}  {statistics.median(times):9.1f}  {last:18.1f}"
+            )
     finally:
         driver.quit()
 

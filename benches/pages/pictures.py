@@ -96,11 +96,19 @@ def results(driver, flap, folder):
     """The page of the example in docs/plots.md, with a row that was clicked."""
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
-        subprocess.run([flap, "sweep", ROOT / "examples/ozaki_large.toml", "--out", "ozaki_large.csv", "--quiet"], cwd=place, check=True)
-        subprocess.run([flap, "plot", "ozaki_large.csv", "--html", "ozaki_large.html"], cwd=place, check=True, capture_output=True)
+        subprocess.run(
+            [flap, "sweep", ROOT / "examples/ozaki_large.toml", "--out", "ozaki_large.csv", "--quiet"],
+            cwd=place,
+            check=True,
+        )
+        subprocess.run(
+            [flap, "plot", "ozaki_large.csv", "--html", "ozaki_large.html"], cwd=place, check=True, capture_output=True
+        )
         window(driver, 1300, 800, "light")
         driver.get((place / "ozaki_large.html").as_uri())
-        WebDriverWait(driver, 60).until(lambda _: driver.execute_script("return window.flapTestHook?.charts[0].plot != null"))
+        WebDriverWait(driver, 60).until(
+            lambda _: driver.execute_script("return window.flapTestHook?.charts[0].plot != null")
+        )
         driver.execute_script("""
           const [first] = flapTestHook.charts, kind = document.querySelector("#kind");
           document.querySelector("#two").click();

@@ -44,7 +44,9 @@ requestAnimationFrame(() => arguments[0](performance.now() - begun));
 
 def measures(driver, name):
     """Milliseconds of all measures of a name."""
-    return driver.execute_script("return performance.getEntriesByName(arguments[0]).map((entry) => entry.duration)", name)
+    return driver.execute_script(
+        "return performance.getEntriesByName(arguments[0]).map((entry) => entry.duration)", name
+    )
 
 
 def steps_of_a_slider(driver, steps):
@@ -77,13 +79,18 @@ def main():
             print("view               first picture s  pictures  median ms  95th percentile ms")
             for view, wishes in VIEWS.items():
                 page = folder / f"{view}.html"
-                subprocess.run([flap, "plot", "large.csv", "--html", page, *wishes], cwd=folder, check=True, capture_output=True)
+                subprocess.run(
+                    [flap, "plot", "large.csv", "--html", page, *wishes], cwd=folder, check=True, capture_output=True
+                )
                 driver.get(page.as_uri())
                 WebDriverWait(driver, 60).until(lambda _: measures(driver, "flap-first-picture"))
                 first = measures(driver, "flap-first-picture")[0] / 1000
                 times = steps_of_a_slider(driver, arguments.steps)
                 last = statistics.quantiles(times, n=20)[-1] if len(times) > 1 else times[0]
-                print(f"{view:17}  {first:15.2f}  {len(times):8}  {statistics.median(times):9.1f}  {last:18.1f}", flush=True)
+                print(
+                    f"{view:17}  {first:15.2f}  {len(times):8}  {statistics.median(times):9.1f}  {last:18.1f}",
+                    flush=True,
+                )
                 if view == "lines":
                     driver.execute_script("document.querySelector('#reset').click()")
                     taken = driver.execute_async_script(ALL_SLICES) / 1000

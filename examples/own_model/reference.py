@@ -2,9 +2,9 @@
 
     python examples/own_model/reference.py > tests/data/motor_wing.csv
 
-Each row: voltage (V), frequency (Hz), wing length (m), spring stiffness (N m/rad, empty where it follows the frequency), then
-what is measured over the last of 100 drive periods: largest flap angle (deg), mean lift (mN), mean and mean magnitude of the
-electrical power (mW), mean power that the air takes (mW), root mean square of the current (mA).
+Each row: voltage (V), frequency (Hz), wing length (m), spring stiffness (N m/rad, empty where it follows the
+frequency), then what is measured over the last of 100 drive periods: largest flap angle (deg), mean lift (mN), mean and
+mean magnitude of the electrical power (mW), mean power that the air takes (mW), root mean square of the current (mA).
 """
 
 import csv
@@ -66,10 +66,16 @@ def measures(voltage, frequency, length, stiffness):
     def slope(t, y):
         flap, rate, current = y
         torque = TORQUE * current - BEARING * rate - spring * flap - air(rate)[1]
-        return rate, torque / inertia, (voltage * np.sin(omega * t) - RESISTANCE * current - BACK_EMF * rate) / INDUCTANCE
+        return (
+            rate,
+            torque / inertia,
+            (voltage * np.sin(omega * t) - RESISTANCE * current - BACK_EMF * rate) / INDUCTANCE,
+        )
 
     period = 1 / frequency
-    run = solve_ivp(slope, (0, 100 * period), (0, 0, 0), "DOP853", rtol=1e-12, atol=1e-14, max_step=period / 100, dense_output=True)
+    run = solve_ivp(
+        slope, (0, 100 * period), (0, 0, 0), "DOP853", rtol=1e-12, atol=1e-14, max_step=period / 100, dense_output=True
+    )
     t = np.linspace(99 * period, 100 * period, 40_001)
     flap, rate, current = run.sol(t)
     power = voltage * np.sin(omega * t) * current
@@ -86,7 +92,10 @@ def measures(voltage, frequency, length, stiffness):
 
 out = csv.writer(sys.stdout, lineterminator="\n")
 out.writerow(
-    "voltage frequency length stiffness stroke_max_deg lift_mean_mn power_mean_mw power_magnitude_mw power_air_mean_mw current_rms_ma".split()
+    (
+        "voltage frequency length stiffness stroke_max_deg lift_mean_mn power_mean_mw "
+        "power_magnitude_mw power_air_mean_mw current_rms_ma"
+    ).split()
 )
 for point in POINTS:
     given = ["" if value is None else value for value in point]

@@ -115,7 +115,7 @@ def read(path: str) -> tuple[Array, dict[str, Array]]:
 
 
 def synthetic(names: list[str], readings: int, voltage: float, seed: int) -> tuple[Array, dict[str, Array], Array]:
-    """Frequencies, a response of the model with other parameters than the preset's, plus noise, and the noise itself."""
+    """Frequencies, a noisy response of the model with other parameters than the preset's, and the noise."""
     frequency = np.linspace(70.0, 150.0, readings)
     response = Response(names, frequency, {"stroke_pp_deg": frequency}, voltage)
     exact = response.model(np.log(TRUE_RATIOS)[np.newaxis])[0]
@@ -147,7 +147,9 @@ def main() -> None:
     else:
         frequency, measured, noise = synthetic(FITTED, READINGS[arguments.size], arguments.voltage, arguments.seed)
         rms = np.sqrt(np.mean(noise**2))
-        print(f"synthetic data: {len(frequency)} readings with noise of {rms:.3f} deg rms, drawn with a standard", end=" ")
+        print(
+            f"synthetic data: {len(frequency)} readings with noise of {rms:.3f} deg rms, drawn with a standard", end=" "
+        )
         print(f"deviation of {NOISE_DEG:g} deg")
         if arguments.write_data:
             rows = np.column_stack([frequency, *measured.values()])

@@ -1,9 +1,10 @@
 """The work of a fit with exact derivatives beside one with differences.
 
 Both fit four parameters of the bimorph of Jafferis et al. to 100 readings from eight starts, with
-`scipy.optimize.least_squares` and the same settings; the best end is searched on with a tighter tolerance. Derivatives of
-`flapwing.evaluate` come with the rows, at the tolerance that rows need. Differences need rows at a tighter one, 1e-8 for steps
-of a thousandth, and a row for every side of every parameter. Forward differences take the row in the middle from the step before.
+`scipy.optimize.least_squares` and the same settings; the best end is searched on with a tighter tolerance. Derivatives
+of `flapwing.evaluate` come with the rows, at the tolerance that rows need. Differences need rows at a tighter one, 1e-8
+for steps of a thousandth, and a row for every side of every parameter. Forward differences take the row in the middle
+from the step before.
 
     python fit_cost.py
 

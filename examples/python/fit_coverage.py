@@ -1,8 +1,8 @@
 """Coverage of the intervals of `flapwing.fit`: synthetic experiments, of which the true parameters are known.
 
 Each experiment is a response of the bimorph of Jafferis et al. at two voltages and 25 frequencies, with noise of 3 % on
-every reading. Three parameters are fitted. 95 % intervals by the profile likelihood should contain the true values in 95 %
-of the experiments: with 300 experiments, between 92 and 98 %.
+every reading. Three parameters are fitted. 95 % intervals by the profile likelihood should contain the true values in
+95 % of the experiments: with 300 experiments, between 92 and 98 %.
 
 Then a fourth parameter is freed, the inertia of the air beside that of the wing. Only their sum is in the equations, so
 no data tell them apart, and the fit must say so in every experiment.

@@ -1,9 +1,9 @@
 """The next readings of a fit: those that `Fit.next_measurements` chooses beside readings at random.
 
-Each trial is a synthetic experiment with eight readings at random frequencies and voltages. A fit of three parameters says which
-two operating points to measure next, so that the error of the drag coefficient halves. Both are measured and fitted again,
-until it has. The same is done with points at random. Errors are computed from derivatives at the true parameters, which no
-plan knows.
+Each trial is a synthetic experiment with eight readings at random frequencies and voltages. A fit of three parameters
+says which two operating points to measure next, so that the error of the drag coefficient halves. Both are measured and
+fitted again, until it has. The same is done with points at random. Errors are computed from derivatives at the true
+parameters, which no plan knows.
 
     python fit_next.py --trials 100
 
@@ -32,9 +32,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
 
-    truth: dict[str, Any] = {
-        name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()
-    }
+    truth: dict[str, Any] = {name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()}
     frequency, voltage = np.meshgrid(np.linspace(70.0, 150.0, 33), [100.0, 120.0, 140.0, 160.0])
     candidates = {"drive_frequency": frequency.ravel(), "drive_voltage_pp": voltage.ravel()}
     table = flapwing.evaluate(PRESET, candidates, measures=[MEASURE], gradient=list(TRUE), **truth)

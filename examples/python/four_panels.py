@@ -4,7 +4,8 @@
     python examples/python/four_panels.py              # writes docs/pictures/py-four-panels.png
     python examples/python/four_panels.py figure.pdf   # any format of matplotlib
 
-Each function of `flapwing.plot` draws in the axes that it is given, with the letters and lines of the script's settings.
+Each function of `flapwing.plot` draws in the axes that it is given, with the letters and lines of the script's
+settings.
 """
 
 from __future__ import annotations

@@ -111,10 +111,15 @@ def hysteresis() -> Axes:
 
 def fit() -> Figure:
     """A fit of hinge and drag to synthetic readings."""
-    points = {"drive_frequency": np.tile(np.linspace(70, 150, 15), 2), "drive_voltage_pp": np.repeat([120.0, 160.0], 15)}
+    points = {
+        "drive_frequency": np.tile(np.linspace(70, 150, 15), 2),
+        "drive_voltage_pp": np.repeat([120.0, 160.0], 15),
+    }
     rows = flapwing.evaluate("jafferis2016", points, hinge_stiffness="1.3 uN*m/rad")
     readings = {**points, "stroke_pp_deg": rows["stroke_pp_deg"] * np.random.default_rng(1).normal(1, 0.02, 30)}
-    return plot.fit(flapwing.fit("jafferis2016", readings, ["hinge_stiffness", "drag_coefficient_max"], sigma="2 %", starts=2))
+    return plot.fit(
+        flapwing.fit("jafferis2016", readings, ["hinge_stiffness", "drag_coefficient_max"], sigma="2 %", starts=2)
+    )
 
 
 def tornado() -> Axes:

@@ -154,7 +154,8 @@ class Page:
     def point_at_gap(self, number=0):
         """Moves the pointer to the first gap, in the lowest row of marks; returns the gap."""
         gap, left, height = self.chart(
-            "((gap) => [gap, chart.plot.valToPos(gap.x, 'x'), chart.plot.over.clientHeight])(chart.scene.gaps[0])", number
+            "((gap) => [gap, chart.plot.valToPos(gap.x, 'x'), chart.plot.over.clientHeight])(chart.scene.gaps[0])",
+            number,
         )
         self.point_at(left, height - 6, number)
         return gap

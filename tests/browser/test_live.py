@@ -76,7 +76,10 @@ class LivePage(Page):
 
     def changed(self):
         """The parameters that are marked as changed, and their values as they are shown."""
-        return {row.get_attribute("data-name"): self.value(f"#p-{row.get_attribute('data-name')}") for row in self.find_all(".parameter.changed")}
+        return {
+            row.get_attribute("data-name"): self.value(f"#p-{row.get_attribute('data-name')}")
+            for row in self.find_all(".parameter.changed")
+        }
 
     def choose(self, name, value):
         Select(self.find(f"#{name}")).select_by_value(value)
@@ -149,7 +152,11 @@ def assert_same(found, expected):
     for one, other_one in zip(rows, expected[1]):
         for name, a, b in zip(names, one, other_one):
             both_missing = b is None and (a is None or a == "")
-            assert both_missing or a == b or (isinstance(b, float) and math.isinf(b) and a in (None, "inf")), (name, a, b)
+            assert both_missing or a == b or (isinstance(b, float) and math.isinf(b) and a in (None, "inf")), (
+                name,
+                a,
+                b,
+            )
 
 
 # ---- sliders and axes ----
@@ -230,7 +237,12 @@ def test_ends_of_the_axis_are_typed_with_units_or_refused_with_words(page):
     page.type("#x-from", "0.1 kHz")
     page.rest()
     assert page.range("x")[0] == pytest.approx(100)
-    for text, words in [("1,400", "may be 1400 or 1.4"), ("5 cats", "is not a unit"), ("many", "number"), (page.value("#x-to"), "must differ")]:
+    for text, words in [
+        ("1,400", "may be 1400 or 1.4"),
+        ("5 cats", "is not a unit"),
+        ("many", "number"),
+        (page.value("#x-to"), "must differ"),
+    ]:
         page.type("#x-from", text)
         assert words in page.text("#x-problem"), text
         assert page.range("x")[0] == pytest.approx(100)
@@ -248,7 +260,11 @@ def test_points_without_a_motion_are_marks_at_the_foot(page):
     missing = sum(status != "periodic" for status in statuses)
     assert missing == page.chart("chart.scene.gaps.length") > 0
     assert page.text("#tip").startswith(f"{missing} of {len(rows)} points have no settled motion")
-    counts = [f"{statuses.count(status)} {status.replace('_', ' ')}" for status in dict.fromkeys(statuses) if status != "periodic"]
+    counts = [
+        f"{statuses.count(status)} {status.replace('_', ' ')}"
+        for status in dict.fromkeys(statuses)
+        if status != "periodic"
+    ]
     assert page.texts("#chart .statuses span") == counts
     gap = page.point_at_gap()
     page.wait(lambda: page.text("#tip").startswith("No settled motion at"))
@@ -292,7 +308,9 @@ def test_the_motion_is_that_of_the_point_under_the_pointer(page):
     page.wait(lambda: "250 V" in page.text("#motion-of"))
     frequency = page.chart("chart.scene.lines[4].x[20]")
     assert page.text("#motion-of") == f"at {frequency:g} Hz, 250 V"
-    assert page.text("#tip").startswith("Lift, mean ") and page.text("#tip").endswith(f" at {frequency:g} Hz, 250 V: periodic")
+    assert page.text("#tip").startswith("Lift, mean ") and page.text("#tip").endswith(
+        f" at {frequency:g} Hz, 250 V: periodic"
+    )
     ActionChains(page.browser).move_to_element(page.find("h1")).perform()
     page.wait(lambda: page.text("#motion-of") == "of the design")
 
@@ -313,7 +331,9 @@ def test_the_wing_stands_still_and_goes_on(browser, server):
     painted = "const { data } = arguments[0].getContext('2d').getImageData(0, 0, 9999, 9999); return data.some((part) => part > 0)"
     assert all(page.script(painted, page.find(canvas)) for canvas in ("#above", "#tip-view"))
 
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]})
+    browser.execute_cdp_cmd(
+        "Emulation.setEmulatedMedia", {"features": [{"name": "prefers-reduced-motion", "value": "reduce"}]}
+    )
     try:
         page.open(server.address)
         assert page.text("#play") == "Play"

@@ -45,7 +45,19 @@ drive_voltage_pp = { from = "21 V", to = "100 V", step = "1 V" }
 drive_frequency = { from = "95 Hz", to = "110 Hz", step = "5 Hz" }
 """
 
-LOOP = ["--set", "hinge_stiffness=0.7486 uN*m/rad", "--set", "drive_voltage_pp=160 V", "--from", "118 Hz", "--to", "132 Hz", "--step", "1 Hz", "--unstable"]
+LOOP = [
+    "--set",
+    "hinge_stiffness=0.7486 uN*m/rad",
+    "--set",
+    "drive_voltage_pp=160 V",
+    "--from",
+    "118 Hz",
+    "--to",
+    "132 Hz",
+    "--step",
+    "1 Hz",
+    "--unstable",
+]
 
 
 class Results(Page):
@@ -58,7 +70,9 @@ class Results(Page):
     def choose(self, name, text):
         """Chooses an entry of a menu: the beginning of a column's title."""
         menu = Select(self.find(f"#{name}"))
-        menu.select_by_value(next(option.get_attribute("value") for option in menu.options if option.text.startswith(text)))
+        menu.select_by_value(
+            next(option.get_attribute("value") for option in menu.options if option.text.startswith(text))
+        )
 
     def chosen(self, name):
         return Select(self.find(f"#{name}")).first_selected_option.text
@@ -76,7 +90,9 @@ class Results(Page):
         actions = ActionChains(self.browser)
         if shift:
             actions.key_down(Keys.SHIFT)
-        actions.move_to_element_with_offset(over, *offsets[0]).click_and_hold().move_to_element_with_offset(over, *offsets[1]).release()
+        actions.move_to_element_with_offset(over, *offsets[0]).click_and_hold().move_to_element_with_offset(
+            over, *offsets[1]
+        ).release()
         if shift:
             actions.key_up(Keys.SHIFT)
         actions.perform()
@@ -254,7 +270,11 @@ def test_filters_are_typed_and_slid(page):
     page.type(low, "99,5")
     assert page.value(low) == "99.5"
 
-    for text, words in [("1,400", "may be 1400 or 1.4"), ("5 cats", "is not a unit"), ("much", "does not begin with a number")]:
+    for text, words in [
+        ("1,400", "may be 1400 or 1.4"),
+        ("5 cats", "is not a unit"),
+        ("much", "does not begin with a number"),
+    ]:
         page.type(low, text)
         assert words in page.text(".filter .problem")
         assert page.find(low).get_attribute("aria-invalid") == "true"
@@ -365,7 +385,9 @@ def test_rows_are_saved_as_they_are_in_the_file(page, tmp_path):
     for cells in found[1:]:
         expected = by_point[int(float(cells[0]))]
         for cell, value in zip(cells, expected):
-            assert (cell == "" and value is None) or (float(cell) == value if isinstance(value, float) else cell == str(value).lower())
+            assert (cell == "" and value is None) or (
+                float(cell) == value if isinstance(value, float) else cell == str(value).lower()
+            )
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -381,14 +403,18 @@ def test_pictures_have_the_whole_legend_and_are_light(browser, open_page, tmp_pa
         texts = [text for text in picture.iter(f"{name}text") if text.get("text-anchor") == "start"]
         assert [text.text for text in texts][:3] == ["Drive voltage, peak to peak:", "21 V", "22 V"]
         assert len(texts) == 61
-        assert all(float(text.get("x")) + 7 * len(text.text) < width and float(text.get("y")) < height for text in texts)
+        assert all(
+            float(text.get("x")) + 7 * len(text.text) < width and float(text.get("y")) < height for text in texts
+        )
         assert len({text.get("y") for text in texts}) > 2
         assert picture.find(f"{name}rect").get("fill") == "#ffffff"
         ticks = {text.text for text in picture.iter(f"{name}text") if text.get("text-anchor") != "start"}
         assert {*page.labels("x"), *page.labels("y"), "Drive frequency (Hz)"} <= ticks
         colours = {path.get("stroke") for path in picture.iter(f"{name}path")}
         assert len(colours) > 50
-        assert all(contrast([int(part) for part in colour[4:-1].split(",")], (255, 255, 255)) >= 3 for colour in colours)
+        assert all(
+            contrast([int(part) for part in colour[4:-1].split(",")], (255, 255, 255)) >= 3 for colour in colours
+        )
         data = downloaded(tmp_path / "picture.png")
         assert png_size(data) == pytest.approx((width, height), abs=2)
         corner = page.browser.execute_async_script(
@@ -415,7 +441,9 @@ def test_pictures_have_the_points_between_two_gaps(open_page, tmp_path):
     picture = downloaded(tmp_path / "picture.svg").decode()
     values = [y for line in page.lines() for y in line["y"] if y is not None]
     assert picture.count("<circle") == len(values) > 0
-    assert picture.count('transform="translate(') == 1 + len(page.chart("chart.scene.gaps")) + 1, "the y axis, gaps and their entry"
+    assert picture.count('transform="translate(') == 1 + len(page.chart("chart.scene.gaps")) + 1, (
+        "the y axis, gaps and their entry"
+    )
 
 
 # ---- the address ----
@@ -431,7 +459,12 @@ def test_the_address_keeps_what_is_shown(page):
     def state():
         menus = [page.chosen(name) for name in ("kind", "x", "y", "color")]
         labels = [page.chart("[chart.scene.x, chart.scene.y, chart.scene.lines.length]", number) for number in (0, 1)]
-        return menus, labels, page.text("#status"), [select.get_attribute("value") for select in page.find_all("#slices select")]
+        return (
+            menus,
+            labels,
+            page.text("#status"),
+            [select.get_attribute("value") for select in page.find_all("#slices select")],
+        )
 
     page.click("#view-0")
     before = state()
@@ -528,19 +561,37 @@ def test_nothing_is_fetched_from_elsewhere(page):
     page.click("#two")
     assert page.resources() == []
     assert page.find_all("[src]") == []
-    refused = page.browser.execute_async_script("fetch('data:,x').then(() => arguments[0](false), () => arguments[0](true))")
+    refused = page.browser.execute_async_script(
+        "fetch('data:,x').then(() => arguments[0](false), () => arguments[0](true))"
+    )
     assert refused is True
     page.browser.get_log("browser")  # the refusal itself
 
 
 def test_a_large_page_draws_soon(browser, tmp_path):
     """126,000 rows: the first picture, lines of all slices, and steps of a filter."""
-    axes = [(voltage, frequency, hinge) for voltage in range(40, 100, 2) for frequency in range(95, 137) for hinge in range(60, 160)]
+    axes = [
+        (voltage, frequency, hinge)
+        for voltage in range(40, 100, 2)
+        for frequency in range(95, 137)
+        for hinge in range(60, 160)
+    ]
     assert len(axes) == 126_000
     lines = (f"{v},{f},{h}e-6,periodic,{math.sin(0.1 * f) * v * h:.6g}" for v, f, h in axes)
     text = "drive_voltage_pp,drive_frequency,hinge_stiffness,status,lift_mean_mn\n" + "\n".join(lines) + "\n"
     (tmp_path / "large.csv").write_text(text, encoding="utf-8")
-    command("plot", tmp_path / "large.csv", "--html", tmp_path / "large.html", "--x", "drive_frequency", "--y", "lift_mean_mn", "--by", "drive_voltage_pp")
+    command(
+        "plot",
+        tmp_path / "large.csv",
+        "--html",
+        tmp_path / "large.html",
+        "--x",
+        "drive_frequency",
+        "--y",
+        "lift_mean_mn",
+        "--by",
+        "drive_voltage_pp",
+    )
     page = Results(browser).open((tmp_path / "large.html").as_uri())
     page.wait(lambda: page.durations("flap-first-picture"))
     assert "of 126000 rows" in page.text("#status")

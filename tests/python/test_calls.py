@@ -27,7 +27,9 @@ def test_every_form_of_a_design_is_taken_by_every_function(tmp_path):
     for design in designs(tmp_path):
         assert is_same(flapwing.run(design), row)
         assert flapwing.sweep(design)["lift_mean_mn"].tolist() == [row["lift_mean_mn"]]
-        assert flapwing.evaluate(design, {"drive_frequency": [row_frequency()]})["lift_mean_mn"][0] == row["lift_mean_mn"]
+        assert (
+            flapwing.evaluate(design, {"drive_frequency": [row_frequency()]})["lift_mean_mn"][0] == row["lift_mean_mn"]
+        )
         assert len(flapwing.trajectory(design, cycles=1, samples=4)) == 5
         assert len(flapwing.respond(design, start=100, stop=110, step=5, tolerance=5)) == 6
         assert flapwing.resonance(design, start=100, stop=120).driven
@@ -66,7 +68,11 @@ def test_a_run_has_the_measures_of_its_grid():
 
 
 def test_a_design_at_its_resonance():
-    grid = {"preset": "ozaki2018-small", "params": {"drive_frequency": "resonance"}, "resonance": {"from": 180, "to": 210}}
+    grid = {
+        "preset": "ozaki2018-small",
+        "params": {"drive_frequency": "resonance"},
+        "resonance": {"from": 180, "to": 210},
+    }
     row = flapwing.run(grid)
     assert row["resonance_hz"] == flapwing.sweep(grid)["resonance_hz"][0]
     motion = flapwing.trajectory(grid, cycles=1, samples=4)
@@ -74,7 +80,11 @@ def test_a_design_at_its_resonance():
 
 
 def test_a_model_runs_with_all_its_parameters():
-    values = {name: p.value for name, p in flapwing.params(PRESET).items() if p.is_number or p.options and isinstance(p.value, str)}
+    values = {
+        name: p.value
+        for name, p in flapwing.params(PRESET).items()
+        if p.is_number or p.options and isinstance(p.value, str)
+    }
     assert is_same(flapwing.run("direct-drive", **values), flapwing.run(PRESET))
     with pytest.raises(ValueError, match="model `direct-drive` has no values of its own: give drive_voltage_pp, "):
         flapwing.run("direct-drive")
@@ -132,14 +142,16 @@ def test_axes_and_columns_come_from_every_library(values):
     np.testing.assert_array_equal(
         flapwing.sweep({"preset": PRESET, "axes": {"drive_frequency": values}})["lift_mean_mn"], expected
     )
-    np.testing.assert_array_equal(
-        flapwing.evaluate(PRESET, {"drive_frequency": values})["lift_mean_mn"], expected
-    )
+    np.testing.assert_array_equal(flapwing.evaluate(PRESET, {"drive_frequency": values})["lift_mean_mn"], expected)
 
 
 @pytest.mark.parametrize("make", [pandas.DataFrame, polars.DataFrame, pyarrow.table, dict])
 def test_frames_are_columns(make):
-    columns = {"drive_frequency": [100.0, 105.0], "drive_voltage_pp": [80.0, 90.0], "lift_sign": ["corrected", "printed"]}
+    columns = {
+        "drive_frequency": [100.0, 105.0],
+        "drive_voltage_pp": [80.0, 90.0],
+        "lift_sign": ["corrected", "printed"],
+    }
     frame = make(columns)
     rows = flapwing.evaluate(PRESET, frame)
     assert rows["lift_sign"].tolist() == columns["lift_sign"]
@@ -148,12 +160,16 @@ def test_frames_are_columns(make):
 
 
 def test_a_table_goes_back_in():
-    table = flapwing.sweep({"preset": PRESET, "axes": {"drive_voltage_pp": [60, 80], "lift_sign": ["corrected", "printed"]}})
+    table = flapwing.sweep(
+        {"preset": PRESET, "axes": {"drive_voltage_pp": [60, 80], "lift_sign": ["corrected", "printed"]}}
+    )
     for rows in (table, table[1:], table[table["lift_sign"] == "printed"], table[["drive_voltage_pp", "lift_sign"]]):
         again = flapwing.evaluate(PRESET, rows)
         assert again["drive_voltage_pp"].tolist() == rows["drive_voltage_pp"].tolist()
     np.testing.assert_array_equal(flapwing.evaluate(PRESET, table)["lift_mean_mn"], table["lift_mean_mn"])
-    with pytest.raises(ValueError, match="`columns` has no column of a parameter: add one, or give a dictionary\nthere is lift_mean_mn"):
+    with pytest.raises(
+        ValueError, match="`columns` has no column of a parameter: add one, or give a dictionary\nthere is lift_mean_mn"
+    ):
         flapwing.evaluate(PRESET, table[["lift_mean_mn"]])
 
 
@@ -167,11 +183,13 @@ def test_measures_are_chosen():
         lambda names: flapwing.evaluate(PRESET, {"drive_frequency": [100]}, measures=names),
         lambda names: flapwing.sweep(THREE, measures=names),
     ):
-        with pytest.raises(ValueError, match="no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, "):
+        with pytest.raises(
+            ValueError, match="no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, "
+        ):
             call(["lift_mean"])
         with pytest.raises(ValueError, match="names lift_mean_mn twice\nkeep one"):
             call(["lift_mean_mn", "lift_mean_mn"])
-        with pytest.raises(TypeError, match='`measures` is str\nit must be a list of names such as'):
+        with pytest.raises(TypeError, match="`measures` is str\nit must be a list of names such as"):
             call("lift_mean_mn")
 
 

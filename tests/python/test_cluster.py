@@ -43,9 +43,12 @@ columns = ["lift_mean_mn", "stroke_lag_deg", "lift_per_stroke"]
 @pytest.fixture(scope="module")
 def client():
     """Two worker processes on this machine."""
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", host="127.0.0.1"
-    ) as cluster, distributed.Client(cluster) as client:
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", host="127.0.0.1"
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
         yield client
 
 
@@ -126,7 +129,11 @@ def test_what_a_worker_says_arrives(client, tmp_path):
 
 def test_a_batch_has_the_rows_of_one_machine(client, tmp_path, monkeypatch):
     rng = np.random.default_rng(1)
-    grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": [100, 110]}, "where": {"long": "wing_length > 0.029"}}
+    grid = {
+        "preset": "ozaki2018-large",
+        "axes": {"drive_frequency": [100, 110]},
+        "where": {"long": "wing_length > 0.029"},
+    }
     columns = {
         "wing_length": rng.uniform(0.028, 0.032, 60),
         "drive_voltage_pp": [f"{volts} V" for volts in range(50, 110)],
@@ -182,12 +189,16 @@ def test_derivatives_of_a_batch_are_those_of_one_machine(client, axes):
         "air_density": np.where(np.arange(40) % 13 == 7, -1.0, 1.2),
     }
     options = {"measures": ["lift_mean_mn", "stroke_pp_deg"], "gradient": ["hinge_stiffness", "drive_frequency"]}
-    far, near = (flapwing.evaluate(grid, columns, client=there, return_states=True, **options) for there in (client, None))
+    far, near = (
+        flapwing.evaluate(grid, columns, client=there, return_states=True, **options) for there in (client, None)
+    )
     assert far.counts["invalid"] == 3 * len(axes.get("drive_voltage_pp", [0]))
     assert far.meta == near.meta and far.units == near.units and far.columns == near.columns
     assert far.gradient.shape == (len(near), 2, 2) and np.isfinite(far.gradient).sum() > 0.9 * far.gradient.size
     np.testing.assert_array_equal(far.gradient, near.gradient)
-    again, here = (flapwing.evaluate(grid, columns, client=there, initial_state=near, **options) for there in (client, None))
+    again, here = (
+        flapwing.evaluate(grid, columns, client=there, initial_state=near, **options) for there in (client, None)
+    )
     np.testing.assert_array_equal(again.gradient, here.gradient)
     with pytest.raises(ValueError, match="`lift_sign` has fixed values, so there is no derivative by it"):
         flapwing.evaluate(grid, columns, gradient=["lift_sign"], client=client)
@@ -211,7 +222,10 @@ def test_single_points_are_those_of_one_machine(client, tmp_path, monkeypatch):
         told = []
         far = call(client=client, progress=lambda *done: told.append(done))
         assert is_same(far, call()) and told == [(1, 1)]
-    far, near = (flapwing.trajectory(grid, point=-1, samples=50, drive_voltage_pp="80 V", client=there) for there in (client, None))
+    far, near = (
+        flapwing.trajectory(grid, point=-1, samples=50, drive_voltage_pp="80 V", client=there)
+        for there in (client, None)
+    )
     assert far.columns == near.columns and far.units == near.units and far.docs == near.docs and far.meta == near.meta
     for name in near:
         np.testing.assert_array_equal(far[name], near[name], strict=True)
@@ -220,7 +234,14 @@ def test_single_points_are_those_of_one_machine(client, tmp_path, monkeypatch):
 def test_responses_are_those_of_one_machine(client):
     grid = {"preset": "jafferis2016", "axes": {"hinge_stiffness": ["0.7486 uN*m/rad", "1 uN*m/rad", "1.5 uN*m/rad"]}}
     told = []
-    options = {"start": "122 Hz", "stop": "128 Hz", "step": "1 Hz", "unstable": True, "return_states": True, "drive_voltage_pp": "160 V"}
+    options = {
+        "start": "122 Hz",
+        "stop": "128 Hz",
+        "step": "1 Hz",
+        "unstable": True,
+        "return_states": True,
+        "drive_voltage_pp": "160 V",
+    }
     far = flapwing.respond(grid, client=client, progress=lambda *done: told.append(done), **options)
     near = flapwing.respond(grid, **options)
     assert told[-1] == (3, 3) and [done for done, _ in told] == [1, 2, 3]
@@ -255,5 +276,7 @@ def test_workers_of_another_build_are_refused(client, monkeypatch):
     from flapwing import _dask
 
     monkeypatch.setattr(_dask._flapwing, "identity", lambda: {"build": "0", "arithmetic": "0"})
-    with pytest.raises(RuntimeError, match="a worker's build of flapwing is .*, and here it is 0\ninstall the same build"):
+    with pytest.raises(
+        RuntimeError, match="a worker's build of flapwing is .*, and here it is 0\ninstall the same build"
+    ):
         flapwing.run("ozaki2018-large", client=client)

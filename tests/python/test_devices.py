@@ -59,7 +59,10 @@ def test_a_fit_of_a_device_keeps_what_is_known_of_the_others(bee, tmp_path):
     found = flapwing.fit(bee, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
     found.write_device(tmp_path / "next.toml")
     text = (tmp_path / "next.toml").read_text(encoding="utf-8")
-    assert 'hinge_stiffness = { value = 2e-06, sd = 1e-07, source = "bending test" }' in text and text.count("[[correlation]]") == 1
+    assert (
+        'hinge_stiffness = { value = 2e-06, sd = 1e-07, source = "bending test" }' in text
+        and text.count("[[correlation]]") == 1
+    )
     builds = {"device": str(tmp_path / "next.toml"), "sample": {"of": "device", "method": "sobol", "n": 256}}
     table = flapwing.sweep(builds, measures=["lift_mean_mn"])
     assert table["hinge_stiffness"].std() == pytest.approx(1e-7, rel=0.05)

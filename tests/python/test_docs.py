@@ -40,10 +40,15 @@ def test_every_attribute_of_a_result_is_documented():
         for name in module.__all__:
             thing = getattr(module, name)
             for field in dataclasses.fields(thing) if dataclasses.is_dataclass(thing) else ():
-                assert re.search(rf"^    (\w+, )*{field.name}(, \w+)* : ", thing.__doc__, re.MULTILINE), (name, field.name)
+                assert re.search(rf"^    (\w+, )*{field.name}(, \w+)* : ", thing.__doc__, re.MULTILINE), (
+                    name,
+                    field.name,
+                )
 
 
-@pytest.mark.parametrize(("page", "least"), [("docs/python.md", 6), ("docs/live.md", 1), ("docs/fit.md", 6), ("README.md", 2)])
+@pytest.mark.parametrize(
+    ("page", "least"), [("docs/python.md", 6), ("docs/live.md", 1), ("docs/fit.md", 6), ("README.md", 2)]
+)
 def test_python_in_the_pages_runs(page, least, tmp_path, monkeypatch):
     pytest.importorskip("matplotlib").use("Agg")
     monkeypatch.chdir(tmp_path)

@@ -156,7 +156,9 @@ FAILING = [RuntimeError("broken"), MemoryError(), SystemError("inside"), Recursi
 
 
 @pytest.mark.parametrize("error", FAILING, ids=lambda error: type(error).__name__)
-@pytest.mark.parametrize("method", ["__float__", "__array_struct__", "__array__", "__len__", "__iter__", "tolist", "columns", "to_dict"])
+@pytest.mark.parametrize(
+    "method", ["__float__", "__array_struct__", "__array__", "__len__", "__iter__", "tolist", "columns", "to_dict"]
+)
 def test_objects_that_fail_are_errors_of_two_lines(method, error):
     failing = Failing(method, error)
     grid = {"preset": PRESET, "axes": {"drive_frequency": failing}}
@@ -206,8 +208,12 @@ def test_stops_inside_of_a_value_pass_through(stop):
         lambda huge: flapwing.evaluate(PRESET, {"drive_frequency": [100.0, huge]}),
         lambda huge: flapwing.run(PRESET, waveform=([0, 1, 2, huge], [0, 1, 0, -1])),
         lambda huge: flapwing.impulse(PRESET, amplitude=huge),
-        lambda huge: flapwing.fit(PRESET, {"drive_frequency": [100, huge], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"]),
-        lambda huge: flapwing.fit(PRESET, {"drive_frequency": [100, 110], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"], sigma=huge),
+        lambda huge: flapwing.fit(
+            PRESET, {"drive_frequency": [100, huge], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"]
+        ),
+        lambda huge: flapwing.fit(
+            PRESET, {"drive_frequency": [100, 110], "stroke_pp_deg": [50, 60]}, ["hinge_stiffness"], sigma=huge
+        ),
     ],
 )
 def test_whole_numbers_beyond_floats_are_too_large(call):
@@ -285,7 +291,14 @@ def test_no_parameter_is_hidden_by_a_solver_setting(preset):
     kinds = {name: parameter.kind for name, parameter in inspect.signature(flapwing.run).parameters.items()}
     keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
     assert keywords == ["point", "initial_state", "waveform", "stroke", "progress", "client", *settings]
-    for function in [flapwing.run, flapwing.sweep, flapwing.evaluate, flapwing.respond, flapwing.trajectory, *EXPERIMENTS]:
+    for function in [
+        flapwing.run,
+        flapwing.sweep,
+        flapwing.evaluate,
+        flapwing.respond,
+        flapwing.trajectory,
+        *EXPERIMENTS,
+    ]:
         kinds = {name: parameter.kind for name, parameter in inspect.signature(function).parameters.items()}
         keywords = [name for name, kind in kinds.items() if kind is inspect.Parameter.KEYWORD_ONLY]
         assert not set(parameters) & set(keywords), function

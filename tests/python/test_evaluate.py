@@ -39,9 +39,9 @@ def test_a_row_does_not_depend_on_its_neighbours():
         {"drive_voltage_pp": "80 V", "drive_frequency": ["100 Hz", "0.105 kHz"]},
         pandas.DataFrame({"drive_frequency": [100.0, 105.0], "drive_voltage_pp": [80.0, 80.0]}),
         {"drive_frequency": pandas.Series([100, 105], index=[7, 8]), "drive_voltage_pp": (80.0, "80 V")},
-        flapwing.sweep({"preset": PRESET, "axes": {"drive_voltage_pp": [80], "drive_frequency": [100, 105]}}).to_pandas()[
-            ["drive_voltage_pp", "drive_frequency"]
-        ],
+        flapwing.sweep(
+            {"preset": PRESET, "axes": {"drive_voltage_pp": [80], "drive_frequency": [100, 105]}}
+        ).to_pandas()[["drive_voltage_pp", "drive_frequency"]],
     ],
 )
 def test_columns_come_in_many_shapes(columns):
@@ -77,7 +77,9 @@ def test_a_parameter_is_a_column_or_a_keyword():
     ids=lambda values: type(values).__name__,
 )
 def test_nulls_are_refused(values):
-    with pytest.raises(ValueError, match="`drive_frequency` has 1 null of 3 values, and a point needs all of them\nleave"):
+    with pytest.raises(
+        ValueError, match="`drive_frequency` has 1 null of 3 values, and a point needs all of them\nleave"
+    ):
         flapwing.evaluate(PRESET, {"drive_frequency": values})
     time = np.array([0.0, 0.004, 0.01])
     with pytest.raises(ValueError, match=r"`waveform\['wave'\]` has 1 null of 3 values"):
@@ -146,7 +148,11 @@ def test_a_grid_with_axes_is_run_for_every_row():
 
 
 def test_each_design_at_its_own_resonance():
-    grid = {"preset": "ozaki2018-small", "params": {"drive_frequency": "resonance"}, "resonance": {"from": 150, "to": 250}}
+    grid = {
+        "preset": "ozaki2018-small",
+        "params": {"drive_frequency": "resonance"},
+        "resonance": {"from": 150, "to": 250},
+    }
     table = flapwing.evaluate(grid, {"drive_voltage_pp": [20.0, 30.0]})
     assert ((table["resonance_hz"] > 180) & (table["resonance_hz"] < 210)).all()
 
@@ -154,7 +160,11 @@ def test_each_design_at_its_own_resonance():
 def test_a_model_needs_all_its_parameters():
     with pytest.raises(ValueError, match="model `direct-drive` has no values of its own: give drive_voltage_pp, "):
         flapwing.evaluate("direct-drive", {"drive_frequency": [100.0]})
-    values = {name: p.value for name, p in flapwing.params(PRESET).items() if p.is_number or p.options and isinstance(p.value, str)}
+    values = {
+        name: p.value
+        for name, p in flapwing.params(PRESET).items()
+        if p.is_number or p.options and isinstance(p.value, str)
+    }
     table = flapwing.evaluate("direct-drive", {**values, "drive_frequency": FREQUENCIES})
     expected = flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES})
     np.testing.assert_array_equal(table["lift_mean_mn"], expected["lift_mean_mn"])
@@ -174,8 +184,18 @@ def test_a_model_needs_all_its_parameters():
         (PRESET, {"drive_frequency": [True]}, TypeError, "`drive_frequency` must be a number in Hz"),
         (PRESET, {"drive_frequency": True}, TypeError, "`drive_frequency` must be a number"),
         (PRESET, {"drive_frequency": [None]}, TypeError, "`drive_frequency` must be a number in Hz"),
-        ({"preset": PRESET, "axes": {"wing_length": [0.03]}}, {"wing_length": [1]}, ValueError, "the grid varies or derives it"),
-        ({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"wing_length": [1]}, ValueError, "the grid varies or derives it"),
+        (
+            {"preset": PRESET, "axes": {"wing_length": [0.03]}},
+            {"wing_length": [1]},
+            ValueError,
+            "the grid varies or derives it",
+        ),
+        (
+            {"preset": PRESET, "derived": {"wing_length": "0.03"}},
+            {"wing_length": [1]},
+            ValueError,
+            "the grid varies or derives it",
+        ),
     ],
 )
 def test_what_is_refused(design, columns, error, says):
@@ -186,7 +206,9 @@ def test_what_is_refused(design, columns, error, says):
 
 def test_keywords_do_not_compete_with_the_grid():
     with pytest.raises(ValueError, match="`wing_length` is set here, and the grid varies or derives it"):
-        flapwing.evaluate({"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"drive_frequency": [1]}, wing_length=1)
+        flapwing.evaluate(
+            {"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"drive_frequency": [1]}, wing_length=1
+        )
 
 
 def test_progress_is_told():

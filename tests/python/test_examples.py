@@ -199,7 +199,9 @@ def test_fit_takes_other_measures_and_its_derivatives_are_right():
     frequency = np.linspace(80.0, 140.0, 7)
     names = [*example.FITTED, "force_factor"]
     true = np.log([1.1, 0.95, 0.9, 1.05])
-    response = example.Response(names, frequency, dict.fromkeys(["stroke_pp_deg", "pitch_amplitude_deg"], frequency), 160.0)
+    response = example.Response(
+        names, frequency, dict.fromkeys(["stroke_pp_deg", "pitch_amplitude_deg"], frequency), 160.0
+    )
     exact = response.model(true[np.newaxis])[0]
     response.measured = dict(zip(response.measured, np.split(exact, 2)))
     assert np.abs(response.residuals(true)).max() == 0

@@ -20,7 +20,18 @@ def same(table, path):
 
 def test_chirps_are_those_of_the_command(flap, tmp_path):
     options = ["--from", "150", "--to", "160", "--rate", "200"]
-    flap("test", "chirp", PRESET, *options, "--out", tmp_path / "rows.csv", "--trajectory", tmp_path / "motion.csv", "--samples", "20")
+    flap(
+        "test",
+        "chirp",
+        PRESET,
+        *options,
+        "--out",
+        tmp_path / "rows.csv",
+        "--trajectory",
+        tmp_path / "motion.csv",
+        "--samples",
+        "20",
+    )
     rows = flapwing.chirp(PRESET, start="0.15 kHz", stop=160, rate="200 Hz/s")
     same(rows, tmp_path / "rows.csv")
     same(flapwing.chirp(PRESET, start=150, stop=160, rate=200, samples=20), tmp_path / "motion.csv")
@@ -35,7 +46,9 @@ def test_bare_numbers_of_impulses_are_radians():
     by_number = flapwing.resonance(PRESET, impulse=0.2, start=150, stop=250)
     assert by_number == flapwing.resonance(PRESET, impulse="0.2 rad", start=150, stop=250)
     assert by_number != flapwing.resonance(PRESET, impulse="0.2 deg", start=150, stop=250)
-    assert flapwing.resonance(PRESET, start=150, stop=250) == flapwing.resonance(PRESET, impulse="20 deg", start=150, stop=250)
+    assert flapwing.resonance(PRESET, start=150, stop=250) == flapwing.resonance(
+        PRESET, impulse="20 deg", start=150, stop=250
+    )
     first = flapwing.impulse(PRESET, amplitude=0.2).meta["stroke_rate_rad_s"]
     assert first == flapwing.impulse(PRESET, amplitude="0.2 rad").meta["stroke_rate_rad_s"]
 
@@ -43,7 +56,10 @@ def test_bare_numbers_of_impulses_are_radians():
 def test_impulses_beyond_half_a_turn_are_refused():
     for call, name in ((flapwing.impulse, "amplitude"), (flapwing.resonance, "impulse")):
         for value in (20, -20.0, "181 deg"):
-            with pytest.raises(ValueError, match=f'`{name}` is too large: .* is larger than half a turn\ngive at most 180 deg, such as "20 deg"'):
+            with pytest.raises(
+                ValueError,
+                match=f'`{name}` is too large: .* is larger than half a turn\ngive at most 180 deg, such as "20 deg"',
+            ):
                 call(PRESET, **{name: value})
     assert "(20 rad)" in str(pytest.raises(ValueError, flapwing.impulse, PRESET, amplitude=20).value)
 
@@ -126,7 +142,9 @@ def test_a_motion_goes_on_from_a_state():
     np.testing.assert_allclose(second["stroke_rad"], from_rest["stroke_rad"][100:], atol=1e-5)
     names = list(flapwing.states(PRESET))
     assert names == ["stroke", "pitch", "stroke_rate", "pitch_rate"]
-    state = {name: float(from_rest[f"{name}_{unit}"][100]) for name, unit in zip(names, ["rad", "rad", "rad_s", "rad_s"])}
+    state = {
+        name: float(from_rest[f"{name}_{unit}"][100]) for name, unit in zip(names, ["rad", "rad", "rad_s", "rad_s"])
+    }
     same = flapwing.trajectory(PRESET, cycles=2, samples=50, initial_state=state)
     np.testing.assert_array_equal(same["stroke_rad"], second["stroke_rad"])
     one = flapwing.trajectory(PRESET, initial_state={"stroke": "10 deg", "pitch_deg": 20, "pitch_rate": "5 rad/s"})
@@ -136,7 +154,9 @@ def test_a_motion_goes_on_from_a_state():
 
 def test_a_state_decides_between_two_orbits():
     bistable = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V", "drive_frequency": 126}
-    curve = flapwing.respond("jafferis2016", start=124, stop=128, step=1, **{k: v for k, v in bistable.items() if k != "drive_frequency"})
+    curve = flapwing.respond(
+        "jafferis2016", start=124, stop=128, step=1, **{k: v for k, v in bistable.items() if k != "drive_frequency"}
+    )
     strokes = curve["stroke_pp_deg"][curve["drive_frequency"] == 126]
     assert strokes.max() > strokes.min() + 20
     up = flapwing.trajectory("jafferis2016", **{**bistable, "drive_frequency": 123})[-1:]
@@ -156,9 +176,16 @@ def test_a_row_of_any_kind_is_a_state():
             flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=begin)["stroke_rad"], expected
         )
     rows = flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, return_states=True)
-    alone = [flapwing.run(PRESET, drive_frequency=105, initial_state=begin) for begin in (rows[1:], rows.to_pandas().iloc[1])]
+    alone = [
+        flapwing.run(PRESET, drive_frequency=105, initial_state=begin) for begin in (rows[1:], rows.to_pandas().iloc[1])
+    ]
     batch = flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}, initial_state=rows[1:])
-    assert alone[0]["cycles"] == alone[1]["cycles"] == batch["cycles"][0] < flapwing.run(PRESET, drive_frequency=105)["cycles"]
+    assert (
+        alone[0]["cycles"]
+        == alone[1]["cycles"]
+        == batch["cycles"][0]
+        < flapwing.run(PRESET, drive_frequency=105)["cycles"]
+    )
     # What is not known begins at rest, as in batches.
     unknown = {**row, "stroke_rad": np.nan}
     assert flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=unknown)["stroke_rad"][0] == 0
@@ -194,17 +221,28 @@ def test_tables_that_are_no_state_are_refused():
 def test_motions_have_meanings_and_an_origin():
     motion = flapwing.trajectory(PRESET, cycles=1, samples=4, drive_voltage_pp="50 V")
     assert all(motion.docs.values()) and motion.docs["lift_mn"]
-    assert motion.meta["preset"] == PRESET and motion.meta["build"] and motion.meta["keywords"] == {"drive_voltage_pp": "50 V"}
+    assert (
+        motion.meta["preset"] == PRESET
+        and motion.meta["build"]
+        and motion.meta["keywords"] == {"drive_voltage_pp": "50 V"}
+    )
 
 
 def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
     time, stroke = np.linspace(0, 5, 60), 0.6 * np.sin(np.linspace(0, 2 * np.pi, 60))
     pitch = 0.5 * np.cos(np.linspace(0, 2 * np.pi, 60))
     # The lower edge appears at chord times the sine of the pitch to the left of the leading edge.
-    film = pandas.DataFrame({
-        "time_ms": time, "root_x": 1.0, "root_y": 2.0, "tip_x": 1 + 9 * np.cos(stroke), "tip_y": 2 + 9 * np.sin(stroke),
-        "edge_x": 1 - 3 * np.sin(pitch) * np.sin(stroke), "edge_y": 2 + 3 * np.sin(pitch) * np.cos(stroke),
-    })
+    film = pandas.DataFrame(
+        {
+            "time_ms": time,
+            "root_x": 1.0,
+            "root_y": 2.0,
+            "tip_x": 1 + 9 * np.cos(stroke),
+            "tip_y": 2 + 9 * np.sin(stroke),
+            "edge_x": 1 - 3 * np.sin(pitch) * np.sin(stroke),
+            "edge_y": 2 + 3 * np.sin(pitch) * np.cos(stroke),
+        }
+    )
     film.to_csv(tmp_path / "film.csv", index=False)
     flap("test", "track", tmp_path / "film.csv", "--chord", "3", "--out", tmp_path / "motion.csv")
     for source in (film, tmp_path / "film.csv", flapwing.read(tmp_path / "film.csv")):

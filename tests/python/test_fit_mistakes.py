@@ -222,10 +222,22 @@ def test_free_parameters_that_are_refused(free, error, says):
         ({"sigma": "x %"}, ValueError, "`sigma` is 'x %'\nit must be"),
         ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
         ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
-        ({"hold_out": {"drive_frequency": ("1 mm", "2 mm")}}, ValueError, "hold_out['drive_frequency']: `mm` is a length"),
-        ({"hold_out": {"drive_frequency": (120, 110)}}, ValueError, "hold_out['drive_frequency']: 120 is more than 110\n"),
+        (
+            {"hold_out": {"drive_frequency": ("1 mm", "2 mm")}},
+            ValueError,
+            "hold_out['drive_frequency']: `mm` is a length",
+        ),
+        (
+            {"hold_out": {"drive_frequency": (120, 110)}},
+            ValueError,
+            "hold_out['drive_frequency']: 120 is more than 110\n",
+        ),
         ({"hold_out": {"drive_frequency": 100}}, TypeError, "hold_out['drive_frequency'] is int\nit must be a range"),
-        ({"hold_out": {"drive_shape": (1, 2)}}, ValueError, "`hold_out` names `drive_shape`, which is no parameter with"),
+        (
+            {"hold_out": {"drive_shape": (1, 2)}},
+            ValueError,
+            "`hold_out` names `drive_shape`, which is no parameter with",
+        ),
         ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
         (
             {"hold_out": {"drive_voltage_pp": (1, 2)}},
@@ -279,7 +291,9 @@ def test_impossible_designs_are_refused_with_the_reason(preset, keywords, says):
     with pytest.raises(ValueError) as caught:
         flapwing.fit(preset, DATA, ["hinge_stiffness"], sigma="1 deg", starts=1, **keywords)
     assert says in str(caught.value)
-    assert str(caught.value).endswith("\nchange these parameters of the design, or give bounds in which they go together")
+    assert str(caught.value).endswith(
+        "\nchange these parameters of the design, or give bounds in which they go together"
+    )
 
 
 def test_readings_that_are_refused(tmp_path):

@@ -165,7 +165,9 @@ def test_a_device_that_is_fitted_keeps_its_texts(tmp_path):
     given, free = {"wing_inertia_stroke": "51 ng*m^2"}, ["hinge_stiffness"]
     found = flapwing.fit(tmp_path / "old.toml", readings(), free, sigma="3 %", starts=1, profile=False, **given)
     found.write_device(tmp_path / "new.toml")
-    again = flapwing.fit(tmp_path / "new.toml", readings(), ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
+    again = flapwing.fit(
+        tmp_path / "new.toml", readings(), ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False
+    )
     again.write_device(tmp_path / "again.toml")
     for name, fitted in [("new", ["hinge_stiffness"]), ("again", ["hinge_stiffness", "drag_coefficient_max"])]:
         device = tomllib.loads((tmp_path / f"{name}.toml").read_text(encoding="utf-8"))

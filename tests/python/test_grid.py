@@ -51,7 +51,12 @@ def test_every_part_of_a_grid_file_can_be_a_dictionary():
             "params": {"drive_voltage_pp": "200 V"},
             "axes": {"drive_frequency": {"from": 60, "to": 200, "n": 3}},
             "zip": [{"wing_area": ["50 mm^2", 55e-6], "wing_length": ["16 mm", "17 mm"]}],
-            "sample": {"method": "sobol", "n": 4, "seed": 1, "parameters": {"transmission_ratio": {"from": 3000, "to": 3500}}},
+            "sample": {
+                "method": "sobol",
+                "n": 4,
+                "seed": 1,
+                "parameters": {"transmission_ratio": {"from": 3000, "to": 3500}},
+            },
             "derived": {"hinge_stiffness": "preset.hinge_stiffness * 2"},
             "where": {"not all": "drive_frequency > 100"},
             "measure": {"double": "2 * lift_mean_mn"},

@@ -35,13 +35,19 @@ def uses(module, file, known):
 def order(folder):
     """The modules of a package, each after those that it uses."""
     known = modules(folder)
-    return list(graphlib.TopologicalSorter({name: set(uses(name, file, known)) for name, file in known.items()}).static_order())
+    return list(
+        graphlib.TopologicalSorter({name: set(uses(name, file, known)) for name, file in known.items()}).static_order()
+    )
 
 
 def test_modules_are_in_no_circle():
     names = order(PACKAGE)
     assert names.index("flapwing._mistakes") < names.index("flapwing._table") < names.index("flapwing._arguments")
-    assert names.index("flapwing.fitting._solution") < names.index("flapwing.fitting._report") < names.index("flapwing.fitting._result")
+    assert (
+        names.index("flapwing.fitting._solution")
+        < names.index("flapwing.fitting._report")
+        < names.index("flapwing.fitting._result")
+    )
 
 
 def test_a_circle_of_type_checkers_imports_is_found(tmp_path):

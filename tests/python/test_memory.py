@@ -22,7 +22,9 @@ def call(number):
     if kind == 0:
         flapwing.run(PRESET, rtol=1e-2, settle_tol=1e-1, max_cycles=2)
     elif kind == 1:
-        flapwing.evaluate(PRESET, {"drive_frequency": [100.0, 105.0]}, threads=1, rtol=1e-2, settle_tol=0.1, max_cycles=2)
+        flapwing.evaluate(
+            PRESET, {"drive_frequency": [100.0, 105.0]}, threads=1, rtol=1e-2, settle_tol=0.1, max_cycles=2
+        )
     elif kind == 2:
         list(flapwing.Grid({"preset": PRESET, "axes": {"drive_frequency": [1.0, 2.0]}}))
     elif kind == 3:

@@ -83,7 +83,9 @@ def test_a_tag_must_agree_with_every_file_that_has_the_version():
     told = check_version("99.0.0")
     assert told.returncode == 1
     for file in ("Cargo.toml", "CITATION.cff", "CHANGELOG.md"):
-        assert re.search(rf"^check-version: {re.escape(file)} has version \S.*, not 99\.0\.0$", told.stderr, re.MULTILINE), file
+        assert re.search(
+            rf"^check-version: {re.escape(file)} has version \S.*, not 99\.0\.0$", told.stderr, re.MULTILINE
+        ), file
 
 
 def test_the_version_of_the_manifest_is_that_of_the_citation():

@@ -113,9 +113,7 @@ def test_same_call_same_bits():
 
 
 def test_defaults_are_those_in_the_docstring():
-    documented = flapwing.run(
-        PRESET, rtol=1e-6, atol=1e-6 / 100, settle_tol=1e-6, max_cycles=1000, max_steps=20000
-    )
+    documented = flapwing.run(PRESET, rtol=1e-6, atol=1e-6 / 100, settle_tol=1e-6, max_cycles=1000, max_steps=20000)
     assert bits(flapwing.run(PRESET)) == bits(documented)
 
 
@@ -131,9 +129,7 @@ def test_tighter_tolerance_takes_more_work():
 
 @pytest.mark.parametrize("value", [80, 80.0, Fraction(80), "80 V", "0.08 kV"])
 def test_a_number_may_be_given_in_several_ways(value):
-    assert bits(flapwing.run(PRESET, drive_voltage_pp=value)) == bits(
-        flapwing.run(PRESET, drive_voltage_pp=80.0)
-    )
+    assert bits(flapwing.run(PRESET, drive_voltage_pp=value)) == bits(flapwing.run(PRESET, drive_voltage_pp=80.0))
 
 
 def test_parameters_matter():

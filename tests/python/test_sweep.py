@@ -15,7 +15,6 @@ from grids import GRID
 QUICK = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequency = { from = 95, to = 120, n = 26 }\n'
 
 
-
 def assert_same_bits(table, path):
     """Every cell of the table is the one in the file."""
     with open(path, newline="", encoding="utf-8") as file:
@@ -60,7 +59,7 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     table = flapwing.sweep(grid, out=tmp_path / name, threads=1)
     assert (tmp_path / name).read_bytes() == (tmp_path / "a" / name).read_bytes()
     assert not (tmp_path / (name + ".journal")).exists()
-    assert "state = \"complete\"" in (tmp_path / (name + ".meta.toml")).read_text()
+    assert 'state = "complete"' in (tmp_path / (name + ".meta.toml")).read_text()
     in_memory = flapwing.sweep(grid)
     assert table.columns == in_memory.columns
     for column in table.columns:
@@ -205,7 +204,7 @@ def test_an_exception_in_progress_ends_the_sweep(tmp_path):
     out = tmp_path / "rows.csv"
     with pytest.raises(RuntimeError, match="enough"):
         flapwing.sweep(big, out=out, progress=stop)
-    assert "state = \"interrupted\"" in (tmp_path / "rows.csv.meta.toml").read_text()
+    assert 'state = "interrupted"' in (tmp_path / "rows.csv.meta.toml").read_text()
 
 
 def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):

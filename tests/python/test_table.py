@@ -47,7 +47,9 @@ def test_unknown_flags_are_nan(table):
         table[strong]
     # In a Dataset, points without a row and rows with an unknown flag.
     data = table.to_xarray()["strong"]
-    assert np.isnan(data.sel(drive_frequency=100)).all() and int(np.isnan(data).sum()) == data.size - len(table.periodic)
+    assert np.isnan(data.sel(drive_frequency=100)).all() and int(np.isnan(data).sum()) == data.size - len(
+        table.periodic
+    )
 
 
 def test_derivatives_of_a_grid_have_units(flap, tmp_path):
@@ -131,7 +133,9 @@ def test_xarray_has_the_axes_of_the_grid(table):
     assert lift.dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
     assert lift.attrs == {"units": "mN", "long_name": "lift mean", "description": table.docs["lift_mean_mn"]}
     assert data["drive_frequency"].attrs["units"] == "Hz"
-    one = table[(table["drive_voltage_pp"] == 80) & (table["lift_sign"] == "printed") & (table["drive_frequency"] == 95)]
+    one = table[
+        (table["drive_voltage_pp"] == 80) & (table["lift_sign"] == "printed") & (table["drive_frequency"] == 95)
+    ]
     assert lift.sel(drive_voltage_pp=80, lift_sign="printed", drive_frequency=95).item() == one["lift_mean_mn"][0]
     # Excluded points are holes.
     assert np.isnan(lift.sel(drive_frequency=100)).all()
@@ -142,7 +146,10 @@ def test_xarray_has_the_axes_of_the_grid(table):
 def test_xarray_of_other_tables():
     motion = flapwing.trajectory("ozaki2018-large", cycles=1, samples=10).to_xarray()
     assert dict(motion.sizes) == {"time_s": 11} and motion["stroke_deg"].attrs["units"] == "deg"
-    assert motion["time_s"].attrs["units"] == "s" and float(motion["stroke_deg"].sel(time_s=0.0)) == motion["stroke_deg"][0]
+    assert (
+        motion["time_s"].attrs["units"] == "s"
+        and float(motion["stroke_deg"].sel(time_s=0.0)) == motion["stroke_deg"][0]
+    )
     curve = flapwing.respond("ozaki2018-large", start=100, stop=110, step=5, tolerance=5).to_xarray()
     assert dict(curve.sizes) == {"row": 6} and set(curve.coords) == {"curve", "branch", "drive_frequency"}
     assert curve["lift_mean_mn"].where(curve["branch"] == "up", drop=True).sizes["row"] == 3
@@ -151,7 +158,10 @@ def test_xarray_of_other_tables():
     ).to_xarray()
     assert zipped["wing_length"].dims == ("wing_area",)
     sampled = flapwing.sweep(
-        {"preset": "jafferis2016", "sample": {"method": "random", "n": 3, "seed": 1, "parameters": {"wing_area": {"from": 5e-5, "to": 6e-5}}}}
+        {
+            "preset": "jafferis2016",
+            "sample": {"method": "random", "n": 3, "seed": 1, "parameters": {"wing_area": {"from": 5e-5, "to": 6e-5}}},
+        }
     ).to_xarray()
     assert sampled["wing_area"].dims == ("sample",) and sampled.sizes["sample"] == 3
 
@@ -174,10 +184,15 @@ def test_parquet_that_others_wrote_is_read(table, tmp_path, compression):
 
 
 def test_parquet_of_pandas_is_read(tmp_path):
-    frame = pandas.DataFrame({
-        "name": ["a", "b"], "count": [1, 2], "small": np.array([-3, 4], np.int32), "half": np.array([0.5, np.nan], np.float32),
-        "ok": [True, False],
-    })
+    frame = pandas.DataFrame(
+        {
+            "name": ["a", "b"],
+            "count": [1, 2],
+            "small": np.array([-3, 4], np.int32),
+            "half": np.array([0.5, np.nan], np.float32),
+            "ok": [True, False],
+        }
+    )
     frame.to_parquet(tmp_path / "frame.parquet")
     found = flapwing.read(tmp_path / "frame.parquet")
     assert found["name"].tolist() == ["a", "b"] and found["count"].tolist() == [1, 2]
@@ -264,16 +279,20 @@ def test_columns_are_chosen_by_lists(table):
     assert len(table[[]]) == 0 and table[[]].columns == table.columns
     whole = table[["point", "lift_mean_mn"]].to_xarray()
     assert whole["lift_mean_mn"].dims == ("drive_voltage_pp", "lift_sign", "drive_frequency")
-    with pytest.raises(ValueError, match="gives the places of the rows along the axis of drive_voltage_pp\nkeep `point` or"):
+    with pytest.raises(
+        ValueError, match="gives the places of the rows along the axis of drive_voltage_pp\nkeep `point` or"
+    ):
         table[["lift_mean_mn"]].to_xarray()
 
 
 def test_rows_without_their_points_are_placed_by_the_parameters_of_the_axes():
-    table = flapwing.sweep({
-        "preset": "ozaki2018-large",
-        "axes": {"lift_sign": ["corrected", "printed"], "drive_frequency": [100, 105, 110]},
-        "zip": [{"wing_length": [0.03, 0.031], "air_density": [1.2, 1.1]}],
-    })
+    table = flapwing.sweep(
+        {
+            "preset": "ozaki2018-large",
+            "axes": {"lift_sign": ["corrected", "printed"], "drive_frequency": [100, 105, 110]},
+            "zip": [{"wing_length": [0.03, 0.031], "air_density": [1.2, 1.1]}],
+        }
+    )
     axes = ["wing_length", "lift_sign", "drive_frequency"]
     lift = table.to_xarray()["lift_mean_mn"]
     for rows in (table[::-1], table[np.random.default_rng(1).permutation(len(table))]):
@@ -311,7 +330,9 @@ def test_the_origin_is_in_xarray_and_pandas():
             assert json.loads(attributes["solver"]) == told.meta["solver"]
     assert json.loads(table.to_xarray().attrs["keywords"])["rtol"] == float(np.float32(1e-5))
     assert curve.to_xarray().attrs["parameter"] == "drive_frequency"
-    assert json.loads(curve.to_xarray().attrs["verdicts"]) == [dataclasses.asdict(verdict) for verdict in curve.verdicts]
+    assert json.loads(curve.to_xarray().attrs["verdicts"]) == [
+        dataclasses.asdict(verdict) for verdict in curve.verdicts
+    ]
 
 
 def test_the_origin_in_a_frame_is_kept_by_parquet(table, tmp_path):

@@ -103,7 +103,10 @@ def test_derivatives_of_torques_are_those_of_differences():
         for output, column in enumerate([*FORCES, *TORQUES]):
             difference = np.diff(rows[column])[0] / (2 * steps[name])
             scale = np.abs(table.gradient[0, :, place]).max()
-            assert table.gradient[0, output, place] == pytest.approx(difference, rel=1e-3, abs=2e-4 * scale), (column, name)
+            assert table.gradient[0, output, place] == pytest.approx(difference, rel=1e-3, abs=2e-4 * scale), (
+                column,
+                name,
+            )
 
 
 def test_derivatives_at_almost_nothing_are_those_at_zero():
@@ -111,12 +114,17 @@ def test_derivatives_at_almost_nothing_are_those_at_zero():
     options = {"measures": [*FORCES, *TORQUES], "gradient": ["drive_offset"]}
     almost = 0.1 + 0.2 - 0.3  # a remainder of rounding, as steps of axes leave it
     assert almost != 0.0
-    found = [flapwing.evaluate(robot, {"drive_offset": [value]}, **options).gradient[0, 4, 0] for value in (0.0, almost, 1e-9)]
+    found = [
+        flapwing.evaluate(robot, {"drive_offset": [value]}, **options).gradient[0, 4, 0]
+        for value in (0.0, almost, 1e-9)
+    ]
     assert found[0] < -0.01
     assert found[1] == pytest.approx(found[0], rel=1e-5) and found[2] == pytest.approx(found[0], rel=1e-5)
     # A wing's own value that is not set is that of all wings.
     own = flapwing.evaluate(robot, {"drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])
-    given = flapwing.evaluate(robot, {"drive_offset": [5.0], "left_drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"])
+    given = flapwing.evaluate(
+        robot, {"drive_offset": [5.0], "left_drive_offset": [5.0]}, measures=TORQUES, gradient=["left_drive_offset"]
+    )
     np.testing.assert_allclose(own.gradient, given.gradient, rtol=1e-9, atol=1e-12)
 
 
@@ -153,7 +161,9 @@ def test_a_vehicle_is_a_mapping_of_entries():
     assert list(robot) == ["preset", "vehicle"] and len(robot) == 2
     assert dict(pickle.loads(pickle.dumps(robot))) == dict(robot)
     assert repr(robot) == "<flapwing.Vehicle of jafferis2016: left, right (mirrored)>"
-    assert repr(flapwing.Wing("left", position=PLACE)) == "flapwing.Wing(name='left', position=['0 mm', '1.5 mm', '0 mm'])"
+    assert (
+        repr(flapwing.Wing("left", position=PLACE)) == "flapwing.Wing(name='left', position=['0 mm', '1.5 mm', '0 mm'])"
+    )
     text = flapwing.Grid({**robot, "axes": {"drive_offset": ["0 V"]}}).text
     assert '[[vehicle.wings]]\nname = "left"' in text and text.count("[[vehicle.wings]]") == 2
 
@@ -184,7 +194,11 @@ def test_keywords_go_over_the_grid_of_a_vehicle(tmp_path):
             flapwing.GridError,
             "did you mean `hinge_stiffness`",
         ),
-        (("jafferis2016", [flapwing.Wing("left", preset="ozaki2018-large")]), flapwing.GridError, "of the model direct-drive"),
+        (
+            ("jafferis2016", [flapwing.Wing("left", preset="ozaki2018-large")]),
+            flapwing.GridError,
+            "of the model direct-drive",
+        ),
     ],
 )
 def test_mistakes_are_told(arguments, error, says):

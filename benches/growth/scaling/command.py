@@ -9,9 +9,10 @@ import platform
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from statistics import median
-from typing import Any, Sequence
+from typing import Any
 
 from . import picture
 from .picture import tolerance
@@ -50,9 +51,7 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
     if options.shards > 1:
         ways.append(Way(f"{options.shards} shards", 1, options.shards))
     tasks = [
-        (points, rtol)
-        for rtol, most in ((TIGHT, options.most), (LOOSE, options.most_loose))
-        for points in sizes(most)
+        (points, rtol) for rtol, most in ((TIGHT, options.most), (LOOSE, options.most_loose)) for points in sizes(most)
     ]
     runs = []
     for points, rtol in sorted(tasks):

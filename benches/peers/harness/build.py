@@ -7,9 +7,9 @@ import platform
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
 
 PEERS = Path(__file__).resolve().parents[1]
 REPOSITORY = PEERS.parents[1]

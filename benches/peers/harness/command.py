@@ -9,8 +9,10 @@ import platform
 import re
 import sys
 import time
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Mapping, Pattern, Sequence, Set
+from re import Pattern
+from typing import Any
 
 from . import measure, points, report
 from .build import WORK, Unavailable
@@ -80,9 +82,7 @@ def known(task: Task, skipped: list[dict[str, str]]) -> dict[bool, dict[int, poi
     return {True: {}, False: {}}
 
 
-def compared(
-    timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]], work: Work
-) -> list[report.Row]:
+def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]], work: Work) -> list[report.Row]:
     """The lines of the report."""
     base = next((timing.speeds for timing in timings if timing.peer is work.base), [])
     return [
@@ -140,9 +140,7 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
         "--only", type=pattern, default=re.compile(""), metavar="REGEX", help="peers whose names match, beside the base"
     )
     parser.add_argument("--core", type=int, default=None, metavar="N", help="where to run (default: the last core)")
-    parser.add_argument(
-        "--json", type=Path, metavar="FILE", help="default: result.json in target/peers/WORK"
-    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="default: result.json in target/peers/WORK")
     options = parser.parse_args(arguments)
     for name in ("points", "rounds"):
         if getattr(options, name) < 1:
@@ -180,7 +178,7 @@ def pattern(text: str) -> Pattern[str]:
         raise argparse.ArgumentTypeError(f"{text} is no regular expression: {error}") from None
 
 
-def usable_cores() -> Set[int]:
+def usable_cores() -> set[int]:
     """The cores to which this process may be pinned: none where the system cannot do so."""
     return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
 

@@ -20,11 +20,10 @@ class Deviation:
     missing: int
 
 
-def deviation(
-    found: dict[int, Measures], known: dict[int, Measures], points: int, work: Work
-) -> Deviation | None:
-    """Compares the answers for `points` points with those that are known. A measure that crosses zero counts by its size,
-    or that of a typical point where it is smaller; none if nothing can be compared."""
+def deviation(found: dict[int, Measures], known: dict[int, Measures], points: int, work: Work) -> Deviation | None:
+    """Compares the answers for `points` points with those that are known. A measure that crosses zero counts by its
+    size, or that of a typical point where it is smaller; none if nothing can be compared.
+    """
     if not known:
         return None
     least = [

@@ -6,9 +6,9 @@ import csv
 import itertools
 import math
 import random
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
 
 from .work import Axis, Work
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from statistics import median
-from typing import Any, Iterable, Sequence
+from typing import Any
 
 from .compare import Deviation
 from .measure import Timing

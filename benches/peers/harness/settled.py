@@ -1,5 +1,6 @@
-"""The works `settled` and `responses`: periods of the bimorph model from rest until the motion has settled, and one that is
-measured."""
+"""The works `settled` and `responses`: periods of the bimorph model from rest until the motion has settled, and one
+that is measured.
+"""
 
 from __future__ import annotations
 

@@ -7,7 +7,8 @@ these per radian): all points share the phase, and one absolute tolerance serves
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 TRANSMISSION = 3333.0  # T (rad/m)
 TIP_SCALE, PITCH_SCALE = 0.1 / TRANSMISSION, 0.3  # m, rad

@@ -6,7 +6,8 @@ Magnitudes have kinks, where a Taylor series means nothing: their arguments are 
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 import heyoka
 import model

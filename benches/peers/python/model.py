@@ -7,7 +7,8 @@ States are in units of their typical sizes (`SCALE`), so that one absolute toler
 from __future__ import annotations
 
 import math
-from typing import Any, Callable
+from collections.abc import Callable
+from typing import Any
 
 PERIODS = 40  # from rest
 MEASURED = 5  # the last of them

@@ -28,8 +28,9 @@ def period(y: Any, point: tuple[float, float], rtol: float, phases: Array | None
 
 def settle(volts_pp: float, frequency: float, rtol: float, phases: Array = PHASES) -> tuple[Array, int, int]:
     """States of the settled motion at these phases, evaluations of the right-hand side, and periods. A period map that
-    jumps by the error of integration may never come to rest: where the residual has stopped falling, the march goes on at
-    a tenth of the tolerance."""
+    jumps by the error of integration may never come to rest: where the residual has stopped falling, the march goes on
+    at a tenth of the tolerance.
+    """
     point = (volts_pp, PERIOD * frequency)
     y = np.zeros(4)
     evaluations = 0
@@ -53,9 +54,7 @@ def settle(volts_pp: float, frequency: float, rtol: float, phases: Array = PHASE
 def solve(volts_pp: Array, frequency: Array, rtol: float) -> Answers:
     runs = [settle(*point, rtol) for point in zip(volts_pp.tolist(), frequency.tolist())]
     samples = np.stack([states for states, *_ in runs])
-    return Answers(
-        measures(samples, frequency), rhs=sum(run[1] for run in runs), periods=sum(run[2] for run in runs)
-    )
+    return Answers(measures(samples, frequency), rhs=sum(run[1] for run in runs), periods=sum(run[2] for run in runs))
 
 
 if __name__ == "__main__":

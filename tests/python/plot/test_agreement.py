@@ -2,7 +2,6 @@
 
 import re
 
-import flapwing
 import numpy as np
 from figures import HERTZ, VOLTS, drawn, grid, legend, loop
 from flapwing import _flapwing, analysis, plot
@@ -13,7 +12,13 @@ def svg(flap, folder, table, *options):
     """The command's picture of a table."""
     file = folder / "table.csv"
     names = list(table)
-    rows = [",".join(names), *(",".join(str(cell).lower() if isinstance(cell, np.bool_) else str(cell) for cell in row) for row in zip(*table.values()))]
+    rows = [
+        ",".join(names),
+        *(
+            ",".join(str(cell).lower() if isinstance(cell, np.bool_) else str(cell) for cell in row)
+            for row in zip(*table.values())
+        ),
+    ]
     file.write_text("\n".join(rows) + "\n", encoding="utf-8")
     out = folder / "out.svg"
     flap("plot", file, "--force", "--out", out, *options)

@@ -52,7 +52,12 @@ def test_profiles_have_enough_points_and_are_explained(found):
     figure.canvas.draw()
     (part,) = figure.subfigs
     (told,) = part.legends
-    assert [text.get_text() for text in told.get_texts()] == ["profile", "estimate", "95 % limit", "ends of the interval"]
+    assert [text.get_text() for text in told.get_texts()] == [
+        "profile",
+        "estimate",
+        "95 % limit",
+        "ends of the interval",
+    ]
     for ax in part.axes:
         assert len(ax.lines[0].get_xdata()) >= 7
         rise = ax.lines[0].get_ydata()

@@ -3,8 +3,7 @@
 import flapwing
 import numpy as np
 import pytest
-from flapwing import plot
-from flapwing import _labels
+from flapwing import _labels, plot
 
 
 @pytest.mark.parametrize(

@@ -27,6 +27,9 @@ def test_without_matplotlib_the_error_says_what_to_install():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("function", [plot.heatmap, plot.histogram, plot.hysteresis, plot.pareto, plot.response, plot.response_panels, plot.scatter])
+@pytest.mark.parametrize(
+    "function",
+    [plot.heatmap, plot.histogram, plot.hysteresis, plot.pareto, plot.response, plot.response_panels, plot.scatter],
+)
 def test_help_explains_slices(function):
     assert "\n    where, **slices\n        Columns and the value that rows must have," in function.__doc__

@@ -53,18 +53,22 @@ def test_words_are_left_over_too():
     table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
     table = {name: np.concatenate([column, column]) for name, column in table.items()}
     table = {"lift_sign": np.repeat(["corrected", "printed"], 15), **table}
-    with pytest.warns(UserWarning, match="drawn: lift_sign = 'printed', the middle of 2 values; lift_sign='corrected' as"):
+    with pytest.warns(
+        UserWarning, match="drawn: lift_sign = 'printed', the middle of 2 values; lift_sign='corrected' as"
+    ):
         plot.heatmap(table, x="drive_frequency", y="drive_voltage_pp")
 
 
 def test_a_sample_that_is_crossed_with_axes(tmp_path):
     import flapwing
 
-    table = flapwing.sweep({
-        "preset": "jafferis2016",
-        "sample": {"method": "random", "n": 8, "seed": 1, "parameters": {"wing_area": {"from": 5e-5, "to": 6e-5}}},
-        "axes": {"drive_voltage_pp": [150, 200, 250]},
-    })
+    table = flapwing.sweep(
+        {
+            "preset": "jafferis2016",
+            "sample": {"method": "random", "n": 8, "seed": 1, "parameters": {"wing_area": {"from": 5e-5, "to": 6e-5}}},
+            "axes": {"drive_voltage_pp": [150, 200, 250]},
+        }
+    )
     for function in (plot.scatter, plot.histogram, plot.tornado):
         with pytest.warns(UserWarning, match="drive_voltage_pp = 200 V, the middle of 3 values"):
             function(table)

@@ -44,7 +44,10 @@ def test_one_signal_in_axes_that_are_given(motion):
 
 
 def larger(motion, factor):
-    return {**{name: motion[name] for name in motion}, **{name: factor * motion[name] for name in ("stroke_deg", "pitch_deg")}}
+    return {
+        **{name: motion[name] for name in motion},
+        **{name: factor * motion[name] for name in ("stroke_deg", "pitch_deg")},
+    }
 
 
 def test_motions_in_the_same_axes_are_told_apart(motion):
@@ -66,7 +69,9 @@ def test_motions_have_labels_of_their_own(motion):
     plot.trajectory(larger(motion, 0.5), "stroke_deg", label="60 V", ax=ax)
     assert legend(ax) == ["80 V", "60 V"] and ax.get_ylabel() == "Stroke (°)"
     assert legend(plot.trajectory(motion, label="80 V").axes[0]) == ["Stroke, 80 V", "Pitch, 80 V"]
-    with pytest.raises(ValueError, match="`ax` has the vertical axis 'Stroke \\(°\\)', and the signals are in mN\ndraw them"):
+    with pytest.raises(
+        ValueError, match="`ax` has the vertical axis 'Stroke \\(°\\)', and the signals are in mN\ndraw them"
+    ):
         plot.trajectory(motion, "lift_mn", ax=ax)
 
 

@@ -18,7 +18,16 @@ def given(kind):
 @pytest.mark.parametrize("kind", ["number", "figure", "array"])
 @pytest.mark.parametrize(
     "function",
-    [plot.response, plot.heatmap, plot.pareto, plot.scatter, plot.histogram, plot.trajectory, plot.wing_path, plot.control_matrix],
+    [
+        plot.response,
+        plot.heatmap,
+        plot.pareto,
+        plot.scatter,
+        plot.histogram,
+        plot.trajectory,
+        plot.wing_path,
+        plot.control_matrix,
+    ],
 )
 def test_what_is_no_axes(function, kind):
     ax = given(kind)

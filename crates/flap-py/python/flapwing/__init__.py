@@ -2,14 +2,15 @@
 
 `presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
 motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
-designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track_wing` and `forces_along` are
-for wings that were filmed. `fit` fits parameters to readings. `live` shows a page with curves that follow the parameters.
+designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track_wing` and `forces_along`
+are for wings that were filmed. `fit` fits parameters to readings. `live` shows a page with curves that follow the
+parameters.
 
 Results of many points are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
 Results of one point are a `Row`. Unknown numbers are nan.
 
-A design is the name of a preset, a grid file, its text, a dictionary, a `Grid`, or a `Vehicle` of several wings. Parameters
-and solver settings are keywords of every call; a number without a unit is in SI units.
+A design is the name of a preset, a grid file, its text, a dictionary, a `Grid`, or a `Vehicle` of several wings.
+Parameters and solver settings are keywords of every call; a number without a unit is in SI units.
 
 `flapwing.analysis` has sensitivities and fronts, `flapwing.fitting` the results of fits, and `flapwing.plot` pictures,
 which need matplotlib.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -32,12 +33,16 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
         raise refused(name, given, COLUMNS)
     for column in found:
         if not isinstance(column, str):
-            raise TypeError(f"`{name}` has a column called {column!r}, which is {type(column).__name__}\nnames are text")
+            raise TypeError(
+                f"`{name}` has a column called {column!r}, which is {type(column).__name__}\nnames are text"
+            )
     return found
 
 
 def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A column of numbers as float64. What is `unknown` may stand in it as nan; else nulls and masked values are refused."""
+    """A column of numbers as float64. What is `unknown` may stand in it as nan; else nulls and masked values are
+    refused.
+    """
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
     allowed = "it must be numbers: a list, an array or a Series"
@@ -75,7 +80,7 @@ def refuse_missing(name: str, values: Any) -> None:
 
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
-    """A record over time: a path as it is, else its columns as arrays. Of two arrays, the second is called `heading`."""
+    """A record over time: a path, or its columns as arrays. Of two arrays, the second is called `heading`."""
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
     if isinstance(given, tuple):
@@ -127,10 +132,14 @@ def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
     if isinstance(initial_state, Mapping) and missing:
         return found
     if missing:
-        raise ValueError(f"`initial_state` lacks the columns {', '.join(missing)}\na trajectory of the same model has them")
+        raise ValueError(
+            f"`initial_state` lacks the columns {', '.join(missing)}\na trajectory of the same model has them"
+        )
     components = {name: _one(f"initial_state[{name!r}]", found[name]) for name in names}
     # As in batches, what is unknown begins at rest.
-    return {} if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()) else components
+    return (
+        {} if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()) else components
+    )
 
 
 def _one(name: str, value: Any) -> Any:
@@ -157,10 +166,14 @@ def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.fl
     names = _flapwing.states(design)
     missing = [name for name in names if name not in found]
     if missing:
-        raise ValueError(f"`initial_state` lacks the columns {', '.join(missing)}\nrows of a call with return_states=True have them")
+        raise ValueError(
+            f"`initial_state` lacks the columns {', '.join(missing)}\nrows of a call with return_states=True have them"
+        )
     listed = [numbers(f"initial_state[{name!r}]", found[name], unknown=True) for name in names]
     if len({len(values) for values in listed}) > 1:
-        raise ValueError("the columns of `initial_state` differ in length\nthey must have a component of a state for each point")
+        raise ValueError(
+            "the columns of `initial_state` differ in length\nthey must have a component of a state for each point"
+        )
     return np.column_stack(listed)
 
 

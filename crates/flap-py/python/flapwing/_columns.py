@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
+
 class Column(NamedTuple):
     """A column as the native part hands it over."""
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections import Counter, deque
-from typing import TYPE_CHECKING, Any, Callable, Mapping, SupportsIndex
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
@@ -40,7 +41,9 @@ def call(client: Client | None, function: Callable[..., Any], design: Any, *argu
     return result
 
 
-def _call_task(name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> tuple[NativeIdentity, Any]:
+def _call_task(
+    name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]
+) -> tuple[NativeIdentity, Any]:
     """The task of a worker: what it is, and the result of the native function with this name."""
     keywords = {key: _aligned(value) if isinstance(value, dict) else value for key, value in keywords.items()}
     return _flapwing.identity(), getattr(_flapwing, name)(design, *arguments, **keywords)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from typing import Any, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -78,7 +79,9 @@ class Data:
 
     def rows(self, mask: np.ndarray) -> Data:
         """Those rows alone."""
-        return Data({name: column[mask] for name, column in self.columns.items()}, self.units, self.grid_axes, self.meta)
+        return Data(
+            {name: column[mask] for name, column in self.columns.items()}, self.units, self.grid_axes, self.meta
+        )
 
     def unit(self, name: str) -> str:
         """The unit of a column, as flap writes it."""
@@ -113,21 +116,23 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """The measure that is drawn if none is named, as in `flap plot`: a "response", "benefit", "cost" or "motion"."""
+        """The measure that is drawn by default, as in `flap plot`: a "response", "benefit", "cost" or "motion"."""
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
             raise ValueError(f"say which column to draw as `{option}`\n{names_listed(self.columns)}")
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """The designs of a sample: of one that is crossed with axes, those at the middle of each that is not `shown`."""
+        """The designs of a sample. If it is crossed with axes, each that is not `shown` is at its middle value."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if not left or len(left) == len(self.axes()):
             return self
         return self._at_the_middle([name for name in left if name not in shown])
 
     def for_picture(self, names: Sequence[str]) -> Data:
-        """One row for each combination of these columns: of other axes, their middle values are taken, as by `flap plot`."""
+        """One row for each combination of these columns: of other axes, their middle values are taken, as by `flap
+        plot`.
+        """
         if len(np.unique(self.groups(names))) == len(self):
             return self
         shown = [self.axis(name) for name in names]
@@ -147,7 +152,8 @@ class Data:
             unit = self.unit(name)
             value = f"{told} {unit}" if unit else told
             warnings.warn(
-                f"drawn: {name} = {value}, the middle of {len(values)} values; {name}={other} as a keyword chooses another",
+                f"drawn: {name} = {value}, the middle of {len(values)} values; "
+                f"{name}={other} as a keyword chooses another",
                 stacklevel=_callers_level(),
             )
             data = data.rows(data[name].astype(values.dtype) == middle)

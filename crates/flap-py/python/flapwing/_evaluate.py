@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
@@ -47,9 +48,9 @@ def evaluate(
         `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
         grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
-        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, a list of texts with
-        units or of options, or one value for all points. A masked array must have no masked values. Of a `Table`, or of
-        some of its rows, the parameters are taken, and its measures are left out.
+        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, a list of texts
+        with units or of options, or one value for all points. A masked array must have no masked values. Of a `Table`,
+        or of some of its rows, the parameters are taken, and its measures are left out.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -63,11 +64,12 @@ def evaluate(
     gradient : list of str, optional
         Parameters by which rows have derivatives of their measures while the motion stays settled. `Table.gradient` is
         an array of them, of the shape n x measures x parameters: in the unit of the measure's column per SI unit of the
-        parameter. They replace the derivatives of a grid's ``[gradient]``. A derivative costs about three drive periods of work.
+        parameter. They replace the derivatives of a grid's ``[gradient]``. A derivative costs about three drive periods
+        of work.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
-        row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides which motion is
-        found where a design has several.
+        row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides
+        which motion is found where a design has several.
     return_states : bool, optional
         Add columns of the state at the beginning of a drive period of the motion that was found, for `initial_state`.
     **keywords : float or str
@@ -153,7 +155,9 @@ def _parameters(design: Design, table: Table) -> dict[str, Any]:
     known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}
     if not found:
-        raise ValueError(f"`columns` has no column of a parameter: add one, or give a dictionary\n{_mistakes.listed(table)}")
+        raise ValueError(
+            f"`columns` has no column of a parameter: add one, or give a dictionary\n{_mistakes.listed(table)}"
+        )
     return found
 
 

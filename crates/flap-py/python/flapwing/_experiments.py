@@ -31,8 +31,8 @@ def chirp(
     start : float or str, optional
         Frequency at the beginning (Hz, or text with a unit): more than 0. Default 1.
     stop : float or str, optional
-        Frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0. Default:
-        twice the design's drive frequency.
+        Frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0.
+        Default: twice the design's drive frequency.
     rate : float or str, optional
         Rate of change of the frequency (Hz/s): negative for a falling chirp. Default 15.
     samples : int, optional
@@ -60,9 +60,7 @@ def chirp(
     >>> bool(180 < rows["frequency_hz"][peak] < 220)
     True
     """
-    native = _flapwing.chirp(
-        design, dict(keywords), point=point, start=start, stop=stop, rate=rate, samples=samples
-    )
+    native = _flapwing.chirp(design, dict(keywords), point=point, start=start, stop=stop, rate=rate, samples=samples)
     return Table._of(native, keywords=keywords)
 
 
@@ -129,8 +127,8 @@ def forces_along(
 ) -> Table:
     """The forces on the wing of one design point along a given motion, such as one that was filmed.
 
-    No equation of motion is integrated. Between samples the motion is a cubic spline. Its acceleration amplifies noise, so
-    smooth measured angles first.
+    No equation of motion is integrated. Between samples the motion is a cubic spline. Its acceleration amplifies noise,
+    so smooth measured angles first.
 
     Parameters
     ----------
@@ -138,8 +136,8 @@ def forces_along(
         As for `run`.
     motion : path or columns
         Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame), with `time_s` (or
-        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and `trajectory`
-        have them. At least four samples at rising times.
+        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
+        `trajectory` have them. At least four samples at rising times.
     periodic : bool, optional
         The motion is one period: its last sample is the first of the next period.
     samples : int, optional
@@ -183,8 +181,9 @@ def forces_along(
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     """Stroke and pitch of a filmed wing, from points that were tracked in its images.
 
-    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the centre
-    of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
+    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the
+    centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and
+    43).
 
     Parameters
     ----------

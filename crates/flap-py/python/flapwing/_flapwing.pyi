@@ -1,7 +1,8 @@
 """Native part of flapwing."""
 
+from collections.abc import Callable
 from os import PathLike
-from typing import Any, Callable, SupportsFloat, SupportsIndex, final, overload
+from typing import Any, SupportsFloat, SupportsIndex, final, overload
 
 import numpy as np
 

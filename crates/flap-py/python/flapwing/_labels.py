@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 import textwrap
-from typing import Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from ._flapwing import better, printed, scale, split_unit, unit_of, words
 
-__all__ = ["better", "label", "lowered", "number", "printed", "readable", "split_unit", "titled", "unit_of", "words", "wrapped"]
+__all__ = [
+    "better",
+    "label",
+    "lowered",
+    "number",
+    "printed",
+    "readable",
+    "split_unit",
+    "titled",
+    "unit_of",
+    "words",
+    "wrapped",
+]
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 

@@ -15,8 +15,8 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, such as ``"ozaki2018-large"``, a device, a grid or a `Vehicle` (of its first point), or a model, such as
-        ``"direct-drive"``.
+        A preset, such as ``"ozaki2018-large"``, a device, a grid or a `Vehicle` (of its first point), or a model, such
+        as ``"direct-drive"``.
 
     Returns
     -------

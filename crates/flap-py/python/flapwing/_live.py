@@ -125,8 +125,8 @@ def live(
 ) -> Live:
     """Starts the live page of a design: curves follow the parameters while one drags them.
 
-    It is the page of the command ``flap live``. In a notebook the result shows the page in its cell. The server answers this
-    machine alone, reads no files and writes none.
+    It is the page of the command ``flap live``. In a notebook the result shows the page in its cell. The server answers
+    this machine alone, reads no files and writes none.
 
     Parameters
     ----------

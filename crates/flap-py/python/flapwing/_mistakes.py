@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import Iterable, Iterator
 
 #: Names that the error lists.
 _LISTED = 12
@@ -30,7 +30,9 @@ def listed(names: Iterable[str]) -> str:
     """The first few of the names that there are."""
     every = list(names)
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
-    return f"there {'is' if len(every) == 1 else 'are'} {', '.join(every[:_LISTED])}{more}" if every else "there are none"
+    return (
+        f"there {'is' if len(every) == 1 else 'are'} {', '.join(every[:_LISTED])}{more}" if every else "there are none"
+    )
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:

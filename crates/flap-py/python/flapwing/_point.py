@@ -50,8 +50,8 @@ def run(
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, one of `presets()`; or a grid, see `Grid`, as a path, text, dictionary or Grid; or a model, all of whose
-        parameters must then be given.
+        A preset, one of `presets()`; or a grid, see `Grid`, as a path, text, dictionary or Grid; or a model, all of
+        whose parameters must then be given.
     point : int, optional
         The index of a point in the grid. Needed if it has more than one.
     initial_state : dict, Table or DataFrame, optional
@@ -61,11 +61,11 @@ def run(
         with nan begins at rest. If the design has several orbits, it decides which is found. Default: rest.
     waveform : path, tuple or columns, optional
         One period of the drive in place of `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame) with
-        `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive period unless
-        `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
+        `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive period
+        unless `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
     stroke : path, tuple or columns, optional
-        One period of a prescribed stroke, likewise: `time_s` and `stroke_deg` (or `stroke_rad`), or a pair of arrays (s,
-        rad). For models with the parameter `stroke_mode`.
+        One period of a prescribed stroke, likewise: `time_s` and `stroke_deg` (or `stroke_rad`), or a pair of arrays
+        (s, rad). For models with the parameter `stroke_mode`.
     progress : bool or function, optional
         As for `sweep`: a point is one step.
     client : distributed.Client, optional
@@ -172,8 +172,8 @@ def trajectory(
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke, see `run`.
     once : bool, optional
-        Follow the waveform or the stroke once, from rest or from `initial_state`, instead of repeating it. It need not be
-        closed, and `cycles` does not count.
+        Follow the waveform or the stroke once, from rest or from `initial_state`, instead of repeating it. It need not
+        be closed, and `cycles` does not count.
     progress, client
         As for `run`.
     **keywords : float or str

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Callable, Iterator
 
 #: The type of the argument ``progress``.
 Progress = bool | Callable[[int, int], object]
@@ -16,7 +16,8 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
         yield progress
     elif not isinstance(progress, bool):
         raise TypeError(
-            f"`progress` is {type(progress).__name__}\nit must be True, False, or a function of two numbers: points done, points"
+            f"`progress` is {type(progress).__name__}\n"
+            "it must be True, False, or a function of two numbers: points done, points"
         )
     elif not progress:
         yield None

@@ -35,8 +35,8 @@ def respond(
     """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
 
     The first point of each way starts at rest, every other from the settled motion of the point before it. Where the
-    way up and the way down settle to different motions, the design is bistable. Steps with an end of such a band in them
-    are halved, and so are steps in which the motion changes by more than a tenth, where a narrow band may be.
+    way up and the way down settle to different motions, the design is bistable. Steps with an end of such a band in
+    them are halved, and so are steps in which the motion changes by more than a tenth, where a narrow band may be.
 
     Parameters
     ----------
@@ -86,7 +86,8 @@ def respond(
     --------
     >>> curve = flapwing.respond("ozaki2018-large", start=100, stop=120, step=5)
     >>> print(curve.verdicts[0])
-    no hysteresis from 100 to 120 Hz wider than 1.25 Hz (0.3125 Hz where the motion changes by a tenth; branches agree to 1.6e-6 deg)
+    no hysteresis from 100 to 120 Hz wider than 1.25 Hz
+    (0.3125 Hz where the motion changes by a tenth; branches agree to 1.6e-6 deg)
     >>> curve.verdicts[0].bands
     []
     """

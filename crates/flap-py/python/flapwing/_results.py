@@ -1,10 +1,11 @@
-"""Results that are no tables: rows of single points, lists of a design's parameters, measures and states, resonances."""
+"""Results that are no tables: rows of single points, parameters, measures and states of a design, resonances."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Iterator, Mapping
+from typing import Any
 
 from ._mistakes import unknown
 
@@ -40,8 +41,8 @@ class _Result:
 class Row(Mapping[str, Any]):
     """The results of one design point.
 
-    ``row["lift_mean_mn"]`` is a column of a table of results: a measure, or one of the attributes by its name. ``dict(row)``
-    has all columns, in the same order for every point of a model.
+    ``row["lift_mean_mn"]`` is a column of a table of results: a measure, or one of the attributes by its name.
+    ``dict(row)`` has all columns, in the same order for every point of a model.
 
     Attributes
     ----------
@@ -51,8 +52,9 @@ class Row(Mapping[str, Any]):
         parameter is in range, but together they are impossible).
     measures : dict of str to float
         The measures, each named after its quantity, its kind of measure and its unit: ``stroke_pp_deg``,
-        ``lift_mean_mn``, ``power_mean_mw``; then the measures of the grid's ``[measure]``, of which conditions are bool.
-        All are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
+        ``lift_mean_mn``, ``power_mean_mw``; then the measures of the grid's ``[measure]``, of which conditions are
+        bool. All are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without power,
+        is nan.
     cycles : int
         Drive periods integrated, including the measurement.
     residual : float
@@ -111,12 +113,24 @@ class Row(Mapping[str, Any]):
         """The columns, for notebooks."""
         from html import escape
 
-        cells = "".join(f"<tr><th>{escape(key)}</th><td>{escape(_text(value))}</td></tr>" for key, value in self.items())
+        cells = "".join(
+            f"<tr><th>{escape(key)}</th><td>{escape(_text(value))}</td></tr>" for key, value in self.items()
+        )
         return f"<table>{cells}</table>"
 
 
 #: The columns of a row that are no measures.
-_ATTRIBUTES = ("status", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate", "rhs_evals", "reason")
+_ATTRIBUTES = (
+    "status",
+    "cycles",
+    "residual",
+    "period",
+    "floquet_max",
+    "stable",
+    "error_estimate",
+    "rhs_evals",
+    "reason",
+)
 
 
 def _text(value: Any) -> str:
@@ -132,8 +146,8 @@ class Parameter(_Result):
     name : str
         Name in grids, on the command line and as a keyword.
     value : float or str
-        Value in the design, in SI units, or the name of an option. nan if it is not set and follows others, or if a grid
-        varies it.
+        Value in the design, in SI units, or the name of an option. nan if it is not set and follows others, or if a
+        grid varies it.
     unit : str
         SI unit; ``""`` for pure numbers and options.
     symbol : str

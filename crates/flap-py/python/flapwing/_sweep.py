@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import tomllib
 import warnings
-from typing import TYPE_CHECKING, Any, Mapping, Sequence, SupportsIndex
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from . import _arguments, _dask, _flapwing, _mistakes
 from ._flapwing import Grid
@@ -37,8 +38,8 @@ def sweep(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The design space, see `Grid`; a preset has a single point. Its ``[output]`` chooses columns; the path in it is not
-        used.
+        The design space, see `Grid`; a preset has a single point. Its ``[output]`` chooses columns; the path in it is
+        not used.
     out : path, optional
         File for the rows, written as soon as they are computed, with the same bytes as by ``flap sweep --out``:
         ``.csv``, ``.csv.zst`` or ``.parquet``. A sidecar beside it records the origin of the rows. By default rows are
@@ -68,9 +69,9 @@ def sweep(
     -------
     Table
         One row per point in the order of the grid, less those that ``[where]`` excludes: `point`, the varied and
-        derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`,
-        `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among those behind `status`. A point
-        that fails is a row with a status. With `out`, the rows are read from the file when they are first used.
+        derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`, `stable`,
+        `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among those behind `status`. A point that
+        fails is a row with a status. With `out`, the rows are read from the file when they are first used.
 
     Raises
     ------
@@ -78,13 +79,13 @@ def sweep(
         Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
         ValueError.
     FileExistsError
-        `out` holds complete rows of another grid and `overwrite` is not given, or unfinished ones and neither `resume` nor
-        `overwrite` is given.
+        `out` holds complete rows of another grid and `overwrite` is not given, or unfinished ones and neither `resume`
+        nor `overwrite` is given.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be resumed: its unfinished rows are of another grid, or were changed. Unknown preset, parameter, option, unit or
-        measure; a keyword that the grid varies or derives.
+        `out` cannot be resumed: its unfinished rows are of another grid, or were changed. Unknown preset, parameter,
+        option, unit or measure; a keyword that the grid varies or derives.
     TypeError
         A value of the wrong type.
     KeyboardInterrupt
@@ -133,7 +134,9 @@ def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequ
     overlaid = Grid._named(grid.name, _flapwing.text_of(entries))
     if [list(axis) for axis in overlaid.axes] != [list(axis) for axis in grid.axes]:
         # Several [[zip]] tables with others between them: a dictionary does not keep such an order.
-        raise ValueError("keywords would change the order of the grid's axes\nwrite them into its [params] and [solver]")
+        raise ValueError(
+            "keywords would change the order of the grid's axes\nwrite them into its [params] and [solver]"
+        )
     return overlaid
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, overload
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -29,7 +30,8 @@ SHOWN_NAMES = 8
 
 #: What chooses rows and columns, for messages.
 _KEYS = (
-    "columns are chosen by a name or a list of names, rows by a slice or by an array of one dimension: a mask or indices"
+    "columns are chosen by a name or a list of names, "
+    "rows by a slice or by an array of one dimension: a mask or indices"
 )
 
 
@@ -51,9 +53,10 @@ def _fixed(values: Any) -> np.ndarray[Any, Any]:
 class Table:
     """Results as columns: one NumPy array each, all of the same length.
 
-    ``table["lift_mean_mn"]`` is a column, ``table[["drive_frequency", "lift_mean_mn"]]`` a table of some of the columns,
-    ``table[rows]`` one of some of the rows, by a slice, a mask or indices; ``len(table)`` is their number. Iterating gives
-    the names of the columns, as a DataFrame does. Columns are read-only: ``table["lift_mean_mn"].copy()`` may be changed.
+    ``table["lift_mean_mn"]`` is a column, ``table[["drive_frequency", "lift_mean_mn"]]`` a table of some of the
+    columns, ``table[rows]`` one of some of the rows, by a slice, a mask or indices; ``len(table)`` is their number.
+    Iterating gives the names of the columns, as a DataFrame does. Columns are read-only:
+    ``table["lift_mean_mn"].copy()`` may be changed.
 
     Columns are float64 with nan for unknown values (the measures of a point that is not periodic), uint64 for
     counts, bool for flags, and text for options and words. If a flag of some row is unknown, its column is float64 too:
@@ -67,10 +70,10 @@ class Table:
         with their values, which are read-only. Empty for rows without a grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
-        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The
-        call adds `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid
-        points with the reason; `keywords` of the call, which replace values of the grid. Tables of some of the rows or columns
-        have copies of them, with `rows` and `counts` of their own.
+        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds
+        `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid points with the
+        reason; `keywords` of the call, which replace values of the grid. Tables of some of the rows or columns have
+        copies of them, with `rows` and `counts` of their own.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -82,11 +85,10 @@ class Table:
         raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read\ncall one of them")
 
     @classmethod
-    def _of(
-        cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None
-    ) -> Table:
-        """A table of native results of a call with these keywords; with a path, its columns are read from there when first
-        used."""
+    def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
+        """A table of native results of a call with these keywords; with a path, its columns are read from there when
+        first used.
+        """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:
             meta["keywords"] = dict(keywords)
@@ -97,9 +99,7 @@ class Table:
         return table
 
     @classmethod
-    def _new(
-        cls, columns: dict[str, Column] | None, axes: list[dict[str, Any]], meta: dict[str, Any]
-    ) -> Table:
+    def _new(cls, columns: dict[str, Column] | None, axes: list[dict[str, Any]], meta: dict[str, Any]) -> Table:
         table = object.__new__(cls)
         table._held = columns
         table.axes = [{name: _fixed(values) for name, values in axis.items()} for axis in axes]
@@ -149,7 +149,9 @@ class Table:
         try:
             rows = np.asarray(key)
         except Exception as error:
-            raise TypeError(f"a table is not indexed by {type(key).__name__}, which raised {raised(error)}\n{_KEYS}") from error
+            raise TypeError(
+                f"a table is not indexed by {type(key).__name__}, which raised {raised(error)}\n{_KEYS}"
+            ) from error
         if rows.ndim == 1 and rows.size == 0:
             rows = rows.astype(np.intp)
         if rows.ndim == 1 and rows.dtype.kind == "f":
@@ -206,9 +208,9 @@ class Table:
     def gradient(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Derivatives of the measures, of the shape rows x measures x parameters.
 
-        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. Derivatives are in the unit of the
-        measure's column per SI unit of the parameter; of a grid's ``[gradient]``, per per cent of it. One that is not
-        known is nan, and the column ``gradient_gap`` has the reason.
+        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. Derivatives
+        are in the unit of the measure's column per SI unit of the parameter; of a grid's ``[gradient]``, per per cent
+        of it. One that is not known is nan, and the column ``gradient_gap`` has the reason.
         """
         told = self.meta.get("gradient")
         if told is None:
@@ -229,9 +231,9 @@ class Table:
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
 
-        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`, and the entries of `meta` as
-        text, or as JSON if they are not text. Columns that are not copied
-        are read-only: ``frame.copy()`` may be changed.
+        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`, and the entries of `meta`
+        as text, or as JSON if they are not text. Columns that are not copied are read-only: ``frame.copy()`` may be
+        changed.
         """
         return _columns.to_pandas(self._columns, self.meta)
 
@@ -246,8 +248,8 @@ class Table:
     def to_arrow(self) -> pyarrow.Table:
         """The table as an Arrow table: numbers share memory with the table, unknown values are null.
 
-        Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema, as
-        ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
+        Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema,
+        as ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
         """
         return _columns.to_arrow(self._columns, self.meta)
 
@@ -258,13 +260,13 @@ class Table:
     def to_xarray(self) -> xarray.Dataset:
         """The table as an xarray Dataset: the axes of the grid are its dimensions, in the order of the grid.
 
-        A dimension is named after the first parameter of its axis; others that move with it are coordinates along it.
-        A motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
+        A dimension is named after the first parameter of its axis; others that move with it are coordinates along it. A
+        motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
         that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
         coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
-        that have no row, because the grid excludes them, are nan, 0 or empty text; flags are float64 then. Rows find their places by
-        `point`, or by the parameters of the axes; without either, a ValueError is raised. The attributes of the Dataset are
-        the entries of `meta`, as JSON if they are not text.
+        that have no row, because the grid excludes them, are nan, 0 or empty text; flags are float64 then. Rows find
+        their places by `point`, or by the parameters of the axes; without either, a ValueError is raised. The
+        attributes of the Dataset are the entries of `meta`, as JSON if they are not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Mapping, Protocol, Sequence, SupportsFloat, Union
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, SupportsFloat, Union
 
 import numpy as np
 
@@ -13,10 +14,10 @@ if TYPE_CHECKING:
     from ._table import Table
 
 #: A preset by its name, a grid file by its path, the text of one, its entries as a dictionary, or a Grid.
-Design = Union[str, os.PathLike[str], Mapping[str, Any], Grid]
+Design = str | os.PathLike[str] | Mapping[str, Any] | Grid
 
 #: A parameter or a solver setting: a number in SI units, text with a unit, or the name of an option.
-Value = Union[SupportsFloat, str]
+Value = SupportsFloat | str
 
 #: A record over time: a CSV file by its path, columns by name, or times (s) and values.
 Record = Union[str, os.PathLike[str], Mapping[str, Any], "Table", "tuple[Any, Any]"]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 from . import _flapwing
-from ._mistakes import refused
 from ._flapwing import Grid
+from ._mistakes import refused
 from ._types import Value
 
 __all__ = ["Vehicle", "Wing"]
@@ -47,7 +48,8 @@ class Wing(_Entries):
     mirrored : bool, optional
         True for a wing on the right: the image of the wing at `position`, behind the plane of x and z.
     preset, device : str, path, optional
-        The design of the wing, if it differs from the vehicle's design: a preset by its name, or a device file by its path.
+        The design of the wing, if it differs from the vehicle's design: a preset by its name, or a device file by its
+        path.
     params : dict, optional
         Parameters that this wing has of its own.
 
@@ -58,7 +60,8 @@ class Wing(_Entries):
 
     Examples
     --------
-    >>> wing = flapwing.Wing("right", position=["0 mm", "1.5 mm", "0 mm"], mirrored=True, params={"hinge_stiffness": 1.4e-6})
+    >>> place = ["0 mm", "1.5 mm", "0 mm"]
+    >>> wing = flapwing.Wing("right", position=place, mirrored=True, params={"hinge_stiffness": 1.4e-6})
     >>> wing["mirrored"], wing["position"]
     (True, ['0 mm', '1.5 mm', '0 mm'])
     """
@@ -110,10 +113,10 @@ class Vehicle(_Entries):
         evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
         sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
 
-    It is a mapping of the entries of a grid file with a section ``[vehicle]``, so that a dictionary with more sections is
-    a grid. Parameters of the model hold for all wings; ``left_NAME`` is that of the wing `left` alone, and
-    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Interaction between
-    wings is left out, and the body is held still. Axes of the body: x forward, y to the left, z up.
+    It is a mapping of the entries of a grid file with a section ``[vehicle]``, so that a dictionary with more sections
+    is a grid. Parameters of the model hold for all wings; ``left_NAME`` is that of the wing `left` alone, and
+    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Interaction between wings
+    is left out, and the body is held still. Axes of the body: x forward, y to the left, z up.
 
     Parameters
     ----------

@@ -10,8 +10,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Iterable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -204,8 +205,8 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values share the mean of their ranks. A parameter that follows an earlier one, in its order or in the reverse of
-    it, is left out, as is one that has the same value in all designs.
+    Equal values share the mean of their ranks. A parameter that follows an earlier one, in its order or in the reverse
+    of it, is left out, as is one that has the same value in all designs.
 
     Parameters
     ----------
@@ -289,7 +290,9 @@ def non_dominated(costs: Any) -> Mask:
     try:
         import moocore
     except ImportError:
-        raise ImportError('non_dominated needs moocore: pip install "flapwing[analysis]", or pip install moocore') from None
+        raise ImportError(
+            'non_dominated needs moocore: pip install "flapwing[analysis]", or pip install moocore'
+        ) from None
     costs = np.asarray(costs, dtype=float)
     if costs.ndim != 2 or costs.shape[1] < 1:
         raise ValueError(f"costs must have shape (n, k), not {costs.shape}")

@@ -1,7 +1,8 @@
 """The bimorph of Jafferis, Graule and Wood (2016). Equation numbers are the paper's; SI units and radians.
 
-Eq. (6) and Eq. (11) are in their corrected forms: docs/model-bimorph.md has the evidence. The printed forms are the readings
-`eq6-printed` and `eq11-printed`. State: tip displacement x, its rate, wing pitch psi, its rate. One actuator with one wing.
+Eq. (6) and Eq. (11) are in their corrected forms: docs/model-bimorph.md has the evidence. The printed forms are the
+readings `eq6-printed` and `eq11-printed`. State: tip displacement x, its rate, wing pitch psi, its rate. One actuator
+with one wing.
 """
 
 from __future__ import annotations
@@ -187,7 +188,9 @@ class Bimorph:
         side = {"eq11-printed": 1.0, "eq11-signed-alpha": side_v}.get(self.reading, side_psi)
         return 1.0 - 2.0 / pi * side * psi
 
-    def accelerations(self, volts: tuple[float, float], y: Sequence[float], sides: Sequence[float]) -> tuple[float, float]:
+    def accelerations(
+        self, volts: tuple[float, float], y: Sequence[float], sides: Sequence[float]
+    ) -> tuple[float, float]:
         """(1) and (2)."""
         p = self.p
         x, v, psi, psi_dot = y
@@ -377,7 +380,8 @@ def measures(model: Bimorph, orbit: Orbit) -> Results:
 def variant(row: Row) -> Results:
     """A row of variant_cases.csv: a reading of the paper, or one of two motions of a hinge of half the stiffness.
 
-    The branches `sweep-up` and `sweep-down` are reached in steps of 1 Hz from 6 Hz below or above, with 30 periods each.
+    The branches `sweep-up` and `sweep-down` are reached in steps of 1 Hz from 6 Hz below or above, with 30 periods
+    each.
     """
     model = model_of(row)
     begin = np.zeros(4)
@@ -450,7 +454,9 @@ def transient_again(row: Row, results: Results) -> Results:
     motion, end = from_rest(row)
     y = np.array([results[name] for name in ("x_m", "v_m_per_s", "psi_rad", "psidot_rad_per_s")])
     return {
-        f"scaled_diff_{method.lower()}_1e11": motion.distance(unsplit(motion, 0.0, end, np.zeros(4), method, 1e-11).y, y)
+        f"scaled_diff_{method.lower()}_1e11": motion.distance(
+            unsplit(motion, 0.0, end, np.zeros(4), method, 1e-11).y, y
+        )
         for method in ("DOP853", "LSODA")
     }
 

@@ -26,11 +26,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("file", nargs="*", help="a file or folder below tests/data; without one, all files")
     parser.add_argument("--check", action="store_true", help="compare with the committed numbers and write nothing")
     parser.add_argument("--quick", action="store_true", help="with --check: a few rows of the files that take long")
-    parser.add_argument("--data", type=lambda text: Path(text).resolve(), default=DATA, metavar="FOLDER", help="another folder with these files")
+    parser.add_argument(
+        "--data",
+        type=lambda text: Path(text).resolve(),
+        default=DATA,
+        metavar="FOLDER",
+        help="another folder with these files",
+    )
     given = parser.parse_args(arguments)
     if given.quick and not given.check:
         parser.error("--quick needs --check: a file is written with all rows")
-    tables = [table for table in TABLES if not given.file or any(within(table, name, given.data) for name in given.file)]
+    tables = [
+        table for table in TABLES if not given.file or any(within(table, name, given.data) for name in given.file)
+    ]
     for name in given.file:
         if not any(within(table, name, given.data) for table in TABLES):
             paths = ", ".join(table.path for table in TABLES)

@@ -1,7 +1,7 @@
 """The direct drive of Ozaki and Hamaguchi (2018). Equation numbers are the paper's; SI units and radians.
 
-Eq. (11), (17), (23) to (25), (35) and (38) are in their corrected forms: docs/model.md has the evidence. The y axis points to the
-leading edge, which is up, so that y_g is negative. State: stroke phi, wing pitch psi, their rates.
+Eq. (11), (17), (23) to (25), (35) and (38) are in their corrected forms: docs/model.md has the evidence. The y axis
+points to the leading edge, which is up, so that y_g is negative. State: stroke phi, wing pitch psi, their rates.
 """
 
 from __future__ import annotations
@@ -63,7 +63,8 @@ class Parameters:
     c_d_max: float = 5.0
     c_d_min: float = 0.4
     c_rd: float = 3.5
-    #: The chord over its mean, 1 + a1 P1 + a2 P2 + a3 P3 with Legendre polynomials from root to tip: fitted to the shape moments.
+    #: The chord over its mean, 1 + a1 P1 + a2 P2 + a3 P3 with Legendre polynomials from root to tip: fitted to the
+    #: shape moments.
     legendre: tuple[float, float, float] = (0.0562, -0.0913, 0.176)
 
 
@@ -133,7 +134,9 @@ def with_chord_moments(p: Parameters) -> Parameters:
 
 @dataclass(frozen=True)
 class Air:
-    """Forces and moments of the air: translational lift, moments about the stroke axis and the hinge, rotational moment."""
+    """Forces and moments of the air: translational lift, moments about the stroke axis and the hinge, rotational
+    moment.
+    """
 
     lift: float
     m_tr_y: float
@@ -153,9 +156,9 @@ class Added:
 class DirectDrive:
     """The equations with the constants of one design point.
 
-    `dcp` is the reading of the angle in Eq. (24). `blades` is the number of blade elements that each have a direction of flow;
-    0 is the paper's one direction for the whole wing. `lagrangian` adds the gyroscopic terms that the paper's added mass
-    lacks. `lift_sign` is the sign of F_am sin psi in Eq. (35), as printed +1.
+    `dcp` is the reading of the angle in Eq. (24). `blades` is the number of blade elements that each have a direction
+    of flow; 0 is the paper's one direction for the whole wing. `lagrangian` adds the gyroscopic terms that the paper's
+    added mass lacks. `lift_sign` is the sign of F_am sin psi in Eq. (35), as printed +1.
     """
 
     def __init__(
@@ -240,7 +243,9 @@ class DirectDrive:
             u = self.blade_x * phi_dot - 0.5 * self.blade_c * w
             pressure = 0.5 * p.rho * each * u * u * self.blade_area
             arms = self.blade_c * self.d_cp(psi, sides[2], each)
-            return Air(c_l * float(pressure.sum()), -c_d * float(pressure @ self.blade_x), c_n * float(pressure @ arms), m_rot)
+            return Air(
+                c_l * float(pressure.sum()), -c_d * float(pressure @ self.blade_x), c_n * float(pressure @ arms), m_rot
+            )
         s, r, c = sides[3], p.length, p.chord
         b_l = p.i_21 * r**2 * phi_dot**2 - p.i_12 * r * c * phi_dot * w + 0.25 * p.i_03 * c**2 * w**2
         b_x = p.i_22 * r**2 * phi_dot**2 - p.i_13 * r * c * phi_dot * w + 0.25 * p.i_04 * c**2 * w**2
@@ -423,7 +428,8 @@ def measures(model: DirectDrive, orbit: Orbit) -> Results:
 
 
 def sliding(model: DirectDrive, cycle: Run) -> tuple[int, int]:
-    """The number of switches of the mean flow's direction after which the motion would turn back, and that of all of them.
+    """The number of switches of the mean flow's direction after which the motion would turn back, and that of all of
+    them.
 
     After such a switch the motion would slide along the surface, and its continuation on the other side would be wrong.
     Blade elements have no mean direction of flow.
@@ -528,7 +534,9 @@ def signals(model: DirectDrive, volts: float, rate: float, y: Sequence[float]) -
 
 
 def trajectory(rows: Sequence[Row]) -> list[Results]:
-    """Rows of traj_small_30V_209Hz_steady.csv: the periodic motion of the small type at 30 V and 209 Hz, at their times."""
+    """Rows of traj_small_30V_209Hz_steady.csv: the periodic motion of the small type at 30 V and 209 Hz, at their
+    times.
+    """
     model = DirectDrive(SMALL, 30.0, 209.0)
     times = [float(row["t_s"]) for row in rows]
     motion = run(model.motion(), 0.0, max(times[-1], 1e-6), model.settled().y, at=times)
@@ -579,7 +587,8 @@ def impulse_fits(rows: Sequence[Row]) -> list[Results]:
 
 
 def damped_sine(t: Array, values: Array, mode: float) -> tuple[float, float, float]:
-    """Frequency (Hz), decay (1/s) and relative root mean square of what is left of the best A e^(-lambda t) sin(2 pi f t + p).
+    """Frequency (Hz), decay (1/s) and relative root mean square of what is left of the best A e^(-lambda t) sin(2 pi f
+    t + p).
 
     Sine and cosine of A and p are linear, so that the search is over f and lambda alone.
     """

@@ -1,7 +1,8 @@
 """The four-bar of Arabagi, Hines and Sitti (2013). Equation numbers are the paper's; SI units and radians.
 
-The paper's text lacks Eq. (1) to (3). docs/model-four-bar.md has the equations that replace them, and the evidence for the
-corrections of the others. State: stroke theta, its rate, wing pitch phi, its rate. The wings and actuators are assumed.
+The paper's text lacks Eq. (1) to (3). docs/model-four-bar.md has the equations that replace them, and the evidence for
+the corrections of the others. State: stroke theta, its rate, wing pitch phi, its rate. The wings and actuators are
+assumed.
 """
 
 from __future__ import annotations
@@ -165,7 +166,9 @@ class FourBar:
         # Unimorph: neutral axis, bending stiffness per width, free deflection per volt, blocking force per volt.
         z_p, z_s = p.h_s + p.h_p / 2.0, p.h_s / 2.0
         z_c = (p.e_p * p.h_p * z_p + p.e_s * p.h_s * z_s) / (p.e_p * p.h_p + p.e_s * p.h_s)
-        stiff = p.e_p * (p.h_p**3 / 12.0 + p.h_p * (z_p - z_c) ** 2) + p.e_s * (p.h_s**3 / 12.0 + p.h_s * (z_s - z_c) ** 2)
+        stiff = p.e_p * (p.h_p**3 / 12.0 + p.h_p * (z_p - z_c) ** 2) + p.e_s * (
+            p.h_s**3 / 12.0 + p.h_s * (z_s - z_c) ** 2
+        )
         self.k_a = 3.0 * stiff * p.act_w / p.act_l**3
         self.gamma = p.e_p * p.d31 * (z_p - z_c) / stiff * p.act_l**2 / 2.0
         self.coupling = self.k_a * self.gamma
@@ -196,7 +199,9 @@ class FourBar:
         self.f_1r = i_1 * float(np.sum(r * c**3 * dr))
         self.f_2 = i_2 * float(np.sum(c**4 * dr))
         self.am_1 = pi * p.rho / 4.0 * float(np.sum(r * c**2 * dr))
-        self.am_2 = pi * p.rho / 4.0 * (0.5 - p.chi) * float(np.sum(c**3 * dr)) * (-1.0 if p.am_sign == "printed" else 1.0)
+        self.am_2 = (
+            pi * p.rho / 4.0 * (0.5 - p.chi) * float(np.sum(c**3 * dr)) * (-1.0 if p.am_sign == "printed" else 1.0)
+        )
         # (13), (19).
         m = p.m_w + pi * p.rho / 4.0 * float(np.sum(c**2 * dr))
         self.product = m * p.r_cg * p.beta + p.j_xz
@@ -220,8 +225,14 @@ class FourBar:
         # (13): the middles of the links are A/2, (A + B)/2 and (O3 + B)/2; link 3 turns with theta.
         first = [(0.5 * a_1[i], 0.5 * (a_1[i] + b_1[i]), 0.5 * b_1[i]) for i in range(2)]
         second = [(0.5 * a_2[i], 0.5 * (a_2[i] + b_2[i]), 0.5 * b_2[i]) for i in range(2)]
-        inertia = self.j_l[0] * t_1 * t_1 + self.j_l[1] * links.theta_2[1] ** 2 + self.j_l[2] + self.m_eff * delta[1] ** 2
-        half = self.j_l[0] * t_1 * t_2 + self.j_l[1] * links.theta_2[1] * links.theta_2[2] + self.m_eff * delta[1] * delta[2]
+        inertia = (
+            self.j_l[0] * t_1 * t_1 + self.j_l[1] * links.theta_2[1] ** 2 + self.j_l[2] + self.m_eff * delta[1] ** 2
+        )
+        half = (
+            self.j_l[0] * t_1 * t_2
+            + self.j_l[1] * links.theta_2[1] * links.theta_2[2]
+            + self.m_eff * delta[1] * delta[2]
+        )
         for k, mass in enumerate(p.m_l):
             inertia += mass * (first[0][k] ** 2 + first[1][k] ** 2)
             half += mass * (first[0][k] * second[0][k] + first[1][k] * second[1][k])
@@ -236,12 +247,13 @@ class FourBar:
         """The force on the crank, (1): actuator and series spring push from the voltage of rest."""
         return self.k_eff * (self.gamma * (volts - self.p.v_ref) - delta)
 
-    def translation(self, theta_dot: float, phi: float, phi_dot: float, sides: Sequence[float]) -> tuple[float, float, float]:
+    def translation(
+        self, theta_dot: float, phi: float, phi_dot: float, sides: Sequence[float]
+    ) -> tuple[float, float, float]:
         """Lift and the moments about both axes, (5), (8) to (10), (16), (17).
 
-        `sides` are those of phi, of cos phi and of each strip's velocity.
-        The angle of attack of a strip that moves with the sign s is alpha = 90 deg + s phi. Folded into 0 to 90 deg it is the
-        same for both signs.
+        `sides` are those of phi, of cos phi and of each strip's velocity. The angle of attack of a strip that moves
+        with the sign s is alpha = 90 deg + s phi. Folded into 0 to 90 deg it is the same for both signs.
         """
         side, up, s = sides[0], sides[1], np.array(sides[2:])
         # (8): horizontal velocity at the arm kappa c.
@@ -258,7 +270,9 @@ class FourBar:
         return float(lift.sum()), float(self.r @ push), float(moment)
 
     def strip_surfaces(self, theta_dot: Callable[[float, Any], float], phi: int) -> list[Surface]:
-        """The velocities (8) of the strips, whose signs turn their forces; the state has phi and its rate at the index `phi`."""
+        """The velocities (8) of the strips, whose signs turn their forces; the state has phi and its rate at the index
+        `phi`.
+        """
 
         def surface(r: float, arm: float) -> Surface:
             return lambda t, y: r * theta_dot(t, y) + arm * y[phi + 1] * cos(y[phi])
@@ -330,7 +344,8 @@ class FourBar:
         lift, q_theta, q_phi = self.translation(theta_dot, phi, phi_dot, sides[2:])
         lift_rot, r_theta, r_phi = self.rotation(phi, phi_dot, sides[1])
         drive = self.force(volts, at.delta[0]) * at.delta[1] * theta_dot
-        # Reciprocity: the charge is C_b V + coupling * tip displacement, which is delta plus the stretch of the series spring.
+        # Reciprocity: the charge is C_b V + coupling * tip displacement, which is delta plus the stretch of the series
+        # spring.
         tip = at.delta[1] * theta_dot + self.k_eff * (self.gamma * rate - at.delta[1] * theta_dot) / p.k_sc
         current = self.c_b * rate + self.coupling * tip
         wave = 2.0 * pi * p.f * t
@@ -411,7 +426,9 @@ def steady(row: Row) -> Results:
 
 
 def again(row: Row, results: Results) -> Results:
-    """The distance by which a state of steady_cases.csv misses itself after one period of RK45, which locates no surfaces."""
+    """The distance by which a state of steady_cases.csv misses itself after one period of RK45, which locates no
+    surfaces.
+    """
     model = FourBar(point(row))
     begin = np.array([results[name] for name in ("y0_theta", "y0_thetadot", "y0_phi", "y0_phidot")])
     return missed(model.motion(), 1.0 / model.p.f, begin, "RK45")

@@ -1,9 +1,9 @@
 """Motions between switching surfaces, and periodic orbits by Newton shooting.
 
-The equations of motion contain magnitudes and signs, such as |v| v. They are smooth between the surfaces where their arguments
-are zero. A `Motion` gets the sides of these surfaces as numbers +1 or -1 and replaces |v| by side * v. The integration ends at
-each crossing, which is located on the interpolant of the method, and starts again on the other side. DOP853 then keeps its
-order.
+The equations of motion contain magnitudes and signs, such as |v| v. They are smooth between the surfaces where their
+arguments are zero. A `Motion` gets the sides of these surfaces as numbers +1 or -1 and replaces |v| by side * v. The
+integration ends at each crossing, which is located on the interpolant of the method, and starts again on the other
+side. DOP853 then keeps its order.
 """
 
 from __future__ import annotations
@@ -91,8 +91,8 @@ def run(
 ) -> Run:
     """Integrates a motion with DOP853.
 
-    `integrands` are integrated beside the states. Their sides are those of the motion's surfaces and then those of `watched`,
-    further surfaces where the integration starts again. `at` are times of samples.
+    `integrands` are integrated beside the states. Their sides are those of the motion's surfaces and then those of
+    `watched`, further surfaces where the integration starts again. `at` are times of samples.
     """
     surfaces = [*motion.surfaces, *watched]
     size = len(motion.scale)
@@ -169,9 +169,7 @@ def stays(part: Any, surfaces: Sequence[Surface], sides: Sequence[float]) -> boo
     ends = [len(part.t) - (1 if len(times) else 0) for times in part.t_events]
     steps = list(zip(part.t.tolist(), part.y.T.tolist()))
     return all(
-        side * surface(t, y) >= 0.0
-        for surface, side, end in zip(surfaces, sides, ends)
-        for t, y in steps[1:end]
+        side * surface(t, y) >= 0.0 for surface, side, end in zip(surfaces, sides, ends) for t, y in steps[1:end]
     )
 
 

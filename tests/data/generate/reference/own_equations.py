@@ -1,5 +1,6 @@
-"""The simplified bimorph of examples/own_equations: Eqs. (1), (2) and (8) to (11) of Jafferis, Graule and Wood (2016), with
-constant stiffness and a sinusoidal force."""
+"""The simplified bimorph of examples/own_equations: Eqs. (1), (2) and (8) to (11) of Jafferis, Graule and Wood (2016),
+with constant stiffness and a sinusoidal force.
+"""
 
 from __future__ import annotations
 
@@ -59,4 +60,8 @@ def row(given: Row) -> Results:
     last = run(motion, 0.0, MEASURED / f, settled, integrands=lift)
     x_min, x_max = last.extremes(1, lambda y: float(y[0]))
     psi_min, psi_max = last.extremes(3, lambda y: float(y[2]))
-    return {"max_x": max(-x_min, x_max), "max_psi": max(-psi_min, psi_max), "lift": float(last.integrals[0]) * f / MEASURED}
+    return {
+        "max_x": max(-x_min, x_max),
+        "max_psi": max(-psi_min, psi_max),
+        "lift": float(last.integrals[0]) * f / MEASURED,
+    }

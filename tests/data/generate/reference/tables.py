@@ -15,8 +15,8 @@ from .motion import Results, Row
 REPOSITORY = Path(__file__).resolve().parents[4]
 DATA = REPOSITORY / "tests/data"
 
-#: The size that a difference is relative to: another column, a number, or the largest magnitude of the column itself. Columns
-#: without an entry are relative to the committed number.
+#: The size that a difference is relative to: another column, a number, or the largest magnitude of the column itself.
+#: Columns without an entry are relative to the committed number.
 Size = str | float
 PEAK = "peak"
 
@@ -52,7 +52,9 @@ def motor_wing(rows: Sequence[Row]) -> Iterable[Results]:
     command = [sys.executable, str(REPOSITORY / "examples/own_model/reference.py")]
     out = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.splitlines()
     found = list(csv.DictReader(out))
-    if [[row[name] for name in MOTOR_INPUTS] for row in found] != [[row[name] for name in MOTOR_INPUTS] for row in rows]:
+    if [[row[name] for name in MOTOR_INPUTS] for row in found] != [
+        [row[name] for name in MOTOR_INPUTS] for row in rows
+    ]:
         raise ValueError("motor_wing.csv has other points than examples/own_model/reference.py")
     return [{name: float(cell) for name, cell in row.items() if name not in MOTOR_INPUTS} for row in found]
 
@@ -120,7 +122,8 @@ TABLES = (
         ("cycle",),
         bimorph.chirp_envelope,
         1e-7,
-        # The committed extremes are less accurate than the others: LSODA at rtol 1e-12 confirms the recomputed ones to 1e-11.
+        # The committed extremes are less accurate than the others: LSODA at rtol 1e-12 confirms the recomputed ones to
+        # 1e-11.
         {"psi_absmax_deg": 5e-7},
         sizes={"stroke_pp_deg": PEAK, "psi_absmax_deg": PEAK},
         quick=range(5),
@@ -198,8 +201,7 @@ TABLES = (
         each(four_bar.kinematics),
         1e-13,
         sizes={
-            name: PEAK
-            for name in ("theta1_minus_neutral", "theta1_pp", "theta2_p", "delta", "delta_pp", "half_dG")
+            name: PEAK for name in ("theta1_minus_neutral", "theta1_pp", "theta2_p", "delta", "delta_pp", "half_dG")
         },
         quick=range(20),
     ),

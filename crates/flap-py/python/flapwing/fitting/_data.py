@@ -6,9 +6,10 @@ import csv
 import difflib
 import os
 import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -17,12 +18,22 @@ from .._flapwing import Grid
 from .._mistakes import raised, reading
 from .._types import Array, Design, Mask, Value
 
-
 #: Columns of flap's own tables that are neither.
 _COURSE = {
-    "point", "curve", "branch", "bistable", "status", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate",
-    "rhs_evals", "gradient_gap",
-}  # fmt: skip
+    "bistable",
+    "branch",
+    "curve",
+    "cycles",
+    "error_estimate",
+    "floquet_max",
+    "gradient_gap",
+    "period",
+    "point",
+    "residual",
+    "rhs_evals",
+    "stable",
+    "status",
+}
 
 #: Short names that other tables of flap use.
 _SHORT = {"frequency": "drive_frequency"}
@@ -57,7 +68,8 @@ class Names:
         self.grid = Grid(design)
         if len(self.grid) != 1:
             raise ValueError(
-                f"the design has {len(self.grid)} points, and a fit is about one\nleave out its axes: data give the points"
+                f"the design has {len(self.grid)} points, and a fit is about one\n"
+                "leave out its axes: data give the points"
             )
         self.model = self.grid.model
         self.states = _flapwing.states(self.model)
@@ -79,7 +91,9 @@ class Names:
         return True
 
     def parameter(self, name: str) -> str:
-        """The name of a parameter, which may be given by its former name; a ValueError with the nearest name for another."""
+        """The name of a parameter, which may be given by its former name; a ValueError with the nearest name for
+        another.
+        """
         return name if name in self.parameters else _flapwing.parameter(self.model, name)
 
     def unit(self, name: str) -> str:
@@ -105,7 +119,8 @@ class Names:
             raise ValueError(
                 f"{place} has the column `{header}`, which is neither a parameter nor a measure"
                 f"{_hint(name, [*self.parameters, *self.measures])}\n"
-                f"rename or remove it: flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) list the names"
+                f"rename or remove it: flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) "
+                "list the names"
             )
         return found
 
@@ -351,16 +366,16 @@ class Readings:
     Parameters
     ----------
     columns : dict, Table, DataFrame or path
-        Columns of the operating points and of measures, or a CSV file of them. A column has the name of a parameter or a
-        measure; its unit is SI or the unit of the measure, another one in the name (``drive_frequency_khz``,
+        Columns of the operating points and of measures, or a CSV file of them. A column has the name of a parameter or
+        a measure; its unit is SI or the unit of the measure, another one in the name (``drive_frequency_khz``,
         ``hinge_stiffness (uN*m/rad)``), or one in each cell (``"0.12 kHz"``). ``frequency_hz`` stands for
-        ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors, in the measure's
-        unit or as ``"3 %"``.
+        ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors, in the
+        measure's unit or as ``"3 %"``.
     name : str, optional
         The name in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional
-        The standard error of a reading: a number in the measure's unit, ``"1 deg"`` or ``"3 %"`` of the model's value; or
-        such by measure. Without one it is estimated from the residuals.
+        The standard error of a reading: a number in the measure's unit, ``"1 deg"`` or ``"3 %"`` of the model's value;
+        or such by measure. Without one it is estimated from the residuals.
     branch : {"up", "down"}, optional
         The way on which the readings were taken where the design has hysteresis: as `parameter` rises or as it falls.
     parameter : str, optional
@@ -370,7 +385,8 @@ class Readings:
 
     Examples
     --------
-    >>> flapwing.Readings({"frequency_hz": [100, 110], "stroke_pp_deg": [50.0, 61.0]}, drive_voltage_pp="100 V", sigma="2 %")
+    >>> columns = {"frequency_hz": [100, 110], "stroke_pp_deg": [50.0, 61.0]}
+    >>> flapwing.Readings(columns, drive_voltage_pp="100 V", sigma="2 %")
     <flapwing.Readings of 2 rows: frequency_hz, stroke_pp_deg>
     """
 
@@ -407,7 +423,8 @@ class Readings:
             raise ValueError(f"columns differ in length: {told}\ngive each one cell per row")
         if not lengths or not next(iter(lengths.values())):
             raise ValueError(
-                f"{self.name or 'the data set'} is empty\ngive columns of parameters and measures with a row per reading"
+                f"{self.name or 'the data set'} is empty\n"
+                "give columns of parameters and measures with a row per reading"
             )
 
     def __repr__(self) -> str:
@@ -522,7 +539,10 @@ def _listed(header: str, cells: Any) -> list[Any]:
         return list(cells.tolist() if isinstance(cells, np.ndarray) else cells)
 
 
-_HOLD_OUT = 'it must be a share such as 0.2, names of data sets, or ranges of parameters such as {"drive_frequency": (110, 120)}'
+_HOLD_OUT = (
+    "it must be a share such as 0.2, names of data sets, "
+    'or ranges of parameters such as {"drive_frequency": (110, 120)}'
+)
 
 
 def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
@@ -559,7 +579,9 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names)
         for name, (low, high) in ends.items():
             values = one.points.get(name)
             if not isinstance(values, np.ndarray):
-                raise ValueError(f"`hold_out` names `{name}`, and {one.name} has no such column of numbers\n{_HOLD_OUT}")
+                raise ValueError(
+                    f"`hold_out` names `{name}`, and {one.name} has no such column of numbers\n{_HOLD_OUT}"
+                )
             inside &= (values >= low) & (values <= high)
         parts += [inside] * len(one.measured)
     return np.concatenate(parts)
@@ -581,5 +603,3 @@ def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
     if low > high:
         raise ValueError(f"{place}: {low:g} is more than {high:g}\nexchange them")
     return low, high
-
-

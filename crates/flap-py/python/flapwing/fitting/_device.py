@@ -12,7 +12,6 @@ import numpy as np
 from .. import _flapwing
 from ._solution import Solution
 
-
 #: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
 
@@ -39,7 +38,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     readings = sum(one.count for one in good.residuals)
     quality = f"chi-square {good.chi_square:.4g} for {good.freedom} degrees of freedom"
     origins = _flapwing.origins(names.grid)
-    described = "; ".join(part for part in (_FITTED.sub("", origins["description"]), f"fitted to {readings} readings, {quality}") if part)
+    described = "; ".join(
+        part for part in (_FITTED.sub("", origins["description"]), f"fitted to {readings} readings, {quality}") if part
+    )
     lines = [
         f"description = {_text(described)}",
         f'preset = "{names.grid.preset}"',
@@ -69,7 +70,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
         else:
             lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
     coefficients = [
-        (*one["between"], one["coefficient"]) for one in before["correlations"] if all(name in kept for name in one["between"])
+        (*one["between"], one["coefficient"])
+        for one in before["correlations"]
+        if all(name in kept for name in one["between"])
     ]
     correlations = fit.correlations
     for number, (name, row) in enumerate(known):

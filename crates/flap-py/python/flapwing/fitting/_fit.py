@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from typing import Any, Mapping, Sequence, SupportsIndex
+from collections.abc import Mapping, Sequence
+from typing import Any, SupportsIndex
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from ._model import Answer, Model
 from ._result import Fit
 from ._search import FINE, Found, Target
 from ._solution import Effort, Estimate, Unsettled
-
 
 #: Losses of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
@@ -43,8 +43,8 @@ def fit(
 ) -> Fit:
     """Fit parameters of a design to readings, and compute how well the data determine them.
 
-    Nonlinear least squares (`scipy.optimize.least_squares`) with derivatives of the settled motions, from several starts.
-    Needs SciPy.
+    Nonlinear least squares (`scipy.optimize.least_squares`) with derivatives of the settled motions, from several
+    starts. Needs SciPy.
 
     Parameters
     ----------
@@ -53,11 +53,11 @@ def fit(
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         One or several data sets: parameters of the operating points, and measures. See `Readings`.
     free : list of str, or dict
-        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `FreeParameter`, or None. Values are in SI
-        units or text with a unit. Default: from a third of the design's value to three times it.
+        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `FreeParameter`, or None.
+        Values are in SI units or text with a unit. Default: from a third of the design's value to three times it.
     sigma : float, str or dict, optional
-        The standard error of readings that have none of their own: a number in the measure's unit, ``"1 deg"``, or ``"3 %"``
-        of the model's value; a dictionary by measure. Without any, it is estimated from the residuals.
+        The standard error of readings that have none of their own: a number in the measure's unit, ``"1 deg"``, or ``"3
+        %"`` of the model's value; a dictionary by measure. Without any, it is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
         The loss: all but the first make outliers count less.
     starts : int
@@ -65,8 +65,8 @@ def fit(
     seed : int
         Of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
-        Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters such as
-        ``{"drive_frequency": (110, 120)}``, in SI units or as text with a unit.
+        Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters
+        such as ``{"drive_frequency": (110, 120)}``, in SI units or as text with a unit.
     profile : bool
         Compute intervals by the profile likelihood. False: from the derivatives at the estimate, which is quicker.
     threads : int, optional
@@ -84,8 +84,8 @@ def fit(
     Raises
     ------
     ValueError
-        Data without readings, with unknown columns or units, with cells that are no numbers, or with fewer readings than
-        free parameters; bounds in the wrong order; unknown parameters.
+        Data without readings, with unknown columns or units, with cells that are no numbers, or with fewer readings
+        than free parameters; bounds in the wrong order; unknown parameters.
     TypeError
         A value of the wrong type.
     ImportError
@@ -254,7 +254,8 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
         if reason:
             count = sum(other.status == "invalid" for other in lost)
             return (
-                f"{told}{count} of {len(answer.values)} are invalid, first {one.data_set} row {one.row}, because {reason}\n"
+                f"{told}{count} of {len(answer.values)} are invalid, "
+                f"first {one.data_set} row {one.row}, because {reason}\n"
                 "change these parameters of the design, or give bounds in which they go together"
             )
     statuses = ", ".join(sorted({one.status for one in lost}))

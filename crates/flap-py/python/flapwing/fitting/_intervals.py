@@ -1,10 +1,12 @@
-"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at all."""
+"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at
+all.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Sequence
 
 import numpy as np
 
@@ -12,7 +14,6 @@ from .._types import Array
 from ._model import Answer, Model
 from ._parameters import Coordinate, Space
 from ._search import FINE, NOTHING, Ask, Found, Target, minimise, sobol, together
-
 
 #: Values that are tried on each side.
 _TRIES = 6
@@ -169,7 +170,8 @@ _SETS_LOOKED_AT, _PLACES = 6, 4
 #: The tolerance of the integration for it.
 _RTOL = 1e-7
 
-#: A parameter that changes all readings by less than this share of their standard errors over its whole range changes none.
+#: A parameter that changes all readings by less than this share of their standard errors over its whole range changes
+#: none.
 _EFFECT = 1e-2
 
 #: The share of the largest component below which one is left out of words.
@@ -179,9 +181,9 @@ _SHARE = 0.05
 def indistinct(model: Model, target: Target, seed: int) -> list[str]:
     """Directions that no reading can distinguish at any values of the parameters: a sentence for each.
 
-    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind distinguish
-    the parameters. A product of parameters has one and the same null space in logarithms at all of these sets, a sum in
-    the parameters themselves: then derivatives under each other have it too.
+    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind
+    distinguish the parameters. A product of parameters has one and the same null space in logarithms at all of these
+    sets, a sum in the parameters themselves: then derivatives under each other have it too.
     """
     space = model.space
     looks = sobol(space, _SETS_LOOKED_AT, seed)
@@ -252,7 +254,7 @@ def _in_words(space: Space, direction: Array) -> str:
 
 
 def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
-    """The best and the worst known combination of parameters, in words: the error is that of the parameter named first."""
+    """The best and the worst known combination of parameters, with the error of the parameter named first."""
     if len(space) < 2:
         return []
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Mapping, Sequence, SupportsIndex
+from typing import Any, SupportsIndex
 
 import numpy as np
 
@@ -14,7 +15,6 @@ from .._table import Table
 from .._types import Array, Mask, Places
 from ._data import DataSet, Names
 from ._parameters import Space
-
 
 #: The longest step along a way, as a share of the parameter: between readings that are farther apart there are more.
 _STEP = 0.02
@@ -39,8 +39,8 @@ def states_along(
 ) -> dict[str, Array] | None:
     """The states from which motions on the ways begin; None if there are no ways.
 
-    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`. The
-    ways of all of them are followed side by side, a point of each in a batch.
+    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`.
+    The ways of all of them are followed side by side, a point of each in a batch.
     """
     if not ways:
         return None

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from .. import _flapwing
 from .._types import Array, Value
 from ._data import DataSet, Names
-
 
 #: Bounds of a parameter that has none, as factors on its value in the design.
 _REACH = 3.0
@@ -131,7 +131,8 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
 def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
     if name in names.options:
         raise ValueError(
-            f"`{name}` is a choice, and cannot be fitted\nfit once for each of its options: {', '.join(names.options[name])}"
+            f"`{name}` is a choice, and cannot be fitted\n"
+            f"fit once for each of its options: {', '.join(names.options[name])}"
         )
     if name in taken:
         raise ValueError(f"`{name}` is free and set by a keyword\nkeep one of them")
@@ -150,7 +151,8 @@ def _free_of(name: str, given: Any) -> FreeParameter:
     if isinstance(given, (tuple, list)) and len(given) == 2:
         return FreeParameter(given[0], given[1])
     raise TypeError(
-        f"free[{name!r}] is {type(given).__name__}\nit must be a pair of bounds, a flapwing.FreeParameter, or None for the bounds by default"
+        f"free[{name!r}] is {type(given).__name__}\n"
+        "it must be a pair of bounds, a flapwing.FreeParameter, or None for the bounds by default"
     )
 
 
@@ -217,7 +219,8 @@ def _value(names: Names, name: str, given: Any) -> float | None:
 def _prior(names: Names, name: str, given: Any) -> tuple[float, float]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(
-            f'free[{name!r}]: `prior` is {type(given).__name__}\nit must be a value and its standard error: ("1.5 uN*m/rad", "5 %")'
+            f"free[{name!r}]: `prior` is {type(given).__name__}\n"
+            'it must be a value and its standard error: ("1.5 uN*m/rad", "5 %")'
         )
     mean = _value(names, name, given[0])
     assert mean is not None

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
-from typing import Sequence
 
 import numpy as np
 
 from ._solution import Estimate, Solution
 
-
-#: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above the
-#: third, standard errors are called too large.
+#: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above
+#: the third, standard errors are called too large.
 POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 
 #: Unsettled readings that are listed.
@@ -111,7 +110,8 @@ def _quality(fit: Solution) -> list[str]:
         if one.is_structured:
             p = min(one.p_runs, one.p_neighbours)
             lines.append(
-                f"residuals of {one.measure} in {one.data_set} are STRUCTURED (p = {p:.1g}): neighbours err alike, so the model lacks "
+                f"residuals of {one.measure} in {one.data_set} are STRUCTURED (p = {p:.1g}): "
+                "neighbours err alike, so the model lacks "
                 "something there, and errors and intervals are too small"
             )
     if fit.held_out is not None:
@@ -152,5 +152,3 @@ def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows]
     )
-
-

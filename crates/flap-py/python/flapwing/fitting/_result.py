@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -172,8 +173,8 @@ def _next_measurements(
 ) -> tuple[list[int], list[str], list[float], float]:
     """The best readings, one after another: rows of `points`, measures, the error of the target after each, and now.
 
-    A reading adds the square of its derivatives, in standard errors, to the information; each is the one after which the
-    variance of the target is least.
+    A reading adds the square of its derivatives, in standard errors, to the information; each is the one after which
+    the variance of the target is least.
     """
     rows, names, sensitivities = [], [], []
     for measure, noise in measures.items():
@@ -238,8 +239,8 @@ class Fit(Solution):
         measure : str
             A measure, also one that was not read.
         data_set : str, optional
-            The data set whose own parameters hold, and on whose branch motions are. Default: the parameters of the first
-            one, and motions from rest.
+            The data set whose own parameters hold, and on whose branch motions are. Default: the parameters of the
+            first one, and motions from rest.
 
         Returns
         -------
@@ -297,12 +298,11 @@ class Fit(Solution):
         for measure in measures if measures is not None else list(known):
             if measure not in known:
                 raise ValueError(
-                    f"the data have no readings of `{measure}`, so their error is not known\nchoose among {', '.join(known)}"
+                    f"the data have no readings of `{measure}`, so their error is not known\n"
+                    f"choose among {', '.join(known)}"
                 )
             noise = known[measure]
-            noises[measure] = (
-                noise if np.ndim(noise.size) == 0 else Noise(noise.kind, float(np.median(noise.size)))
-            )
+            noises[measure] = noise if np.ndim(noise.size) == 0 else Noise(noise.kind, float(np.median(noise.size)))
         rows, chosen, errors, now = _next_measurements(
             self._model, points, noises, self._x, self._information, slopes, int(count), self._guesses
         )
@@ -310,12 +310,14 @@ class Fit(Solution):
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
         )
 
-    def write_device(self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False) -> None:
+    def write_device(
+        self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False
+    ) -> None:
         """Write the design with the fitted parameters, their standard errors and correlations as a device.
 
-        Standard errors, correlations and sources of other parameters, which a device as the design may have, are kept, and so
-        is its description.
-        ``{"device": "mybee.toml"}`` begins a grid with it, and ``[sample] of = "device"`` draws builds from its errors.
+        Standard errors, correlations and sources of other parameters, which a device as the design may have, are kept,
+        and so is its description. ``{"device": "mybee.toml"}`` begins a grid with it, and ``[sample] of = "device"``
+        draws builds from its errors.
 
         Parameters
         ----------
@@ -349,7 +351,8 @@ class Fit(Solution):
             return slopes, target, space.coordinates[place].unit
         if not isinstance(target, Mapping) or "measure" not in target:
             raise ValueError(
-                '`target` must name a parameter, or be a prediction: {"measure": "lift_mean_mn", "drive_frequency": 110}'
+                "`target` must name a parameter, or be a prediction: "
+                '{"measure": "lift_mean_mn", "drive_frequency": 110}'
             )
         measure = str(target["measure"])
         points = self._points("target", {name: value for name, value in target.items() if name != "measure"})

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import queue
 import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Callable, Mapping, Sequence, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -14,7 +15,6 @@ from .._types import Array, Mask
 from ._data import DataSet
 from ._model import Answer, Model
 from ._parameters import Space
-
 
 _Result = TypeVar("_Result")
 
@@ -26,7 +26,9 @@ class _Ended(Exception):
     """The searches end, because the one that answers has."""
 
 
-def together(searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]) -> list[_Result]:
+def together(
+    searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]
+) -> list[_Result]:
     """The results of the searches, each of which asks for the model one set of coordinates at a time.
 
     Searches run in threads; `answer` is called in this one, with the questions of all searches that have not ended. So
@@ -99,7 +101,8 @@ class Target:
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
         """Model less reading in standard errors, then what is known beforehand.
 
-        A reading where the motion does not settle counts as a reading of a wing at rest: so large that the search avoids it.
+        A reading where the motion does not settle counts as a reading of a wing at rest: so large that the search
+        avoids it.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -231,8 +234,8 @@ def spread(jacobian: Array) -> Array:
     return covariance
 
 
-#: The smallest singular value, in units of the largest, of a direction that changes something. Derivatives are known to about
-#: 1e-4 of their size.
+#: The smallest singular value, in units of the largest, of a direction that changes something. Derivatives are known to
+#: about 1e-4 of their size.
 NOTHING = 3e-4
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -189,7 +190,9 @@ class Goodness:
 
 
 def order(points: Mapping[str, Array | list[str]]) -> Places:
-    """The order of a data set's rows in which neighbours are alike: along the parameter with most values, others outside."""
+    """The order of a data set's rows in which neighbours are alike: along the parameter with most values, others
+    outside.
+    """
     numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
     if not numbers:
         return np.arange(len(next(iter(points.values()), [])))

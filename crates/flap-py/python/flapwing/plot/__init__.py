@@ -1,8 +1,8 @@
 """Pictures of results with matplotlib, each by one function call.
 
 Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results, and
-returns the matplotlib Axes, the Figure if it has several Axes, or the animation. `flapwing.analysis` computes sensitivities,
-rank correlations and fronts. Settings of matplotlib do not change.
+returns the matplotlib Axes, the Figure if it has several Axes, or the animation. `flapwing.analysis` computes
+sensitivities, rank correlations and fronts. Settings of matplotlib do not change.
 
     >>> import numpy as np
     >>> from flapwing import plot

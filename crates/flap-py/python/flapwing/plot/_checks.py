@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import functools
 import inspect
+from collections.abc import Callable, Collection, Iterable, Mapping
 from numbers import Real
-from typing import Any, Callable, Collection, Iterable, Mapping, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -46,7 +47,8 @@ def _are_parameters(value: Any) -> bool:
 _NAME = _Kind(lambda value: isinstance(value, str), 'it must be a name, such as "lift_mean_mn"')
 _NAMES = _Kind(_are_names, 'it must be a list of names, such as ["lift_mean_mn"]')
 _ONE_OR_MORE = _Kind(
-    lambda value: isinstance(value, str) or _are_names(value), 'it must be a name, such as "lift_mean_mn", or a list of names'
+    lambda value: isinstance(value, str) or _are_names(value),
+    'it must be a name, such as "lift_mean_mn", or a list of names',
 )
 _NUMBER = _Kind(_is_number, "it must be a number")
 _WHOLE = _Kind(_is_whole, "it must be a whole number")
@@ -55,8 +57,12 @@ _WHOLE = _Kind(_is_whole, "it must be a whole number")
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "design": None,
-    **dict.fromkeys(["by", "color", "label", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME),
-    "lift": _Kind(lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'),
+    **dict.fromkeys(
+        ["by", "color", "label", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME
+    ),
+    "lift": _Kind(
+        lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'
+    ),
     **dict.fromkeys(["inputs", "measures", "portrait"], _NAMES),
     **dict.fromkeys(["maximize", "minimize", "signals"], _ONE_OR_MORE),
     **dict.fromkeys(["change", "frequency", "radius", "vmax", "vmin"], _NUMBER),
@@ -81,8 +87,8 @@ _KINDS: dict[str, _Kind | None] = {
 def checked(function: _F) -> _F:
     """The function, which first raises TypeError or ValueError for arguments that are not of the kind of their names.
 
-    Each argument must have a kind in `_KINDS`: a name without one is a KeyError when the module is imported. None is allowed
-    where it is the default.
+    Each argument must have a kind in `_KINDS`: a name without one is a KeyError when the module is imported. None is
+    allowed where it is the default.
     """
     signature = inspect.signature(function)
     named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]

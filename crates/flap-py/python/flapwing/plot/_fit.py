@@ -13,9 +13,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from .. import _labels
 from .._flapwing import printed, scale, words
 from ..fitting import Estimate, Fit
-from .. import _labels
 from . import _style
 
 #: The pictures that there are.
@@ -38,8 +38,8 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Returns
     -------
     matplotlib Figure
-        Bands are of the model's value, without the noise of a reading. A profile that does not reach the dashed line on one
-        side is open there: the data do not bound the parameter.
+        Bands are of the model's value, without the noise of a reading. A profile that does not reach the dashed line on
+        one side is open there: the data do not bound the parameter.
 
     Raises
     ------
@@ -127,8 +127,11 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
         for parameter, value in others.items()
         if len(set(np.asarray(result._model.points[parameter]).tolist())) > 1
     }
-    told = [f"{value:g} {printed(result._model.names.unit(parameter))}".rstrip() if not isinstance(value, str) else value
-            for parameter, value in varied.items()]  # fmt: skip
+    units = {parameter: printed(result._model.names.unit(parameter)) for parameter in varied}
+    told = [
+        value if isinstance(value, str) else f"{value:g} {units[parameter]}".rstrip()
+        for parameter, value in varied.items()
+    ]
     return ", ".join([*([name] if name else []), *told])
 
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .._mistakes import unknown
 from .. import _labels
+from .._data import Data, scattered
+from .._mistakes import unknown
 from . import _style
 from ._checks import checked
-from .._data import Data, scattered
 from ._response import Family, along
 
 #: Columns of the force (mN) and of the torque (µN·m).
@@ -45,16 +46,16 @@ def control_matrix(
 ) -> _style.Drawn:
     """Draw the changes of force and torque of a vehicle with its inputs, as a map.
 
-    An input is in each column, force and torque are in rows; the number is the change per unit of the input. Colours compare
-    the changes of one input with each other: which force or torque it makes. 1 µN·m counts as 1 mN, and ``≈0`` stands for
-    nothing, and for less than a thousandth of the input's largest change.
+    An input is in each column, force and torque are in rows; the number is the change per unit of the input. Colours
+    compare the changes of one input with each other: which force or torque it makes. 1 µN·m counts as 1 mN, and ``≈0``
+    stands for nothing, and for less than a thousandth of the input's largest change.
 
     Parameters
     ----------
     table : Table, array, data frame, mapping of columns, or path
-        One row of `evaluate` with ``gradient=``; or what ``flap vehicle --format csv`` prints; or an array of derivatives
-        with six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and a column for each of
-        `inputs`.
+        One row of `evaluate` with ``gradient=``; or what ``flap vehicle --format csv`` prints; or an array of
+        derivatives with six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and a column for
+        each of `inputs`.
     inputs : list of str, optional
         The inputs to show, in order. Of an array, the names of its columns.
     where, **slices
@@ -96,9 +97,7 @@ def control_matrix(
 
 
 @checked
-def force_panels(
-    table: Any, *, x: str | None = None, where: Mapping[str, Any] | None = None, **slices: Any
-) -> Figure:
+def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] | None = None, **slices: Any) -> Figure:
     """Draw force and torque of a vehicle over one parameter: six small panels, three forces above three torques.
 
     Parameters
@@ -124,7 +123,9 @@ def force_panels(
     data = Data.of(table).slice(where, slices)
     outputs = [name for name in (*FORCES, *TORQUES) if name in data]
     if len(outputs) != 6:
-        raise ValueError(f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle")
+        raise ValueError(
+            f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle"
+        )
     x = along(data, None) if x is None else x
     if not data.on_a_grid(x):
         raise scattered(x)
@@ -150,7 +151,9 @@ def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
         return None
     values = np.asarray(table, dtype=float)
     if values.ndim != 2 or values.shape[0] != 6:
-        raise ValueError(f"the array has the shape {values.shape}; force and torque need six rows, one column per input")
+        raise ValueError(
+            f"the array has the shape {values.shape}; force and torque need six rows, one column per input"
+        )
     names = [] if inputs is None else list(inputs)
     if len(names) != values.shape[1]:
         raise ValueError(f"`inputs` names {len(names)} columns of the array, which has {values.shape[1]}")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,9 +11,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Colormap, to_rgba
 from matplotlib.patches import Patch
 
+from .._data import Data, Shown, distinct, edges, scattered
 from . import _scales, _style
 from ._checks import checked
-from .._data import Data, Shown, distinct, edges, scattered
 
 # Statuses without measures, and the greys of their cells.
 _GREYS = {
@@ -47,8 +48,8 @@ def heatmap(
 
     Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic
     motion are grey, those without a row (excluded by ``[where]``, or not in the file) hatched; a legend explains both.
-    In a table of `respond`, each curve may have points of its own where it was refined: along a curve, a cell without a row has
-    the nearest row of that curve.
+    In a table of `respond`, each curve may have points of its own where it was refined: along a curve, a cell without a
+    row has the nearest row of that curve.
 
     Parameters
     ----------

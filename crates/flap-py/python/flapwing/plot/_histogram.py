@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from .._flapwing import bars
 from .. import _labels
+from .._data import Data
+from .._flapwing import bars
 from . import _style
 from ._checks import checked
-from .._data import Data
 
 # The share of the axes' height above the bars, where the percentiles are written.
 _ROOM = 0.28

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from .._data import Data, Shown, distinct, listed
 from .._flapwing import ways as _compared
 from . import _style
 from ._checks import checked
-from .._data import Data, Shown, distinct, listed
 
 
 @checked

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 
-from . import _style
-from ._checks import checked
 from .._data import Data
 from ..analysis import non_dominated
+from . import _style
+from ._checks import checked
 from ._scatter import points
 
 
@@ -31,17 +32,17 @@ def pareto(
 ) -> _style.Drawn:
     """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
-    Designs without a periodic motion, or with a NaN among the objectives, are left out. `flapwing.analysis.non_dominated`
-    computes the front. With two objectives a stepped line bounds the values that they reach; with more they have
-    rings.
+    Designs without a periodic motion, or with a NaN among the objectives, are left out.
+    `flapwing.analysis.non_dominated` computes the front. With two objectives a stepped line bounds the values that they
+    reach; with more they have rings.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, two or more in all. The first two are drawn: what is minimised first along x. By default the mean
-        lift is maximised and the mean power minimised.
+        The objectives, two or more in all. The first two are drawn: what is minimised first along x. By default the
+        mean lift is maximised and the mean power minimised.
     color : str, optional
         A column for the points' colours: numbers with a colour bar, words with a legend.
     cmap : str, optional

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,10 +12,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from .._data import Data, Shown, distinct, edges, scattered
 from .._mistakes import unknown
 from . import _scales, _style
 from ._checks import checked
-from .._data import Data, Shown, distinct, edges, scattered
 
 # Most lines of a sample that nobody asked for: more cannot be distinguished.
 _MOST_SAMPLED = 16
@@ -165,9 +166,7 @@ def response_panels(
     return figure
 
 
-def _family(
-    whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None
-) -> Family:
+def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None) -> Family:
     """The lines of a picture of these measures."""
     for name in measures:
         data.numbers(name)

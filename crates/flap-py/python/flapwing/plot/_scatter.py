@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 
+from .._data import Data, distinct
 from . import _scales, _style
 from ._checks import checked
-from .._data import Data, distinct
 
 
 @checked

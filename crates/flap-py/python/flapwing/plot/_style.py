@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -64,7 +65,8 @@ _SETTINGS: Any = {
 def style(ax: Axes | None = None) -> Iterator[None]:
     """The look of flap's pictures, for as long as one is made.
 
-    Settings that the user has changed stay as they are; one that equals matplotlib's default counts as not changed. Axes that are given keep the look of their figure.
+    Settings that the user has changed stay as they are; one that equals matplotlib's default counts as not changed.
+    Axes that are given keep the look of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     with mpl.rc_context(own):
@@ -82,7 +84,7 @@ def _is_default(name: str) -> bool:
 
 
 def ink(ax: Axes) -> Any:
-    """The colour of texts and thin lines in axes: that of their labels, or of flap where the user has not chosen one."""
+    """The colour of texts and thin lines in axes: the colour of their labels if the user chose one, else flap's."""
     for colour in (ax.xaxis.label.get_color(), mpl.rcParams["text.color"]):
         if not same_color(colour, "black"):
             return colour
@@ -130,7 +132,9 @@ def legend(
     outside: Mapping[str, Any] = _ABOVE,
     **options: Any,
 ) -> None:
-    """A legend, if `wanted`: outside of new axes, or inside of axes that are given. A place as `wanted` is inside all axes."""
+    """A legend, if `wanted`: outside of new axes, or inside of axes that are given. A place as `wanted` is inside all
+    axes.
+    """
     if wanted is False:
         return
     if wanted is True and not given:

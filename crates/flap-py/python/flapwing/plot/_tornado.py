@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import _labels
 from .._mistakes import refused
 from ..analysis import RankCorrelation, Sensitivity, rank_correlations, sensitivities
-from .. import _labels
 from . import _style
 from ._checks import checked
 
@@ -36,7 +37,8 @@ def tornado(
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset; or the result of `flapwing.analysis.sensitivities`, and then no points are run; or the results of a sample.
+        A preset; or the result of `flapwing.analysis.sensitivities`, and then no points are run; or the results of a
+        sample.
     measure, parameters, change, **fixed
         As for `flapwing.analysis.sensitivities`. Of a sample, as for `flapwing.analysis.rank_correlations`, without
         `change`.
@@ -99,9 +101,7 @@ def tornado(
         ax.set_ylim(len(shown) - 0.4, -0.6)
         unit = _labels.printed(shown[0].measure_unit)
         words = _labels.words(shown[0].measure, shown[0].measure_unit)
-        ax.set_xlabel(
-            f"Change of {_labels.lowered(words)} (% of {_labels.number(base)} {unit})".replace(" )", ")")
-        )
+        ax.set_xlabel(f"Change of {_labels.lowered(words)} (% of {_labels.number(base)} {unit})".replace(" )", ")"))
         for place, each in enumerate(shown):
             missing = [name for name, value in ((less, each.low), (more, each.high)) if math.isnan(value)]
             if missing:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence, overload
+from collections.abc import Sequence
+from typing import Any, overload
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import _labels
+from .._data import Data, Shown
 from . import _style
 from ._checks import checked
-from .._data import Data, Shown
 
 _ANGLES = ("stroke_deg", "pitch_deg")
 
@@ -63,13 +64,14 @@ def trajectory(
     time : str
         The column of the time.
     label : str, optional
-        The name of the motion in the legend, to compare motions in the same axes. By default later motions are numbered.
+        The name of the motion in the legend, to compare motions in the same axes. By default later motions are
+        numbered.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above new axes, and
         inside axes that are given.
     ax : matplotlib Axes, optional
-        Axes to draw signals of one unit in, without a portrait. They may have motions already: colours go on, and the legend
-        has all lines.
+        Axes to draw signals of one unit in, without a portrait. They may have motions already: colours go on, and the
+        legend has all lines.
 
     Returns
     -------
@@ -153,7 +155,9 @@ def _earlier(ax: Axes, unit: str) -> list[str]:
         return []
     words, bracket, other = told.removesuffix(")").rpartition(" (")
     if bracket and other != unit:
-        raise ValueError(f"`ax` has the vertical axis {told!r}, and the signals are in {unit or 'no unit'}\ndraw them in other axes")
+        raise ValueError(
+            f"`ax` has the vertical axis {told!r}, and the signals are in {unit or 'no unit'}\ndraw them in other axes"
+        )
     return [words if bracket else told]
 
 
@@ -199,7 +203,7 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _common(words: list[str], unit: str) -> str:
-    """A label for several signals: "Angle", as `flap plot` has it, the last word that they share, or the words of all."""
+    """A label for several signals: "Angle", as in `flap plot`, the last word that they share, or all words."""
     if unit == "°":
         return "Angle"
     if len(words) <= 2:

@@ -13,9 +13,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from .. import _labels
+from .._data import Data
 from . import _style
 from ._checks import checked
-from .._data import Data
 
 # Chords of the past that are shown, and how far apart they are, in cycles.
 _PAST, _APART = 9, 1.0 / 36.0
@@ -42,8 +42,8 @@ class WingPath(FuncAnimation):
         Parameters
         ----------
         filename : path
-            Ending in ``.gif``; in ``.html``, a page with buttons; or in anything else that matplotlib's writer (ffmpeg by
-            default) writes.
+            Ending in ``.gif``; in ``.html``, a page with buttons; or in anything else that matplotlib's writer (ffmpeg
+            by default) writes.
         writer, **options
             As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
         """
@@ -85,8 +85,8 @@ def wing_path(
     frequency : float, optional
         Cycles per second (Hz); by default the rate at which the motion repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke's axis, in chords. By default 3. Strokes of less than 11 degrees, peak
-        to peak, have a larger one, such that the leading edge moves by 2.5 chords.
+        Distance of the drawn chord from the stroke's axis, in chords. By default 3. Strokes of less than 11 degrees,
+        peak to peak, have a larger one, such that the leading edge moves by 2.5 chords.
     lift : str or None
         The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
@@ -264,7 +264,9 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def _pitch_sign(data: Data, cycle: _Cycle) -> int:
-    """1 if the trailing edge lags at a positive pitch, -1 if it leads: as the model has it, else such that it lags on average."""
+    """1 if the trailing edge lags at a positive pitch, -1 if it leads: as the model has it, else such that it lags on
+    average.
+    """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
         return int(sign)
