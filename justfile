@@ -24,7 +24,7 @@ test-python:
 test-benches:
     cargo build --locked -p flap-cli
     FLAP="${CARGO_TARGET_DIR:-$PWD/target}/debug/flap" "${CARGO_TARGET_DIR:-target}/python/bin/python" -m pytest --quiet \
-        -c tests/python/pytest.ini --rootdir . benches/tests
+        -c tests/python/pytest.ini --rootdir . -p no:cacheprovider benches/tests
 
 # Lanes of aarch64 in an emulator, and sweeps of both architectures to the same bytes: see the script for what it needs.
 test-aarch64:

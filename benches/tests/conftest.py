@@ -1,14 +1,19 @@
 """Fixtures of the tests of benchmarks."""
 
 import os
+import subprocess
 
 import pytest
 
 
 @pytest.fixture(scope="session")
 def flap():
-    """The path of the command."""
+    """Runs the command."""
     command = os.environ.get("FLAP")
     if not command:
         pytest.fail("FLAP must name the command `flap`: `just test-benches` builds it and sets FLAP")
-    return command
+
+    def run(*arguments):
+        return subprocess.run([command, *map(os.fspath, arguments)], capture_output=True, text=True, check=True)
+
+    return run
