@@ -2,9 +2,10 @@
 
     python benches/pages/live.py [--flap target/release/flap] [--steps 200]
 
-Needs Debian's packages chromium and chromium-driver, and the Python package selenium. For one preset of each model, a slider
-is dragged with the mouse, 60 steps per second. The page measures from the slider's event to the frame after the picture has
-been drawn; steps that come while a request runs are shown by the next one, which counts from the first of them.
+Needs Debian's packages chromium and chromium-driver, and the Python package selenium. For one preset of each model, a
+slider is dragged with the mouse, 60 steps per second. The page measures from the slider's event to the frame after
+the picture has been drawn; steps that come while a request runs are shown by the next one, which counts from the
+first of them.
 """
 
 import argparse
@@ -36,7 +37,10 @@ def browser():
 
 
 def drag(driver, name, steps):
-    """Drags the slider of a parameter to and fro around its value, one pixel per step: seconds, and the values of x in a line at the end."""
+    """Drags the slider of a parameter to and fro around its value, one pixel per step.
+
+    Gives the seconds of each step, and the values of x in a line at the end.
+    """
     place = """
       const slider = document.querySelector(`[data-name="${arguments[0]}"] input[type=range]`);
       slider.closest("details").open = true;

@@ -2,9 +2,9 @@
 
     python benches/pages/pictures.py [--flap target/release/flap] [FOLDER]
 
-Writes live.png (a wide window, light), live-dark.png (a tablet's width, dark) and cli-page.png (the page of results) to FOLDER,
-docs/pictures if none is given. Needs Debian's packages chromium and chromium-driver, and the Python packages selenium and pillow.
-The pictures have few colours, so that each is smaller than 60 kB.
+Writes live.png (a wide window, light), live-dark.png (a tablet's width, dark) and cli-page.png (the page of results)
+to FOLDER, docs/pictures if none is given. Needs Debian's packages chromium and chromium-driver, and the Python
+packages selenium and pillow. The pictures have few colours, so that each is smaller than 60 kB.
 """
 
 import argparse
@@ -31,7 +31,8 @@ field.value = "1.6";
 field.dispatchEvent(new Event("change"));
 """
 DRAWN = """
-return document.querySelectorAll("#series .u-over").length > 0 && document.querySelectorAll("#gradient .slope").length > 0
+return document.querySelectorAll("#series .u-over").length > 0
+  && document.querySelectorAll("#gradient .slope").length > 0
   && flapTestHook.isSettled() && flapTestHook.charts[0].scene.lines.some(({ ghost }) => ghost);
 """
 # A moment of the cycle at which stroke, pitch and forces are seen.

@@ -2,9 +2,10 @@
 
     python benches/pages/results.py [--flap target/release/flap] [--steps 60]
 
-Needs Debian's packages chromium and chromium-driver, and the Python package selenium. A sweep of three axes gives 126,000 rows, of
-which `flap plot --html` makes a page. The page measures from its opening to the frame after its first picture, and in each frame
-from a slider's step to the redrawn picture. Each kind of picture is measured, and lines of all slices.
+Needs Debian's packages chromium and chromium-driver, and the Python package selenium. A sweep of three axes gives
+126,000 rows, of which `flap plot --html` makes a page. The page measures from its opening to the frame after its
+first picture, and in each frame from a slider's step to the redrawn picture. Each kind of picture is measured, and
+lines of all slices.
 """
 
 import argparse
@@ -54,7 +55,8 @@ def steps_of_a_slider(driver, steps):
     driver.execute_script("document.querySelector('#add').click()")
     for step in range(steps):
         driver.execute_script(
-            "const slider = document.querySelector('.filter input[type=range]'); slider.value = arguments[0]; slider.oninput()",
+            "const slider = document.querySelector('.filter input[type=range]');"
+            "slider.value = arguments[0]; slider.oninput()",
             5 * (step + 1),
         )
         time.sleep(0.02)
