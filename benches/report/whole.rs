@@ -3,14 +3,12 @@
 use std::fs::File;
 use std::io::{self, Seek};
 use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{self, RunOptions};
+use flap_sweep::run::{self, RowWriter, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
 
 use crate::Effort;
@@ -54,7 +52,11 @@ fn sweep(plan: &Plan, threads: usize) -> f64 {
     let options = RunOptions { threads, ..RunOptions::default() };
     let mut sink = CsvSink::new(Layout::of(plan).names(), tempfile::tempfile().expect("a temporary file"));
     let begin = Instant::now();
-    run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
+    let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).expect("a header");
+    for row in run::rows(plan, &options, 0) {
+        output.write(&row.expect("a sweep")).expect("room for a row");
+    }
+    output.finish(Ok(())).expect("room for rows");
     begin.elapsed().as_secs_f64()
 }
 

@@ -8,7 +8,6 @@ mod rows;
 
 use core::time::Duration;
 use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
 
 use criterion::measurement::WallTime;
 use criterion::{
@@ -16,8 +15,7 @@ use criterion::{
 };
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{self, RunOptions};
+use flap_sweep::run::{self, RowWriter, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
 
 use grid::grid;
@@ -41,7 +39,11 @@ fn presets(criterion: &mut Criterion) {
 fn sweep(plan: &Plan) -> usize {
     let options = RunOptions { threads: NonZeroUsize::MIN, ..RunOptions::default() };
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
-    run::run(plan, &options, &mut sink, &AtomicBool::new(false), &mut |_| ()).expect("a sweep");
+    let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).expect("a header");
+    for row in run::rows(plan, &options, 0) {
+        output.write(&row.expect("a sweep")).expect("room for a row");
+    }
+    output.finish(Ok(())).expect("room for rows");
     sink.target().len()
 }
 

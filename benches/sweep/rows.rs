@@ -7,7 +7,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Point, Row, never, run_list};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
+use flap_sweep::run::Sink;
 use flap_sweep::table::layout::Layout;
 
 /// Rows are written this often, so that there are more of them than it takes time to compute.

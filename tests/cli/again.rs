@@ -50,7 +50,7 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
     folder
         .ends(2, "sweep grid.toml --shard 1/2 --out grid.csv")
         .says("with other rows: the rows cover all points, not shard 1/2\n");
-    folder.rewrite_sidecar("grid.csv", |sidecar| sidecar.build = "0123456789abcdef".to_owned());
+    folder.rewrite_sidecar("grid.csv", |sidecar| sidecar.identity.build = "0123456789abcdef".to_owned());
     folder
         .ends(2, "sweep grid.toml")
         .says("with other rows: the rows were computed by build 0123456789abcdef of flap");

@@ -46,9 +46,10 @@ fn a_sweep_tells_what_it_left_out() {
     }
     let sidecar: toml::Table = folder.read("o.csv.meta.toml").parse().unwrap();
     assert_eq!(sidecar["points"].as_integer(), Some(5));
-    assert_eq!(sidecar["rows"].as_integer(), Some(4));
-    assert_eq!(sidecar["excluded"].as_integer(), Some(1));
-    assert_eq!(sidecar["unsatisfied"]["low"].as_integer(), Some(1));
+    assert_eq!(sidecar["summary"]["rows"].as_integer(), Some(4));
+    assert_eq!(sidecar["summary"]["excluded"].as_integer(), Some(1));
+    let low = &sidecar["summary"]["unsatisfied"][0];
+    assert_eq!((low["condition"].as_str(), low["points"].as_integer()), (Some("low"), Some(1)));
 }
 
 /// The size of a hinge follows nothing, unlike other parameters that are not set.

@@ -60,8 +60,8 @@ fn failed_points_are_run_again_with_other_settings() {
     assert!(again.iter().all(|(_, status)| status == "periodic"), "{again:?}");
 
     let sidecar: toml::Table = folder.read("again.csv.meta.toml").parse().unwrap();
-    assert_eq!(sidecar["solver"]["max_cycles"].as_integer(), Some(500));
-    assert_eq!(sidecar["solver"]["settle_tol"].as_float(), Some(1e-4));
+    assert_eq!(sidecar["identity"]["solver"]["max_cycles"].as_integer(), Some(500));
+    assert_eq!(sidecar["identity"]["solver"]["settle_tol"].as_float(), Some(1e-4));
     assert_eq!(sidecar["rerun"]["of"].as_str(), Some("rows.csv"));
     assert_eq!(sidecar["rerun"]["statuses"].as_array().unwrap().len(), 1);
 
@@ -78,7 +78,7 @@ fn what_cannot_be_run_again() {
     assert!(!folder.path("again.csv").exists());
 
     fs::copy(folder.path("rows.csv.meta.toml"), folder.path("edited.meta.toml")).unwrap();
-    folder.rewrite_sidecar("edited", |sidecar| sidecar.solver.max_cycles = 0);
+    folder.rewrite_sidecar("edited", |sidecar| sidecar.identity.solver.max_cycles = 0);
     folder
         .ends(2, "sweep edited.meta.toml --out again.csv")
         .says("its solver settings are outside the limits");

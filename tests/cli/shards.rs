@@ -82,7 +82,10 @@ fn a_shard_keeps_the_indices_of_the_grid() {
     assert_eq!(points, ["1", "4", "7"]);
     let sidecar: toml::Table = folder.read("grid.2of3.csv.meta.toml").parse().unwrap();
     assert_eq!(sidecar["shard"].as_str(), Some("2/3"));
-    assert_eq!((sidecar["points"].as_integer(), sidecar["rows"].as_integer()), (Some(10), Some(3)));
+    assert_eq!(
+        (sidecar["points"].as_integer(), sidecar["summary"]["rows"].as_integer()),
+        (Some(10), Some(3))
+    );
 }
 
 #[test]
@@ -174,10 +177,10 @@ fn shards_of_several_builds_are_merged_if_asked() {
         let file = fs::File::open(folder.path(name)).unwrap();
         let reader = Reader::new(file, Format::of(Path::new(name)).unwrap()).unwrap();
         let recorded = Recorded::of(reader.entries()).unwrap().text("flap.build").to_owned();
-        assert_eq!(recorded, sidecar.build);
+        assert_eq!(recorded, sidecar.identity.build);
         recorded
     };
-    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.build = "zfed".to_owned());
+    folder.rewrite_sidecar("grid.2of3.csv", |sidecar| sidecar.identity.build = "zfed".to_owned());
     let ended = folder.ends(2, merge);
     assert_eq!(
         ended.stderr,
@@ -201,7 +204,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
         .says(&format!("computed by build {build}, zfed of flap"));
 
     for shard in ["grid.1of3.csv", "grid.3of3.csv"] {
-        folder.rewrite_sidecar(shard, |sidecar| sidecar.build = "zfed".to_owned());
+        folder.rewrite_sidecar(shard, |sidecar| sidecar.identity.build = "zfed".to_owned());
     }
     let ended = folder.ends(0, &format!("{merge} --force"));
     ended.says(&format!("the rows are by build zfed of flap {flap}, as their sidecar says\n"));
@@ -212,7 +215,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
 #[test]
 fn results_of_another_build_are_not_gone_on_with() {
     let folder = folder(10);
-    folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.build = "fed0".to_owned());
+    folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.identity.build = "fed0".to_owned());
     folder
         .ends(2, "sweep --grid grid.toml --out whole.csv")
         .says("whole.csv exists already, with other rows: the rows were computed by build fed0");

@@ -59,7 +59,7 @@ fn an_interrupted_sweep_keeps_the_rows_of_the_first_points() {
         assert!(stderr.ends_with(&last), "{stderr}");
         let sidecar: toml::Table = folder.read("grid.csv.meta.toml").parse().unwrap();
         assert_eq!(sidecar["state"].as_str(), Some("interrupted"));
-        assert_eq!(sidecar["rows"].as_integer(), i64::try_from(rows).ok());
+        assert_eq!(sidecar["summary"]["rows"].as_integer(), i64::try_from(rows).ok());
 
         // Another sweep of the same points begins with the same bytes.
         let mut again = start(&folder, &["sweep", "--grid", "grid.toml", "--out", "-"]);

@@ -19,7 +19,7 @@ fn rows_go_to_a_file_named_after_the_grid() {
 
     let sidecar: toml::Table = folder.read("grid.csv.meta.toml").parse().unwrap();
     assert_eq!(sidecar["state"].as_str(), Some("complete"));
-    assert_eq!(sidecar["rows"].as_integer(), Some(30));
+    assert_eq!(sidecar["summary"]["rows"].as_integer(), Some(30));
     assert_eq!(sidecar["preset"].as_str(), Some("ozaki2018-large"));
     assert_eq!(sidecar["grid"]["text"].as_str(), Some(folder.read("grid.toml").as_str()));
     assert_eq!(sidecar["started"].as_str().map(str::len), Some("2026-01-02T03:04:05Z".len()));

@@ -2,16 +2,15 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::files::integrity::{self, Verdict};
-use flap_sweep::files::job::{self, Begin, Done, Job, JobError, Outcome};
+use flap_sweep::files::job::{self, Begin, Begun, Done, Job, JobError};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::{Along, Plan};
-use flap_sweep::run::{RunError, Summary};
+use flap_sweep::run::{Outcome, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::study::response::Responses;
 use flap_sweep::table::layout::Layout;
 
@@ -37,18 +36,36 @@ fn curves(model: &'static Fake, designs: u32) -> Plan {
     plan.following(Along { parameter: 0, values: vec![0.0, 1.0, 2.0], tolerance: 1.0, unstable: false })
 }
 
+/// Writes all curves to `sink`. Stops with the curve of index `stop_at`.
+fn write(
+    plan: &Plan,
+    options: &RunOptions,
+    before: Summary,
+    sink: &mut dyn Sink,
+    stop_at: u64,
+) -> Result<Summary, RunError> {
+    let mut output = RowWriter::begin(plan, before, sink)?;
+    let mut run = Responses::of(plan).unwrap().curves(options, output.done());
+    let mut pull = || {
+        while let Some(batch) = run.next_batch()? {
+            for curve in &batch {
+                if matches!(curve, Outcome::Ran(curve) if curve.design.index == stop_at) {
+                    run.stop();
+                }
+                output.write_curve(curve)?;
+            }
+            output.flush()?;
+        }
+        Ok(())
+    };
+    let ended = pull();
+    output.finish(ended)
+}
+
 /// The text of all rows with the summary.
 fn csv(plan: &Plan, threads: usize, window: usize) -> (String, Result<Summary, RunError>) {
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
-    let never = AtomicBool::new(false);
-    let summary = Responses::of(plan).unwrap().run(
-        &options(threads, window),
-        Summary::default(),
-        &mut sink,
-        &never,
-        &mut |_| {},
-        &mut |_| Ok(()),
-    );
+    let summary = write(plan, &options(threads, window), Summary::default(), &mut sink, u64::MAX);
     (String::from_utf8(sink.target().clone()).unwrap(), summary)
 }
 
@@ -85,23 +102,17 @@ fn a_model_that_breaks_its_contract_is_an_error() {
     }
 }
 
-/// Runs a job. The flag is raised before the rows of the curve with the index `stop_at` are written.
-fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Outcome, JobError> {
+/// Runs a job that stops with the curve of index `stop_at`. `None` if it is complete already.
+fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Option<Done>, JobError> {
     let options = SessionOptions { run: options(2, 100), checkpoint: Duration::from_millis(5) };
     let job = Job { plan, out: out.to_owned(), begin, options, origin: None };
-    let stop = AtomicBool::new(false);
-    job::run(
-        &job,
-        &mut |plan, options, before, sink| {
-            Responses::of(plan).unwrap().run(options, before, sink, &stop, &mut |_| {}, &mut |curve| {
-                if curve.design.index == stop_at {
-                    stop.store(true, Ordering::Relaxed);
-                }
-                Ok(())
-            })
-        },
-        &mut |_| {},
-    )
+    let mut writing = match job::begin(&job)? {
+        Begun::Writing(writing) => writing,
+        Begun::Complete { .. } => return Ok(None),
+    };
+    let before = writing.before.clone();
+    let ended = write(plan, &options.run, before, writing.sink(), stop_at);
+    writing.finish(ended).map(Some)
 }
 
 #[test]
@@ -116,22 +127,26 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             fs::create_dir(&folder).unwrap();
             folder.join(name)
         });
-        assert!(matches!(run(&plan, &whole, Begin::New, u64::MAX), Ok(Outcome::Ran(_))));
-        let Ok(Outcome::Ran(first)) = run(&plan, &out, Begin::New, 300) else { panic!("{name}") };
-        let Done { summary, .. } = *first;
-        assert!(summary.interrupted && summary.ran > 300 && summary.ran < 2000, "{name}: {}", summary.ran);
+        assert!(matches!(run(&plan, &whole, Begin::New, u64::MAX), Ok(Some(_))));
+        let Ok(Some(first)) = run(&plan, &out, Begin::New, 300) else { panic!("{name}") };
+        let Done { summary, .. } = first;
+        assert!(
+            summary.is_interrupted() && summary.ran > 300 && summary.ran < 2000,
+            "{name}: {}",
+            summary.ran
+        );
         assert!(matches!(integrity::verify(&out), Ok(Verdict::Unfinished { done: Some(_) })), "{name}");
         assert!(
             matches!(run(&plan, &out, Begin::New, 0), Err(JobError::Unfinished { .. })),
             "{name}: protected"
         );
 
-        let Ok(Outcome::Ran(second)) = run(&plan, &out, Begin::Resume, u64::MAX) else { panic!("{name}") };
+        let Ok(Some(second)) = run(&plan, &out, Begin::Resume, u64::MAX) else { panic!("{name}") };
         assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);
         assert_eq!((second.summary.ran, second.summary.rows), (2000, 12_000), "{name}");
         assert!(fs::read(&whole).unwrap() == fs::read(&out).unwrap(), "{name}: other bytes");
         assert_eq!(integrity::verify(&out).unwrap(), Verdict::Sound { rows: 12_000 }, "{name}");
-        assert!(matches!(run(&plan, &out, Begin::Resume, 0), Ok(Outcome::Complete { .. })), "{name}");
+        assert!(matches!(run(&plan, &out, Begin::Resume, 0), Ok(None)), "{name}");
     }
 }
 
@@ -143,7 +158,7 @@ fn every_format_holds_the_same_rows() {
         .iter()
         .map(|name| {
             let out = folder.path().join(name);
-            assert!(matches!(run(&plan, &out, Begin::New, u64::MAX), Ok(Outcome::Ran(_))));
+            assert!(matches!(run(&plan, &out, Begin::New, u64::MAX), Ok(Some(_))));
             let mut reader = Reader::new(fs::File::open(&out).unwrap(), Format::of(&out).unwrap()).unwrap();
             let mut lines = vec![reader.names().join(",")];
             let mut row = csv::StringRecord::new();
@@ -163,7 +178,7 @@ fn a_response_along_other_values_is_another() {
     let plan = curves(model, 2000);
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("rows.csv");
-    assert!(matches!(run(&plan, &out, Begin::New, 10), Ok(Outcome::Ran(_))));
+    assert!(matches!(run(&plan, &out, Begin::New, 10), Ok(Some(_))));
     let along = plan.followed().unwrap().clone();
     let plan = plan.following(Along { tolerance: 0.2, ..along });
     let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Resume, 0) else { panic!("resumed") };

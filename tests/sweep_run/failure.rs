@@ -4,10 +4,10 @@ use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::Ordering;
 
-use flap_sweep::run::{RunError, Summary, run};
+use flap_sweep::run::{RunError, Summary};
 
 use crate::fake::{Fake, Fault};
-use crate::support::{Watch, flag, must_end, options, plan};
+use crate::support::{Watch, flag, must_end, options, plan, run};
 
 /// Threads and window of every test: roomy, narrow, and one at a time.
 const SHAPES: [(usize, usize); 4] = [(1, 1000), (2, 1000), (4, 10), (3, 1)];

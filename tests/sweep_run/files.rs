@@ -6,7 +6,7 @@ use flap_core::num::Backend;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::disk::empty;
 use flap_sweep::files::output::{CreateError, create};
-use flap_sweep::files::sidecar::{End, Sidecar, Start};
+use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::run::Summary;
 
 use crate::fake::{Fake, Fault};
@@ -67,7 +67,7 @@ fn the_sidecar_tells_where_rows_come_from() {
         "preset = \"fake2020\"\n[params]\narms = \"axis\"\n[axes]\nsize = { from = 0, to = 9, step = 1 }\n";
     let plan = plan_of(Fake::leak(Fault::None, 4), grid);
     let started = "2026-01-02T03:04:05Z".to_owned();
-    let mut sidecar = Sidecar::new(&plan, Start { started, options: options(2, 10), rerun: None });
+    let mut sidecar = Sidecar::new(&plan, started, &options(2, 10), None);
     let directory = tempfile::tempdir().unwrap();
     let path = sidecar_of(&directory.path().join("rows.csv"));
     assert!(path.ends_with("rows.csv.meta.toml"));
@@ -81,34 +81,36 @@ fn the_sidecar_tells_where_rows_come_from() {
     assert_eq!(running["points"].as_integer(), Some(10));
     assert_eq!(running["threads"].as_integer(), Some(2));
     let best = Backend::best();
-    assert_eq!(running["arithmetic"].as_str(), Some(best.arithmetic().name()));
+    assert_eq!(running["identity"]["arithmetic"].as_str(), Some(best.arithmetic().name()));
     assert_eq!(running["instructions"].as_str(), Some(best.name()));
     assert_eq!(running["parameters"]["arms"].as_str(), Some("axis"));
     assert_eq!(running["parameters"]["drive_frequency"].as_float(), Some(100.0));
     assert!(running["parameters"].get("span").is_none(), "a follower that is not set");
-    assert_eq!(running["solver"]["max_cycles"].as_integer(), Some(i64::from(plan.solver().max_cycles)));
+    assert_eq!(
+        running["identity"]["solver"]["max_cycles"].as_integer(),
+        Some(i64::from(plan.solver().max_cycles))
+    );
     assert_eq!(running["varied"][0]["name"].as_str(), Some("size"));
     assert_eq!(running["columns"][1]["unit"].as_str(), Some("mW"));
     assert_eq!(running["grid"]["text"].as_str(), Some(grid));
-    assert_eq!(running["grid"]["xxh3"].as_str().map(str::len), Some(16));
+    assert_eq!(running["identity"]["grid"].as_str().map(str::len), Some(16));
 
     let summary = csv(&plan, &options(2, 10)).1.unwrap();
-    sidecar.finish(&summary, End { finished: "2026-01-02T03:04:07Z".to_owned(), seconds: 2.0 });
+    sidecar.finish(&summary, "2026-01-02T03:04:07Z".to_owned(), 2.0);
     sidecar.write(&path).unwrap();
     let complete = read();
     assert_eq!(complete["state"].as_str(), Some("complete"));
-    assert_eq!(complete["rows"].as_integer(), Some(10));
-    assert_eq!(complete["statuses"]["periodic"].as_integer(), Some(5));
-    assert_eq!(complete["invalid"][0]["point"].as_integer(), Some(7));
+    assert_eq!(complete["summary"]["rows"].as_integer(), Some(10));
+    assert_eq!(complete["summary"]["statuses"]["periodic"].as_integer(), Some(5));
+    assert_eq!(complete["summary"]["invalid"][0]["point"].as_integer(), Some(7));
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1, "no temporary file is left");
 }
 
 #[test]
 fn the_sidecar_of_a_stopped_sweep_says_so() {
     let plan = plan_of(Fake::leak(Fault::None, 4), "preset = \"fake2020\"\n");
-    let start = Start { started: String::new(), options: options(1, 10), rerun: None };
-    let mut sidecar = Sidecar::new(&plan, start);
-    let summary = Summary { interrupted: true, ..Summary::default() };
-    sidecar.finish(&summary, End { finished: String::new(), seconds: 0.0 });
+    let mut sidecar = Sidecar::new(&plan, String::new(), &options(1, 10), None);
+    let summary = Summary { points: 1, ..Summary::default() };
+    sidecar.finish(&summary, String::new(), 0.0);
     assert!(sidecar.text().unwrap().contains("state = \"interrupted\""));
 }

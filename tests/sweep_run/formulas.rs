@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use flap_core::simulate::Status;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::{Progress, run};
+use flap_sweep::run::{InvalidPoint, Progress, Unsatisfied};
 
 use crate::fake::{Fake, Fault};
-use crate::support::{Watch, csv, flag, must_end, options, plan_with};
+use crate::support::{Watch, csv, flag, must_end, options, plan_with, run};
 
 /// Excluded points, derived parameters and measures of one's own, of twelve sizes.
 pub(crate) const FORMULAS: &str = r#"
@@ -39,12 +39,14 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
     );
     let summary = summary.unwrap();
     assert_eq!((summary.points, summary.rows, summary.excluded, summary.done()), (12, 8, 4, 12));
-    assert!(!summary.interrupted);
-    assert_eq!(summary.counts.of(Status::Invalid), 2);
-    assert_eq!(summary.unsatisfied, [("not_two".to_owned(), 1), ("not_tiny_or_huge".to_owned(), 3)]);
+    assert!(!summary.is_interrupted());
+    assert_eq!(summary.statuses.of(Status::Invalid), 2);
+    let unsatisfied = [("not_two", 1), ("not_tiny_or_huge", 3)]
+        .map(|(condition, points)| Unsatisfied { condition: condition.to_owned(), points });
+    assert_eq!(summary.unsatisfied, unsatisfied);
     let reason = "`span` is computed as 0.0 m, but must be more than zero";
-    assert_eq!(summary.invalid[0], (1, reason.to_owned()));
-    assert_eq!(summary.invalid[1].0, 7);
+    assert_eq!(summary.invalid[0], InvalidPoint { point: 1, reason: reason.to_owned() });
+    assert_eq!(summary.invalid[1].point, 7);
 }
 
 /// Most points are excluded, in long stretches.
@@ -88,7 +90,7 @@ fn a_sparse_grid_can_be_stopped() {
         let stop = flag(false);
         let mut sink = Watch { stop_at: Some((500, stop)), ..Watch::new(model) };
         let summary = run(&sparse(model), &options(2, 64), &mut sink, stop, &mut |_| {}).unwrap();
-        assert!(summary.interrupted && summary.done() < 20_000);
+        assert!(summary.is_interrupted() && summary.done() < 20_000);
         assert_eq!(summary.rows, sink.indices.len() as u64);
         assert_eq!(summary.rows, model.begun.load(Ordering::SeqCst), "every point begun is written");
         let expected: Vec<u64> = (0..20_000).filter(|point| point % 100 == 0 || *point < 50).collect();
@@ -102,5 +104,5 @@ fn a_grid_without_a_point_that_satisfies_its_conditions_has_no_rows() {
     let (text, summary) = csv(&plan_with(Fake::leak(Fault::None, 8), 20_000, &grid), &options(2, 64));
     assert_eq!(text.lines().count(), 1);
     let summary = summary.unwrap();
-    assert_eq!((summary.rows, summary.excluded, summary.interrupted), (0, 20_000, false));
+    assert_eq!((summary.rows, summary.excluded, summary.is_interrupted()), (0, 20_000, false));
 }

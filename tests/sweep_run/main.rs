@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
+mod chunks;
 mod curves;
 mod failure;
 mod fake;
@@ -9,6 +10,5 @@ mod files;
 mod formulas;
 mod journal;
 mod layout;
-mod parcels;
 mod rows;
 mod support;

@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use flap_core::simulate::Status;
-use flap_sweep::run::{Progress, RunError, run};
+use flap_sweep::run::{Progress, RunError};
 
 use crate::fake::{Fake, Fault};
-use crate::support::{Watch, csv, flag, must_end, options, plan, plan_of};
+use crate::support::{Watch, csv, flag, must_end, options, plan, plan_of, run};
 
 #[test]
 fn a_csv_file_reads_like_this() {
@@ -92,7 +92,7 @@ fn a_stopped_sweep_leaves_the_rows_of_the_first_points() {
             let summary = run(&plan, &options(threads, window), &mut sink, stop, &mut |_| {}).unwrap();
             sink.assert_prefix();
             assert!(sink.finished);
-            assert!(summary.interrupted);
+            assert!(summary.is_interrupted());
             assert_eq!(summary.rows, sink.indices.len() as u64);
             assert_eq!(summary.rows, model.begun.load(Ordering::SeqCst), "every point begun is written");
             assert!(summary.rows > 100);
@@ -110,7 +110,7 @@ fn a_stopped_sweep_drops_a_point_that_does_not_end() {
             let plan = plan(model, 1_000_000_000_000);
             let summary = run(&plan, &options(threads, 1000), &mut sink, stop, &mut |_| {}).unwrap();
             sink.assert_prefix();
-            assert!(summary.interrupted);
+            assert!(summary.is_interrupted());
             assert!((100..=300).contains(&summary.rows), "{} rows", summary.rows);
         });
     }
@@ -131,7 +131,7 @@ fn a_sweep_stopped_beforehand_has_no_rows() {
     let model = Fake::leak(Fault::None, 8);
     let mut sink = Watch::new(model);
     let summary = run(&plan(model, 1000), &options(2, 10), &mut sink, flag(true), &mut |_| {}).unwrap();
-    assert_eq!((summary.rows, summary.points, summary.interrupted), (0, 1000, true));
+    assert_eq!((summary.rows, summary.points, summary.is_interrupted()), (0, 1000, true));
     assert!(sink.finished);
 }
 
@@ -141,7 +141,7 @@ fn stopping_after_the_last_point_interrupts_nothing() {
     let stop = flag(false);
     let mut sink = Watch { stop_at: Some((999, stop)), ..Watch::new(model) };
     let summary = run(&plan(model, 1000), &options(2, 10), &mut sink, stop, &mut |_| {}).unwrap();
-    assert!(!summary.interrupted);
+    assert!(!summary.is_interrupted());
     assert_eq!(summary.rows, 1000);
 }
 
@@ -149,14 +149,14 @@ fn stopping_after_the_last_point_interrupts_nothing() {
 fn the_summary_counts_what_was_written() {
     let (_, summary) = csv(&plan(Fake::leak(Fault::None, 8), 1000), &options(3, 100));
     let summary = summary.unwrap();
-    let counts: Vec<u64> = summary.counts.iter().map(|(_, count)| count).collect();
+    let counts: Vec<u64> = summary.statuses.iter().map(|(_, count)| count).collect();
     assert_eq!(counts, [500, 0, 100, 100, 100, 100, 100]);
-    assert_eq!(summary.counts.of(Status::Invalid), 100);
-    assert_eq!((summary.points, summary.rows, summary.interrupted), (1000, 1000, false));
+    assert_eq!(summary.statuses.of(Status::Invalid), 100);
+    assert_eq!((summary.points, summary.rows, summary.is_interrupted()), (1000, 1000, false));
     assert_eq!((summary.cycles, summary.rhs_evals), (10_000, 1_000_000));
-    let points: Vec<u64> = summary.invalid.iter().map(|(point, _)| *point).collect();
+    let points: Vec<u64> = summary.invalid.iter().map(|invalid| invalid.point).collect();
     assert_eq!(points, [7, 17, 27, 37, 47]);
-    assert_eq!(summary.invalid[1].1, "a size of 17 m is impossible");
+    assert_eq!(summary.invalid[1].reason, "a size of 17 m is impossible");
 }
 
 #[test]

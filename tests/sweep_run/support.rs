@@ -9,8 +9,7 @@ use std::time::Duration;
 
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{RunError, RunOptions, Summary, run};
+use flap_sweep::run::{self, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::{Cell, Layout};
 
 use crate::fake::Fake;
@@ -49,6 +48,45 @@ pub(crate) fn must_end<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'sta
             std::panic::resume_unwind(worker.join().expect_err("it ended without a result"))
         }
     }
+}
+
+/// Runs all points into `sink`, until `stop` is raised.
+pub(crate) fn run(
+    plan: &Plan,
+    options: &RunOptions,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Summary, RunError> {
+    resume(plan, options, Summary::default(), sink, stop, progress)
+}
+
+/// Goes on as [`run`] does behind the rows that `before` counts.
+pub(crate) fn resume(
+    plan: &Plan,
+    options: &RunOptions,
+    before: Summary,
+    sink: &mut dyn Sink,
+    stop: &AtomicBool,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Summary, RunError> {
+    let mut output = RowWriter::begin(plan, before, sink)?;
+    let mut run = run::rows(plan, options, output.done());
+    let mut pull = || {
+        loop {
+            if stop.load(Ordering::SeqCst) {
+                run.stop();
+            }
+            let Some(batch) = run.next_batch()? else { return Ok(()) };
+            for row in &batch {
+                output.write(row)?;
+            }
+            output.flush()?;
+            progress(run.progress());
+        }
+    };
+    let ended = pull();
+    output.finish(ended)
 }
 
 /// Runs to the end, and gives the CSV text with the summary.

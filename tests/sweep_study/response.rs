@@ -1,13 +1,12 @@
 //! Responses up and down: hysteresis where there is some, none where there is none.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::AtomicBool;
 
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Status};
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::{Along, Plan};
-use flap_sweep::run::{RunOptions, Summary};
+use flap_sweep::run::{Outcome, RowWriter, RunOptions, Summary};
 use flap_sweep::study::response::{BandKind, Curve, Responses, Step, Verdict};
 use flap_sweep::table::layout::Layout;
 
@@ -36,19 +35,19 @@ fn follow(plan: &Plan, threads: usize) -> Vec<Curve> {
     let options =
         RunOptions { threads: NonZeroUsize::new(threads).expect("at least one"), ..RunOptions::default() };
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
-    let mut keep = |curve: &Curve| {
-        curves.push(curve.clone());
-        Ok(())
-    };
-    let responses = Responses::of(plan).expect("a parameter is followed");
-    let never = AtomicBool::new(false);
-    let ran = responses.run(&options, Summary::default(), &mut sink, &never, &mut |_| {}, &mut keep);
-    let summary = ran.expect("threads");
+    let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).expect("memory");
+    for outcome in Responses::of(plan).expect("a parameter is followed").curves(&options, 0) {
+        let outcome = outcome.expect("threads");
+        output.write_curve(&outcome).expect("memory");
+        let Outcome::Ran(curve) = outcome else { panic!("there are no conditions") };
+        curves.push(curve);
+    }
+    let summary = output.finish(Ok(())).expect("memory");
     assert!((0..).zip(&curves).all(|(index, curve)| curve.design.index == index), "in order");
     let rows: usize = curves.iter().map(|curve| curve.rows(&Layout::of(plan)).count()).sum();
     let lines = sink.target().split(|&byte| byte == b'\n').count() - 1;
     assert_eq!((summary.rows, lines), (rows as u64, rows + 1));
-    assert_eq!((summary.ran, summary.interrupted), (plan.len(), false));
+    assert_eq!((summary.ran, summary.is_interrupted()), (plan.len(), false));
     curves
 }
 
@@ -318,18 +317,19 @@ fn a_curve_that_is_stopped_is_not_handed_on() {
     let values = (0..100_000).map(|i| 60.0 + 0.001 * f64::from(i)).collect();
     let along = Along { values, ..along(&plan, [60, 61], 1e-3) };
     let plan = plan.following(along);
-    let stop = AtomicBool::new(false);
     let responses = Responses::of(&plan).unwrap();
     let options = RunOptions { threads: NonZeroUsize::new(2).unwrap(), ..RunOptions::default() };
     let mut sink = CsvSink::new(Layout::of(&plan).names(), Vec::new());
-    let mut tell = |curve: &Curve| panic!("{} steps", curve.up.len());
-    // The collector reports for the first time after a turn.
-    let mut progress = |_| stop.store(true, std::sync::atomic::Ordering::Relaxed);
     let begun = std::time::Instant::now();
-    let summary =
-        responses.run(&options, Summary::default(), &mut sink, &stop, &mut progress, &mut tell).unwrap();
+    let output = RowWriter::begin(&plan, Summary::default(), &mut sink).unwrap();
+    let mut run = responses.curves(&options, 0);
+    while let Some(batch) = run.next_batch().unwrap() {
+        assert!(batch.is_empty());
+        run.stop();
+    }
+    let summary = output.finish(Ok(())).unwrap();
     assert!(begun.elapsed().as_secs() < 5, "{:?}", begun.elapsed());
     assert_eq!((summary.done(), summary.points, summary.rows), (0, 2, 0));
-    assert!(summary.interrupted);
+    assert!(summary.is_interrupted());
     assert_eq!(sink.target().split(|&byte| byte == b'\n').count() - 1, 1, "the header alone");
 }

@@ -334,7 +334,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Failure {
         match error {
             RunError::Sink(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            RunError::Sink(_) | RunError::Threads(_) | RunError::Parcel(_) | RunError::Fetch(_) => {
+            RunError::Sink(_) | RunError::Threads(_) | RunError::Chunk(_) | RunError::Fetch(_) => {
                 Failure::System(error.to_string(), Vec::new())
             }
             RunError::Model(_) | RunError::Panic(_) => Failure::Bug(error.to_string()),

@@ -3,7 +3,7 @@
 use std::io;
 
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
+use flap_sweep::run::Sink;
 use flap_sweep::table::layout::{Cell, Layout};
 use serde::Serialize;
 use serde_json::Value;

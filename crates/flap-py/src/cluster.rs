@@ -10,7 +10,7 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels.
+/// Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as chunks.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, threads=None))]
 pub(crate) fn part<'py>(
@@ -27,11 +27,8 @@ pub(crate) fn part<'py>(
         return Err(PyValueError::new_err(message));
     }
     let mut watch = Watch::new(None);
-    let stop = std::sync::Arc::clone(&watch.stop);
-    let ran = py.detach(|| {
-        let mut look = |progress: run::Progress| watch.look(progress.finished, progress.points);
-        run::part(plan, &options, begin..end, &stop, &mut look)?.to_bytes()
-    });
+    let ran =
+        py.detach(|| run::chunk(plan, &options, begin..end, |run| watch.stops(run.progress()))?.to_bytes());
     watch.ended()?;
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }

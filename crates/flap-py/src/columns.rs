@@ -2,8 +2,7 @@
 
 use std::io;
 
-use flap_sweep::run::Summary;
-use flap_sweep::run::sink::Sink;
+use flap_sweep::run::{Sink, Summary, Unsatisfied};
 use flap_sweep::table::layout::{self, Cell, Column, Kind};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -118,15 +117,22 @@ impl Sink for Columns {
 
 /// The summary of a finished sweep, as a dictionary.
 pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyDict>> {
-    let counts = summary.counts.iter().filter(|(_, count)| *count > 0);
+    let counts = summary.statuses.iter().filter(|(_, count)| *count > 0);
     let counts = counts.map(|(status, count)| (status.name(), count));
     let dict = PyDict::new(py);
     dict.set_item("rows", summary.rows)?;
     dict.set_item("counts", counts.into_py_dict(py)?)?;
     dict.set_item("excluded", summary.excluded)?;
-    dict.set_item("unsatisfied", (&summary.unsatisfied).into_py_dict(py)?)?;
+    dict.set_item("unsatisfied", unsatisfied(py, &summary.unsatisfied)?)?;
     dict.set_item("cycles", summary.cycles)?;
     dict.set_item("rhs_evals", summary.rhs_evals)?;
-    dict.set_item("invalid", summary.invalid.clone())?;
+    let invalid: Vec<(u64, &str)> =
+        summary.invalid.iter().map(|invalid| (invalid.point, invalid.reason.as_str())).collect();
+    dict.set_item("invalid", invalid)?;
     Ok(dict)
+}
+
+/// The conditions of a plan, each with the number of points that do not satisfy it, as a dictionary.
+pub(crate) fn unsatisfied<'py>(py: Python<'py>, unsatisfied: &[Unsatisfied]) -> PyResult<Bound<'py, PyDict>> {
+    unsatisfied.iter().map(|known| (&known.condition, known.points)).into_py_dict(py)
 }

@@ -78,7 +78,7 @@ pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
 pub(crate) fn run(error: &RunError) -> PyErr {
     match error {
         RunError::Sink(_) => PyOSError::new_err(error.to_string()),
-        RunError::Threads(_) | RunError::Parcel(_) | RunError::Fetch(_) => {
+        RunError::Threads(_) | RunError::Chunk(_) | RunError::Fetch(_) => {
             PyRuntimeError::new_err(error.to_string())
         }
         RunError::Model(_) | RunError::Panic(_) => {

@@ -11,9 +11,9 @@ use flap_sweep::study::survey;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyException, PyIndexError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList, PySlice, PyString};
+use pyo3::types::{PyDict, PyList, PySlice, PyString};
 
-use crate::{convert, error, grid_text, parameters};
+use crate::{columns, convert, error, grid_text, parameters};
 
 /// The largest number of points of which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
@@ -148,7 +148,7 @@ impl Grid {
     ///     The numbers of points.
     fn exclusions(&self, py: Python<'_>) -> PyResult<Exclusions> {
         let found = py.detach(|| survey::exclusions(&self.plan, LOOKED_AT));
-        let unsatisfied = found.unsatisfied.into_py_dict(py)?.unbind();
+        let unsatisfied = columns::unsatisfied(py, &found.unsatisfied)?.unbind();
         Ok(Exclusions { looked_at: found.looked_at, excluded: found.excluded, unsatisfied })
     }
 }

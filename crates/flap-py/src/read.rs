@@ -10,6 +10,7 @@ use flap_sweep::files::results::{Reader, Recorded, RowCheck};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
+use flap_sweep::run::identity::Identity;
 use flap_sweep::table::layout::{Column, Kind, Layout};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -109,7 +110,8 @@ fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
 
 fn beside(sidecar: Sidecar) -> Option<Origin> {
     let plan = sidecar.plan(simulate::all()).ok()?;
-    Some(Origin { plan, flap: sidecar.flap, build: sidecar.build, arithmetic: sidecar.arithmetic })
+    let Identity { flap, build, arithmetic, .. } = sidecar.identity;
+    Some(Origin { plan, flap, build, arithmetic })
 }
 
 fn inside(reader: &Reader) -> Option<Origin> {

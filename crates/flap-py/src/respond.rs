@@ -1,11 +1,9 @@
 //! Responses up and down.
 
-use std::sync::Arc;
-
 use flap_core::parameter::Kind;
 use flap_sweep::plan::Along;
-use flap_sweep::run::{Progress, Summary};
-use flap_sweep::study::response::{AlongError, BandKind, Curve, Responses, Verdict};
+use flap_sweep::run::{Outcome, RowWriter, Summary};
+use flap_sweep::study::response::{AlongError, BandKind, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -113,14 +111,21 @@ pub(crate) fn respond<'py>(
     let mut columns = Columns::new(Layout::of(&plan).columns());
     let mut verdicts = Vec::new();
     let mut watch = Watch::new(progress);
-    let stop = Arc::clone(&watch.stop);
     let ran = py.detach(|| {
-        let mut look = |progress: Progress| watch.look(progress.finished, progress.points);
-        let mut tell = |curve: &Curve| {
-            verdicts.push(Judged::new(&Verdict::new(curve, along, parameter, stroke)));
-            Ok(())
-        };
-        responses.run(&options, Summary::default(), &mut columns, &stop, &mut look, &mut tell)
+        let mut output = RowWriter::begin(&plan, Summary::default(), &mut columns)?;
+        let mut run = responses.curves(&options, 0);
+        while let Some(batch) = run.next_batch()? {
+            for curve in &batch {
+                if let Outcome::Ran(curve) = curve {
+                    verdicts.push(Judged::new(&Verdict::new(curve, along, parameter, stroke)));
+                }
+                output.write_curve(curve)?;
+            }
+            if watch.stops(run.progress()) {
+                run.stop();
+            }
+        }
+        output.finish(Ok(()))
     });
     if ran.is_ok() {
         watch.done(plan.selected());

@@ -3,18 +3,15 @@
 use std::ffi::CString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use flap_core::simulate::{Setting, SettingKind, SolverSettings};
-use flap_sweep::files::job::{self, Begin, Job, Notice, Outcome};
+use flap_sweep::files::job::{self, Begin, Begun, Job};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::gradient::{Gradient, Per, column_name};
 use flap_sweep::run::identity::Identity;
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{self, Parcel, RunError, RunOptions, Summary};
+use flap_sweep::run::{self, Chunk, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
@@ -88,7 +85,13 @@ pub(crate) fn into_columns<'py>(
     let mut sink = Columns::new(Layout::of(plan).columns());
     let mut watch = Watch::new(progress);
     let ran = if parcels.is_none() && plan.selected() <= 1 && plan.resonance().is_none() {
-        interruptible(py, |interrupted| run::alone(plan, options, &mut sink, interrupted))?
+        interruptible(py, |interrupted| {
+            let mut output = RowWriter::begin(plan, Summary::default(), &mut sink)?;
+            for row in run::alone(plan, options, interrupted) {
+                output.write(&row?)?;
+            }
+            output.finish(Ok(()))
+        })?
     } else {
         py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels))
     };
@@ -116,14 +119,14 @@ fn into_file<'py>(
     let mut watch = Watch::new(progress);
     let mut unlocked = None;
     let ran = py.detach(|| {
-        let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
-            work(plan, options, before, sink, &mut watch, parcels)
+        let mut writing = match job::begin(job)? {
+            Begun::Writing(writing) => writing,
+            Begun::Complete { .. } => return Ok(None),
         };
-        job::run(job, &mut engine, &mut |notice| {
-            if let Notice::Unlocked(error) = notice {
-                unlocked = Some(error);
-            }
-        })
+        unlocked = writing.unlocked.take();
+        let before = writing.before.clone();
+        let ended = work(job.plan, &job.options.run, before, writing.sink(), &mut watch, parcels);
+        writing.finish(ended).map(Some)
     });
     if let Some(error) = unlocked {
         let out = job.out.display();
@@ -137,8 +140,8 @@ fn into_file<'py>(
     let outcome = ran.map_err(|error| error::job(&error))?;
     let dict = PyDict::new(py);
     let summary = match outcome {
-        Outcome::Ran(done) => columns::summary(py, &done.summary)?,
-        Outcome::Complete { .. } => PyDict::new(py),
+        Some(done) => columns::summary(py, &done.summary)?,
+        None => PyDict::new(py),
     };
     dict.set_item("summary", summary)?;
     dict.set_item("axes", grid::axes(py, job.plan)?)?;
@@ -155,31 +158,62 @@ fn work(
     watch: &mut Watch,
     parcels: Option<&Py<PyAny>>,
 ) -> Result<Summary, RunError> {
-    let Some(parcels) = parcels else {
-        let stop = Arc::clone(&watch.stop);
-        let mut progress = |progress: run::Progress| watch.look(progress.finished, progress.points);
-        return run::resume(plan, options, before, sink, &stop, &mut progress);
+    let mut output = RowWriter::begin(plan, before, sink)?;
+    let ended = match parcels {
+        None => run_here(plan, options, &mut output, watch),
+        Some(parcels) => fetch(plan, options, &mut output, watch, parcels),
     };
-    let points = plan.selected();
-    run::feed(plan, options, before, sink, &mut |done| {
-        watch.look(done, points);
-        if watch.stop.load(Ordering::Relaxed) {
-            return Ok(None);
+    output.finish(ended)
+}
+
+/// Runs the points on this machine, until the interpreter ends it.
+fn run_here(
+    plan: &Plan,
+    options: &RunOptions,
+    output: &mut RowWriter<'_>,
+    watch: &mut Watch,
+) -> Result<(), RunError> {
+    let mut run = run::rows(plan, options, output.done());
+    while let Some(batch) = run.next_batch()? {
+        for row in &batch {
+            output.write(row)?;
         }
+        output.flush()?;
+        if watch.stops(run.progress()) {
+            run.stop();
+        }
+    }
+    Ok(())
+}
+
+/// Takes the rows of other processes, until there are none or the interpreter ends it.
+fn fetch(
+    plan: &Plan,
+    options: &RunOptions,
+    output: &mut RowWriter<'_>,
+    watch: &mut Watch,
+    parcels: &Py<PyAny>,
+) -> Result<(), RunError> {
+    let points = plan.selected();
+    while output.done() < points && !watch.stops(Progress { finished: output.done(), points }) {
+        let done = output.done();
         let fetched: PyResult<Option<Vec<u8>>> = Python::attach(|py| {
             let bytes = parcels.call1(py, (done,))?;
             let bytes = bytes.bind(py);
             if bytes.is_none() { Ok(None) } else { Ok(Some(bytes.cast::<PyBytes>()?.as_bytes().to_vec())) }
         });
-        match fetched {
-            Ok(bytes) => bytes.map(|bytes| Parcel::from_bytes(&bytes)).transpose(),
-            Err(error) => {
-                let told = error.to_string();
-                watch.note(Err(error));
-                Err(RunError::Fetch(told))
-            }
+        let bytes = fetched.map_err(|error| {
+            let message = error.to_string();
+            watch.note(Err(error));
+            RunError::Fetch(message)
+        })?;
+        let Some(bytes) = bytes else { break };
+        for row in &Chunk::from_bytes(&bytes)?.outcomes(plan, options, done)? {
+            output.write(row)?;
         }
-    })
+        output.flush()?;
+    }
+    Ok(())
 }
 
 /// The derivatives of rows, as a dictionary: their measures and parameters, and the column of each pair.

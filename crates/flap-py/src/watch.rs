@@ -1,11 +1,10 @@
 //! Long work without the interpreter, which looks for Ctrl-C and reports progress now and then.
 
 use std::cell::RefCell;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use flap_core::simulate::Interrupt;
+use flap_sweep::run::Progress;
 use pyo3::prelude::*;
 
 /// The interval between looks at the interpreter: short for a user, long for the work.
@@ -15,15 +14,19 @@ const INTERVAL: Duration = Duration::from_millis(50);
 pub(crate) struct Watch {
     /// A callback, called with the number of points done and of points in all.
     progress: Option<Py<PyAny>>,
-    /// Set when the work is to end.
-    pub(crate) stop: Arc<AtomicBool>,
     last: Option<Instant>,
     error: Option<PyErr>,
 }
 
 impl Watch {
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Watch {
-        Watch { progress, stop: Arc::default(), last: None, error: None }
+        Watch { progress, last: None, error: None }
+    }
+
+    /// Looks as [`Watch::look`] does. True if the work is to end.
+    pub(crate) fn stops(&mut self, progress: Progress) -> bool {
+        self.look(progress.finished, progress.points);
+        self.error.is_some()
     }
 
     /// Looks for signals and reports progress, if [`INTERVAL`] has passed. An exception of a signal handler or of the
@@ -47,7 +50,6 @@ impl Watch {
     pub(crate) fn note(&mut self, seen: PyResult<()>) {
         if let Err(error) = seen {
             self.error.get_or_insert(error);
-            self.stop.store(true, Ordering::Relaxed);
         }
     }
 

@@ -5,8 +5,7 @@ use std::io;
 use flap_core::parameter::Parameter;
 use flap_sweep::notation::units;
 use flap_sweep::plan::{Along, ChangeError, Plan};
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{RunOptions, Summary};
+use flap_sweep::run::{RunOptions, Sink, Summary};
 use flap_sweep::study::response::AlongError;
 use flap_sweep::table::layout::Cell;
 
@@ -46,7 +45,7 @@ fn lines_alone(plan: &Plan, args: &RespondArgs) -> Result<Exit, Failure> {
     let default = RunOptions::default();
     let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
     let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Lines::Stdout)?;
-    if summary.interrupted {
+    if summary.is_interrupted() {
         let (done, designs) = (summary.done(), summary.points);
         console::say(&format!("interrupted: {done} of {designs} designs are done"));
         return Ok(Exit::Interrupted);

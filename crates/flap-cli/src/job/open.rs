@@ -87,7 +87,7 @@ pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), 
 pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(), Failure> {
     let past = journal::read(&journal_of(results)).ok().flatten();
     let past = past.filter(|_| sidecar.state != State::Complete);
-    match past.map(|past| past.header.identity.differences(&sidecar.identity())) {
+    match past.map(|past| past.header.identity.differences(&sidecar.identity)) {
         Some(differences) if !differences.is_empty() => {
             let damage = Damage { foreign_sidecar: differences, ..Damage::default() };
             Err(Failure::damaged(format!("{} is damaged: {damage}", results.display())))

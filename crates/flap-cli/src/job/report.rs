@@ -8,7 +8,7 @@ use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Selection;
-use flap_sweep::run::Doubts;
+use flap_sweep::run::{Doubts, InvalidPoint};
 use flap_sweep::table::layout::Layout;
 
 use super::exclusion;
@@ -17,10 +17,10 @@ use crate::console::{self, shell_word};
 /// Tells the user the summary of the rows and their file.
 pub(super) fn report(plan: &Plan, done: &Done) {
     let Done { summary, rows_before, seconds, place } = done;
-    for (point, reason) in &summary.invalid {
+    for InvalidPoint { point, reason } in &summary.invalid {
         console::say(&format!("point {point} is invalid: {reason}"));
     }
-    let counts = summary.counts.iter().filter(|(_, count)| *count > 0);
+    let counts = summary.statuses.iter().filter(|(_, count)| *count > 0);
     let counts: Vec<String> = counts.map(|(status, count)| format!("{count} {}", status.name())).collect();
     let counts = if counts.is_empty() { "no points".to_owned() } else { counts.join(", ") };
     let rate = (summary.rows - rows_before) as f64 / seconds.max(1e-9);
@@ -33,7 +33,7 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     report_unsettled(plan, done);
 
     let to = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
-    if summary.interrupted {
+    if summary.is_interrupted() {
         let (done, points) = (summary.done(), summary.points);
         console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {to}"));
     } else {
@@ -89,7 +89,7 @@ fn report_doubts(plan: &Plan, done: &Done) {
 /// Tells the user the number of points that did not settle, with the command that runs them longer. A rerun has run them longer
 /// already.
 fn report_unsettled(plan: &Plan, done: &Done) {
-    let unsettled = done.summary.counts.of(Status::Unsettled);
+    let unsettled = done.summary.statuses.of(Status::Unsettled);
     if unsettled == 0 {
         return;
     }
@@ -133,11 +133,11 @@ fn beside(results: &Path, word: &str) -> String {
 pub(super) fn report_curves(done: &Done) {
     let Done { summary, place, .. } = done;
     match place {
-        Some(place) if !summary.interrupted => {
+        Some(place) if !summary.is_interrupted() => {
             console::say(&format!("{} in {}", count(summary.ran, "curve"), place.display()));
         }
         // Rows on stdout need no message.
-        None if !summary.interrupted => {}
+        None if !summary.is_interrupted() => {}
         place => {
             let place = place.as_ref().map_or("stdout".to_owned(), |place| place.display().to_string());
             let (done, designs) = (summary.done(), summary.points);

@@ -1,18 +1,18 @@
 //! The rows of a plan into a file or to stdout: the work that `sweep`, `resume` and `rerun` share.
 
-use std::cell::RefCell;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
-use flap_core::simulate::Status;
-use flap_sweep::files::job::{self, Begin, Done, Job, Notice, Outcome};
+use flap_sweep::files::csv_sink::CsvSink;
+use flap_sweep::files::job::{self, Begin, Begun, Done, Job};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::files::sidecar::Origin;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::sink::Sink;
-use flap_sweep::run::{self, RunError, RunOptions, Summary};
+use flap_sweep::run::{self, Outcome, RowWriter, Run, RunError, RunOptions, Sink, Summary};
 use flap_sweep::study::response::{Curve, Responses};
+use flap_sweep::table::layout::Layout;
 
 use super::make::warn_unlocked;
 use super::report::{report, report_curves};
@@ -37,38 +37,40 @@ pub(crate) fn run(
         options.threads = threads;
     }
     if out.as_os_str() == "-" {
-        let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
-            self::work(plan, options, before, sink, Lines::Stderr)
-        };
-        let done = job::to_stream(plan, io::stdout(), &options, &mut engine)?;
+        let begun = Instant::now();
+        let mut sink = CsvSink::new(Layout::of(plan).names(), io::stdout());
+        let summary = self::work(plan, &options, Summary::default(), &mut sink, Lines::Stderr)?;
+        let done = Done { summary, rows_before: 0, seconds: begun.elapsed().as_secs_f64(), place: None };
         return Ok(ended(plan, &done, None, work));
     }
     let options = SessionOptions { run: options, checkpoint: work.checkpoint };
     let job = Job { plan, out, begin, options, origin };
-    let (place, points) = (job.out.display(), job.plan.selected());
-    let mut engine = |plan: &Plan, options: &RunOptions, before: Summary, sink: &mut dyn Sink| {
-        self::work(plan, options, before, sink, Lines::Stdout)
-    };
-    let outcome = job::run(&job, &mut engine, &mut |notice| match notice {
-        Notice::Continued { lost, done } => {
-            if lost > 0 {
-                let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
-                console::say(&format!("{lost} {again} {place}, and computed again"));
-            }
-            console::say(&format!("{done} of {points} points of {place} are done"));
-        }
-        Notice::Unlocked(error) => warn_unlocked(&job.out, &error),
-    });
-    match outcome.map_err(|error| Failure::of_job(error, &job.out))? {
-        Outcome::Ran(done) => Ok(ended(plan, &done, Some(&job.out), work)),
-        Outcome::Complete { all_periodic } => {
+    let place = job.out.display();
+    let failed = |error| Failure::of_job(error, &job.out);
+    let mut writing = match job::begin(&job).map_err(failed)? {
+        Begun::Writing(writing) => writing,
+        Begun::Complete { all_periodic } => {
             let command = if plan.followed().is_some() { "respond" } else { "sweep" };
             console::say(&format!(
                 "{place} is complete: nothing is left to run; `flap {command} --restart` runs its points again"
             ));
-            Ok(exit(all_periodic, work))
+            return Ok(exit(all_periodic, work));
         }
+    };
+    if let Some(error) = &writing.unlocked {
+        warn_unlocked(&job.out, error);
     }
+    let before = writing.before.clone();
+    if let Some(lost) = writing.lost {
+        if lost > 0 {
+            let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
+            console::say(&format!("{lost} {again} {place}, and computed again"));
+        }
+        console::say(&format!("{} of {} points of {place} are done", before.done(), plan.selected()));
+    }
+    let ran = self::work(plan, &job.options.run, before, writing.sink(), Lines::Stdout);
+    let done = writing.finish(ran).map_err(failed)?;
+    Ok(ended(plan, &done, Some(&job.out), work))
 }
 
 /// Reports a job that ran, and gives the exit code.
@@ -78,7 +80,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     } else {
         report(plan, done);
     }
-    if done.summary.interrupted {
+    if done.summary.is_interrupted() {
         if let Some(out) = resumable {
             console::say(&format!("`flap results resume {}` continues the run", out.display()));
             if let Some(kept) = still_kept(out) {
@@ -92,7 +94,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
 
 /// The exit code of a run to the end.
 pub(crate) fn complete(summary: &Summary, work: &WorkArgs) -> Exit {
-    exit(summary.counts.of(Status::Periodic) == summary.rows, work)
+    exit(summary.all_periodic(), work)
 }
 
 fn exit(all_periodic: bool, work: &WorkArgs) -> Exit {
@@ -108,7 +110,7 @@ pub(crate) enum Lines {
     Stderr,
 }
 
-/// Runs the plan with a progress bar, until a signal asks it to end. Where a parameter is followed, a line for each curve goes
+/// Runs the plan with a progress bar, until a signal ends it. Where a parameter is followed, a line for each curve goes
 /// to `lines`.
 pub(crate) fn work(
     plan: &Plan,
@@ -118,26 +120,76 @@ pub(crate) fn work(
     lines: Lines,
 ) -> Result<Summary, RunError> {
     let stop = signals::stop();
-    let responses = Responses::of(plan);
-    let bar = RefCell::new(Bar::new(if responses.is_some() { "curves" } else { "points" }));
-    let mut progress = |progress| bar.borrow_mut().show(progress, stop.load(Ordering::Relaxed));
-    let outcome = match responses {
-        None => run::resume(plan, options, before, sink, &stop, &mut progress),
+    let mut output = RowWriter::begin(plan, before, sink)?;
+    let (ended, bar) = match Responses::of(plan) {
+        None => {
+            let mut bar = Bar::new("points");
+            let run = run::rows(plan, options, output.done());
+            (write_rows(run, &mut output, &mut bar, &stop), bar)
+        }
         Some(responses) => {
-            let verdicts = Verdicts::of(plan);
-            let mut tell = |curve: &Curve| {
-                let line = verdicts.as_ref().map(|verdicts| verdicts.line(curve) + "\n").unwrap_or_default();
-                bar.borrow().aside(|| match lines {
-                    Lines::Stdout => console::results(&line),
-                    Lines::Stderr => {
-                        console::say(line.trim_end());
-                        Ok(())
-                    }
-                })
-            };
-            responses.run(options, before, sink, &stop, &mut progress, &mut tell)
+            let mut bar = Bar::new("curves");
+            let run = responses.curves(options, output.done());
+            (write_curves(run, &mut output, &mut bar, &stop, (plan, lines)), bar)
         }
     };
-    bar.borrow().clear();
-    outcome
+    let summary = output.finish(ended);
+    bar.clear();
+    summary
+}
+
+fn write_rows(
+    mut run: Run<Outcome>,
+    output: &mut RowWriter<'_>,
+    bar: &mut Bar,
+    stop: &AtomicBool,
+) -> Result<(), RunError> {
+    while let Some(rows) = next_batch(&mut run, bar, stop)? {
+        for row in &rows {
+            output.write(row)?;
+        }
+        output.flush()?;
+    }
+    Ok(())
+}
+
+fn write_curves(
+    mut run: Run<Outcome<Curve>>,
+    output: &mut RowWriter<'_>,
+    bar: &mut Bar,
+    stop: &AtomicBool,
+    (plan, lines): (&Plan, Lines),
+) -> Result<(), RunError> {
+    let verdicts = Verdicts::of(plan);
+    while let Some(curves) = next_batch(&mut run, bar, stop)? {
+        for curve in &curves {
+            if let (Outcome::Ran(curve), Some(verdicts)) = (curve, &verdicts) {
+                let line = verdicts.line(curve);
+                bar.aside(|| match lines {
+                    Lines::Stdout => console::results(&(line + "\n")),
+                    Lines::Stderr => {
+                        console::say(&line);
+                        Ok(())
+                    }
+                })?;
+            }
+            output.write_curve(curve)?;
+        }
+        output.flush()?;
+    }
+    Ok(())
+}
+
+/// The next outcomes of a run, which stops after a signal.
+fn next_batch<T: Send + 'static>(
+    run: &mut Run<T>,
+    bar: &mut Bar,
+    stop: &AtomicBool,
+) -> Result<Option<Vec<T>>, RunError> {
+    if stop.load(Ordering::Relaxed) {
+        run.stop();
+    }
+    let batch = run.next_batch()?;
+    bar.show(run.progress(), stop.load(Ordering::Relaxed));
+    Ok(batch)
 }

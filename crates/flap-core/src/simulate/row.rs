@@ -5,6 +5,7 @@ use core::fmt::Display;
 use crate::model::{Model, OverWings, SignalSet};
 
 /// Result of one point's run.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// The result in one word.
@@ -68,6 +69,7 @@ impl Row {
 }
 
 /// Result of a point's run in one word.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Status {
     /// Settled on an orbit with the period of the drive.

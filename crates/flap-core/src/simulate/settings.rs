@@ -3,6 +3,7 @@
 use crate::ode::Tolerances;
 
 /// Settings of the integrator, and the conditions under which a point counts as settled.
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
 pub struct SolverSettings {
@@ -29,6 +30,7 @@ pub struct SolverSettings {
     pub symmetry: bool,
     /// Rows have the mean load of the air at the wing's shoulder behind their measures, see
     /// [`Load::at_shoulder`](crate::model::Load::at_shoulder): N and N·m. For vehicles, not for grid files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub loads: bool,
 }
 

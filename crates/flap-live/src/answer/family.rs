@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use flap_sweep::run;
+use flap_sweep::run::{self, RowWriter, Summary};
 use serde::Serialize;
 
 use super::desk::{Desk, failed};
@@ -23,8 +23,14 @@ pub(crate) fn family(desk: &Desk<'_>, request: &FamilyRequest) -> Result<Family,
     let FamilyRequest { design, x, by } = request;
     let plan = desk.opened.plan_of(&desk.opened.grid(design, Some(x), by.as_ref())?)?;
     let mut rows = Rows::of(&plan);
-    let ran = run::run(&plan, &desk.options, &mut rows, desk.stop, &mut |_| ());
-    desk.go_on()?;
-    ran.map_err(|error| failed(&error))?;
+    let mut output =
+        RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
+    let mut run = run::rows(&plan, &desk.options, 0);
+    while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
+        desk.go_on()?;
+        for row in &batch {
+            output.write(row).map_err(|error| failed(&error))?;
+        }
+    }
     Ok(Family { rows, milliseconds: begun.elapsed().as_secs_f64() * 1e3 })
 }

@@ -2,7 +2,7 @@
 
 use flap_core::parameter::Parameter;
 use flap_sweep::plan::Along;
-use flap_sweep::run::Summary;
+use flap_sweep::run::{RowWriter, Summary};
 use flap_sweep::study::response::Responses;
 
 use super::desk::{Desk, failed};
@@ -28,9 +28,14 @@ pub(crate) fn hysteresis(desk: &Desk<'_>, request: &HysteresisRequest) -> Result
     let responses =
         Responses::of(&plan).ok_or_else(|| Refused::Fault("no parameter is followed".to_owned()))?;
     let mut rows = Rows::of(&plan);
-    let options = &desk.options;
-    let ran = responses.run(options, Summary::default(), &mut rows, desk.stop, &mut |_| (), &mut |_| Ok(()));
-    desk.go_on()?;
-    ran.map_err(|error| failed(&error))?;
+    let mut output =
+        RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
+    let mut run = responses.curves(&desk.options, 0);
+    while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
+        desk.go_on()?;
+        for curve in &batch {
+            output.write_curve(curve).map_err(|error| failed(&error))?;
+        }
+    }
     Ok(rows)
 }

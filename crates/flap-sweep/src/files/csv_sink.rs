@@ -3,7 +3,7 @@
 use std::io;
 
 use crate::files::disk::Durable;
-use crate::run::sink::Sink;
+use crate::run::Sink;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 

@@ -7,12 +7,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::files::results::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, Writer};
-use crate::files::sidecar::{End, Sidecar, State};
-use crate::files::tallies;
+use crate::files::sidecar::{Sidecar, State};
 use crate::plan::Plan;
 use crate::plan::selection::{Selection, Shard};
 use crate::run::Summary;
-use crate::run::identity::{self, Identity};
+use crate::run::identity::Identity;
 
 /// The results of one shard.
 #[derive(Debug)]
@@ -107,11 +106,11 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     }
     let mut builds: BTreeMap<(&str, &str), &Path> = BTreeMap::new();
     for Part { path, sidecar } in parts {
-        builds.entry((&sidecar.flap, &sidecar.build)).or_insert(path);
+        builds.entry((&sidecar.identity.flap, &sidecar.identity.build)).or_insert(path);
     }
     if builds.len() > 1 && on_builds == OnBuilds::Refuse {
         let by = |((flap, build), path): (&(&str, &str), &&Path)| {
-            format!("{} by {} of flap {flap}", path.display(), identity::build_text(build))
+            format!("{} by build {build} of flap {flap}", path.display())
         };
         return Err(MergeError::Builds(builds.iter().map(by).collect()));
     }
@@ -121,7 +120,7 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
 /// The identity that the rows of all shards have in common: without their shard and build.
 fn shared(sidecar: &Sidecar) -> Identity {
     let (flap, build) = (String::new(), String::new());
-    Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity() }
+    Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }
 }
 
 /// The sidecar of all `parts` together, without checksums; `None` if there are no parts. It is the sidecar of one sweep on one
@@ -133,15 +132,21 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
         names.into_iter().collect::<Vec<_>>().join(", ")
     };
     let mut whole = parts.first()?.sidecar.clone();
-    whole.flap = all(|sidecar| &sidecar.flap);
-    whole.build = all(|sidecar| &sidecar.build);
+    whole.identity = Identity {
+        flap: all(|sidecar| &sidecar.identity.flap),
+        build: all(|sidecar| &sidecar.identity.build),
+        selection: Selection::All.to_string(),
+        ..whole.identity
+    };
     whole.shard = None;
     whole.started = sidecars().map(|sidecar| sidecar.started.clone()).min()?;
     whole.threads = sidecars().map(|sidecar| sidecar.threads).sum();
     whole.checksums = None;
     let finished = sidecars().filter_map(|sidecar| sidecar.finished.clone()).max().unwrap_or_default();
     let seconds = sidecars().filter_map(|sidecar| sidecar.seconds).sum();
-    whole.finish(&summary(parts), End { finished, seconds });
+    let mut summary = Summary::default();
+    sidecars().filter_map(|sidecar| sidecar.summary.as_ref()).for_each(|part| summary.add_all(part));
+    whole.finish(&summary, finished, seconds);
     Some(whole)
 }
 
@@ -166,7 +171,7 @@ pub fn merge(
         next.extend(source.advance()?.map(|point| Reverse((point, sources.len()))));
         sources.push(source);
     }
-    let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &whole.identity()))?;
+    let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &whole.identity))?;
     while let Some(Reverse((_, number))) = next.pop() {
         let source = &mut sources[number];
         writer.row(source.rows.row())?;
@@ -184,7 +189,7 @@ struct Source<'a> {
 impl Source<'_> {
     fn new<'a>(part: &'a Part, reader: &'a mut Reader, plan: &Plan) -> Result<Source<'a>, MergeError> {
         let selection = part.shard().map_or(Selection::All, Selection::Shard);
-        let check = RowCheck::of(plan, selection, part.sidecar.rows);
+        let check = RowCheck::of(plan, selection, part.sidecar.rows());
         let rows = Checked::new(reader, check)
             .map_err(|source| MergeError::Read { path: part.path.clone(), source })?;
         Ok(Source { path: &part.path, rows })
@@ -193,34 +198,5 @@ impl Source<'_> {
     /// Reads the next row, and gives its point.
     fn advance(&mut self) -> Result<Option<u64>, MergeError> {
         self.rows.next().map_err(|source| MergeError::Read { path: self.path.to_owned(), source })
-    }
-}
-
-/// The summary of all shards together.
-fn summary(parts: &[Part]) -> Summary {
-    let sidecars = || parts.iter().map(|part| &part.sidecar);
-    let total = |number: fn(&Sidecar) -> Option<u64>| sidecars().filter_map(number).sum();
-    let mut unsatisfied: BTreeMap<String, u64> = BTreeMap::new();
-    for (name, count) in sidecars().flat_map(|sidecar| &sidecar.unsatisfied) {
-        *unsatisfied.entry(name.clone()).or_default() += count;
-    }
-    let invalid = sidecars().flat_map(|sidecar| &sidecar.invalid);
-    let mut invalid: Vec<(u64, String)> = invalid.map(From::from).collect();
-    invalid.sort_unstable();
-    invalid.truncate(Summary::MOST_REASONS);
-    Summary {
-        points: parts.first().map_or(0, |part| part.sidecar.points),
-        // A row for each.
-        ran: total(|sidecar| sidecar.rows),
-        begun: 0,
-        rows: total(|sidecar| sidecar.rows),
-        excluded: total(|sidecar| sidecar.excluded),
-        unsatisfied: unsatisfied.into_iter().collect(),
-        interrupted: false,
-        counts: tallies::total(sidecars().filter_map(|sidecar| sidecar.statuses.as_ref())),
-        rhs_evals: total(|sidecar| sidecar.rhs_evals),
-        cycles: total(|sidecar| sidecar.cycles),
-        doubts: sidecars().filter_map(|sidecar| sidecar.doubts).sum(),
-        invalid,
     }
 }

@@ -21,4 +21,3 @@ pub mod rerun;
 pub mod results;
 pub mod session;
 pub mod sidecar;
-mod tallies;

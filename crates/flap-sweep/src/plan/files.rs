@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use serde::{Deserialize, Serialize};
+
 /// The file that rows go to, and its columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
@@ -28,8 +30,8 @@ impl PointsFile {
     }
 }
 
-/// A grid file as read.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// A grid file or a device as read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Source {
     /// Name for messages, usually the path.
     pub name: String,

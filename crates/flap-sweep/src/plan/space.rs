@@ -22,6 +22,7 @@ use crate::resonance::AtResonance;
 ///
 /// [`crate::grid`] makes plans from grid files. The methods that change a plan keep it true: values are in their ranges,
 /// each parameter is set, varied or derived in one place, and the points that are run are points of the plan.
+#[derive(Clone)]
 pub struct Plan {
     pub(super) space: Space,
     pub(super) selection: Selection,
@@ -33,6 +34,7 @@ pub struct Plan {
 }
 
 /// The contents of a grid file that has passed every check.
+#[derive(Clone)]
 pub(crate) struct Space {
     /// The simulator of the points.
     pub(crate) robot: Robot,

@@ -13,6 +13,7 @@ use super::target::{Target, places};
 ///
 /// A row is the one that the model gives at [`RESONANCE_HZ`], but for `cycles` and `rhs_evals`, which count the whole
 /// search. Its measures are the model's, and behind them those of the resonance.
+#[derive(Clone)]
 pub struct AtResonance {
     target: Target,
     columns: Vec<Column>,

@@ -11,6 +11,7 @@ use crate::notation::text;
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
 
 /// The quantity of a model that a search makes largest, and the range of the search.
+#[derive(Clone)]
 pub(super) struct Target {
     pub(super) model: &'static dyn Simulator,
     pub(super) range: Range,

@@ -3,7 +3,7 @@
 use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
 use flap_core::vehicle::standing;
 
-use super::options::RunOptions;
+use super::RunOptions;
 use crate::plan::Plan;
 use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
 

@@ -6,10 +6,9 @@ use flap_core::simulate::SolverSettings;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::options::RunOptions;
-use super::solver::SolverFields;
+use super::RunOptions;
 use crate::notation::text;
-use crate::plan::{Along, Plan, PointsFile};
+use crate::plan::{Along, Plan, PointsFile, Source};
 
 /// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
 ///
@@ -27,15 +26,13 @@ pub fn build() -> &'static str {
 pub struct Identity {
     /// Version of flap.
     pub flap: String,
-    /// Build of flap, as [`build`] gives it; empty if it was not recorded.
-    #[serde(default)]
+    /// Build of flap, as [`build`] gives it.
     pub build: String,
     /// Class of arithmetic.
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
     /// Hash of the texts of the devices that the grid begins with, if it does.
-    #[serde(default)]
     pub devices: Option<String>,
     /// Hash of the file that lists the points of the sample, if one does.
     pub points_file: Option<String>,
@@ -43,10 +40,8 @@ pub struct Identity {
     pub selection: String,
     /// The parameter that is followed, in words with a hash of its values and of the parameters of all designs; `None` if the
     /// rows are those of points.
-    #[serde(default)]
     pub followed: Option<String>,
     /// Solver settings.
-    #[serde(with = "SolverFields")]
     pub solver: SolverSettings,
 }
 
@@ -58,7 +53,7 @@ impl Identity {
             build: build().to_owned(),
             arithmetic: options.instructions.arithmetic().name().to_owned(),
             grid: text::hash(&plan.source().text),
-            devices: devices(plan.devices().iter().map(|device| device.text.as_str())),
+            devices: devices(plan.devices()),
             points_file: plan.points_file().map(PointsFile::hash),
             selection: plan.selection().to_string(),
             followed: plan.followed().map(|along| followed(plan, along)),
@@ -100,16 +95,19 @@ impl Identity {
         compare("the rows were computed by flap", &self.flap, &other.flap);
         compare("the arithmetic is", &self.arithmetic, &other.arithmetic);
         if self.flap == other.flap && self.build != other.build {
-            let (own, others) = (build_text(&self.build), build_text(&other.build));
-            differences.push(format!("the rows were computed by {own} of flap {}, not {others}", self.flap));
+            let (own, others) = (&self.build, &other.build);
+            differences.push(format!(
+                "the rows were computed by build {own} of flap {}, not build {others}",
+                self.flap
+            ));
         }
         differences
     }
 }
 
-/// The hash of the texts of devices; `None` if there are none.
-pub(crate) fn devices<'d>(texts: impl Iterator<Item = &'d str>) -> Option<String> {
-    let hashes: Vec<String> = texts.map(text::hash).collect();
+/// The hashes of the texts of devices; `None` if there are none.
+pub(crate) fn devices(devices: &[Source]) -> Option<String> {
+    let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
 }
 
@@ -122,9 +120,4 @@ fn followed(plan: &Plan, along: &Along) -> String {
     bytes.push(u8::from(along.unstable));
     let name = plan.parameters()[along.parameter].name;
     format!("{name}, {} values ({:016x})", along.values.len(), xxh3_64(&bytes))
-}
-
-/// A build in words.
-pub fn build_text(build: &str) -> String {
-    if build.is_empty() { "an unknown build".to_owned() } else { format!("build {build}") }
 }

@@ -1,6 +1,6 @@
 //! The summary of a run.
 
-use std::iter::Sum;
+use std::collections::{BTreeMap, HashMap};
 
 use flap_core::simulate::{Column, Row, Status};
 use serde::{Deserialize, Serialize};
@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 use crate::plan::Plan;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 
-/// The number of rows with each status.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// The number of rows with each status. In files it is a table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
 
 impl Counts {
@@ -24,11 +25,15 @@ impl Counts {
     }
 }
 
-impl FromIterator<(Status, u64)> for Counts {
-    fn from_iter<I: IntoIterator<Item = (Status, u64)>>(iter: I) -> Counts {
-        let mut counts = Counts::default();
-        iter.into_iter().for_each(|(status, count)| counts.0[status as usize] += count);
-        counts
+impl From<HashMap<Status, u64>> for Counts {
+    fn from(counts: HashMap<Status, u64>) -> Counts {
+        Counts(Status::ALL.map(|status| counts.get(&status).copied().unwrap_or(0)))
+    }
+}
+
+impl From<Counts> for BTreeMap<&'static str, u64> {
+    fn from(counts: Counts) -> BTreeMap<&'static str, u64> {
+        counts.iter().map(|(status, count)| (status.name(), count)).collect()
     }
 }
 
@@ -43,18 +48,26 @@ pub struct Doubts {
     pub at_range_end: u64,
 }
 
-impl Sum for Doubts {
-    fn sum<I: Iterator<Item = Doubts>>(all: I) -> Doubts {
-        all.fold(Doubts::default(), |sum, one| Doubts {
-            inaccurate: sum.inaccurate + one.inaccurate,
-            powerless: sum.powerless + one.powerless,
-            at_range_end: sum.at_range_end + one.at_range_end,
-        })
-    }
+/// A condition of a plan, with the number of points that do not satisfy it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Unsatisfied {
+    /// Name of the condition.
+    pub condition: String,
+    /// Number of points.
+    pub points: u64,
 }
 
-/// The summary of a run, so far or finished. Counts are over the rows written.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// A point whose parameters are impossible together.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct InvalidPoint {
+    /// The point's index in the plan.
+    pub point: u64,
+    /// The reason, in words.
+    pub reason: String,
+}
+
+/// The summary of a run, so far or finished. Counts are over the rows written. Journals and sidecars record it in this form.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Summary {
     /// Points that are run in all; of a response, designs.
     pub points: u64,
@@ -66,90 +79,123 @@ pub struct Summary {
     pub rows: u64,
     /// Points among them that were excluded, and have no row.
     pub excluded: u64,
-    /// The conditions of the plan, each with the number of these points that do not satisfy it.
-    pub unsatisfied: Vec<(String, u64)>,
-    /// True if the run was stopped before the last point.
-    pub interrupted: bool,
-    /// Rows by status.
-    pub counts: Counts,
     /// Right-hand sides evaluated in all.
     pub rhs_evals: u64,
     /// Drive periods integrated in all.
     pub cycles: u64,
+    /// Rows by status.
+    pub statuses: Counts,
     /// Rows to be read with care.
     pub doubts: Doubts,
-    /// The first few invalid points, each with the reason.
-    pub invalid: Vec<(u64, String)>,
+    /// The conditions of the plan, in its order.
+    pub unsatisfied: Vec<Unsatisfied>,
+    /// The first few invalid points.
+    pub invalid: Vec<InvalidPoint>,
 }
 
 impl Summary {
-    /// Reasons kept in [`Summary::invalid`].
-    pub const MOST_REASONS: usize = 5;
+    /// The largest number of points in [`Summary::invalid`].
+    const MOST_INVALID: usize = 5;
 
     /// The summary `before` as the beginning of that of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
-        let counted = |name: &str| before.unsatisfied.iter().find(|(known, _)| known == name);
-        let unsatisfied = plan.conditions().iter().map(|condition| {
-            let count = counted(&condition.name).map_or(0, |(_, count)| *count);
-            (condition.name.clone(), count)
+        let counted = |name: &str| before.unsatisfied.iter().find(|known| known.condition == name);
+        let unsatisfied = plan.conditions().iter().map(|condition| Unsatisfied {
+            condition: condition.name.clone(),
+            points: counted(&condition.name).map_or(0, |known| known.points),
         });
-        Summary { unsatisfied: unsatisfied.collect(), interrupted: false, ..before }
+        Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), ..before }
     }
 
     /// Points that are done with: the first ones of those selected.
     pub fn done(&self) -> u64 {
-        self.ran + self.excluded
+        self.ran.saturating_add(self.excluded)
     }
 
-    /// Notes a point that does not satisfy the conditions with these numbers.
+    /// True if points are left to run.
+    pub fn is_interrupted(&self) -> bool {
+        self.done() < self.points
+    }
+
+    /// True if all rows are those of periodic motions.
+    pub fn all_periodic(&self) -> bool {
+        self.statuses.of(Status::Periodic) == self.rows
+    }
+
+    /// Counts a point that does not satisfy the conditions with these numbers.
     pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
         self.excluded += 1;
         for &condition in unsatisfied {
-            self.unsatisfied[condition].1 += 1;
+            self.unsatisfied[condition].points += 1;
         }
     }
 
     /// Adds the written row of the point with this index in the plan.
-    pub(super) fn add(&mut self, index: u64, row: &Row) {
+    pub(super) fn add(&mut self, index: u64, row: &Row, limits: &Limits) {
         if let (Status::Invalid, Some(reason)) = (row.status, &row.reason)
-            && self.invalid.len() < Summary::MOST_REASONS
+            && self.invalid.len() < Summary::MOST_INVALID
         {
-            self.invalid.push((index, reason.clone()));
+            // Files have a reason in one line.
+            let reason = reason.replace(['\n', '\r'], " ");
+            self.invalid.push(InvalidPoint { point: index, reason });
         }
         self.rows += 1;
-        self.counts.0[row.status as usize] += 1;
+        self.statuses.0[row.status as usize] += 1;
         self.rhs_evals += row.rhs_evals;
         self.cycles += u64::from(row.cycles);
+        let measure =
+            |position: Option<usize>| position.and_then(|position| row.measures.get(position).copied());
+        self.doubts.inaccurate += u64::from(row.error_estimate > limits.accuracy);
+        self.doubts.powerless += u64::from(measure(limits.power).is_some_and(|power| power < 0.0));
+        self.doubts.at_range_end += u64::from(measure(limits.margin) == Some(0.0));
+    }
+
+    /// Adds the summary of other points of the same plan.
+    pub fn add_all(&mut self, other: &Summary) {
+        self.points += other.points;
+        self.ran += other.ran;
+        self.rows += other.rows;
+        self.excluded += other.excluded;
+        self.rhs_evals += other.rhs_evals;
+        self.cycles += other.cycles;
+        for (own, count) in self.statuses.0.iter_mut().zip(other.statuses.0) {
+            *own += count;
+        }
+        self.doubts.inaccurate += other.doubts.inaccurate;
+        self.doubts.powerless += other.doubts.powerless;
+        self.doubts.at_range_end += other.doubts.at_range_end;
+        for Unsatisfied { condition, points } in &other.unsatisfied {
+            match self.unsatisfied.iter_mut().find(|known| known.condition == *condition) {
+                Some(known) => known.points += points,
+                None => {
+                    self.unsatisfied.push(Unsatisfied { condition: condition.clone(), points: *points });
+                }
+            }
+        }
+        self.invalid.extend(other.invalid.iter().cloned());
+        self.invalid.sort_unstable();
+        self.invalid.truncate(Summary::MOST_INVALID);
     }
 }
 
 /// The limits beyond which a row of a plan is to be read with care.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Doubtful {
+pub(super) struct Limits {
     accuracy: f64,
     /// Positions among the measures.
     power: Option<usize>,
     margin: Option<usize>,
 }
 
-impl Doubtful {
-    /// For the rows of `plan`.
-    pub(super) fn of(plan: &Plan) -> Doubtful {
+impl Limits {
+    /// The limits of the rows of `plan`.
+    pub(super) fn of(plan: &Plan) -> Limits {
         let columns: &[Column] = plan.rows().columns();
         let position = |name: &str| columns.iter().position(|column| column.name == name);
-        Doubtful {
+        Limits {
             accuracy: plan.solver().accuracy,
             power: position("power_mean_mw"),
             margin: position(RESONANCE_MARGIN_HZ),
         }
-    }
-
-    /// Counts a row.
-    pub(super) fn count(&self, row: &Row, doubts: &mut Doubts) {
-        let measure =
-            |position: Option<usize>| position.and_then(|position| row.measures.get(position).copied());
-        doubts.inaccurate += u64::from(row.error_estimate > self.accuracy);
-        doubts.powerless += u64::from(measure(self.power).is_some_and(|power| power < 0.0));
-        doubts.at_range_end += u64::from(measure(self.margin) == Some(0.0));
     }
 }

@@ -1,6 +1,7 @@
 //! A survey of a plan without running it: points that its conditions exclude, and points spread over it.
 
 use crate::plan::{Plan, Verdict};
+use crate::run::Unsatisfied;
 
 /// The points that the conditions of a plan exclude, counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -9,21 +10,23 @@ pub struct Exclusions {
     pub looked_at: u64,
     /// Points among them that are excluded.
     pub excluded: u64,
-    /// The conditions, each with the number of these points that do not satisfy it.
-    pub unsatisfied: Vec<(String, u64)>,
+    /// The conditions of the plan, with numbers of these points.
+    pub unsatisfied: Vec<Unsatisfied>,
 }
 
 /// Counts the points that the conditions of `plan` exclude, among all of its points or, if there are more than `most`, among
 /// so many that are spread over it.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
-    let names = plan.conditions().iter().map(|condition| (condition.name.clone(), 0));
-    let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied: names.collect() };
+    let conditions = plan.conditions().iter();
+    let unsatisfied =
+        conditions.map(|condition| Unsatisfied { condition: condition.name.clone(), points: 0 }).collect();
+    let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied };
     for number in 0..found.looked_at {
         let index = if plan.len() > most { spread(number, plan.len()) } else { number };
         if let Verdict::Excluded(unsatisfied) = plan.judge(&plan.point(index).values) {
             found.excluded += 1;
             for condition in unsatisfied {
-                found.unsatisfied[condition].1 += 1;
+                found.unsatisfied[condition].points += 1;
             }
         }
     }

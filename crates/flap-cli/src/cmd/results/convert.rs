@@ -7,7 +7,7 @@ use flap_sweep::files::integrity::Note;
 use flap_sweep::files::results::{
     Checksums, ConvertError, Converted, Format, Provenance, RowCheck, RowsError, convert,
 };
-use flap_sweep::files::sidecar::{Sidecar, State};
+use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::notation::text::count;
 
 use crate::args::ConvertArgs;
@@ -24,9 +24,8 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let (mut source, plan, mut sidecar) = job::open_recorded(&args.from, &args.read)?;
     inputs.add_plan(&plan).protect_from_results(&args.to)?;
     let is_damaged = source.notes.iter().any(|note| matches!(note, Note::Damaged { .. }));
-    let provenance = Provenance::of(&plan, &sidecar.identity());
-    let written = sidecar.rows.filter(|_| sidecar.state == State::Complete);
-    let check = RowCheck::new(&plan, written);
+    let provenance = Provenance::of(&plan, &sidecar.identity);
+    let check = RowCheck::new(&plan, sidecar.rows());
     if to_stdout {
         convert(&mut source.reader, (job::stdout()?, to), &provenance, check)
             .map_err(|error| failure(args, &error))?;
@@ -54,7 +53,9 @@ fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
         return;
     }
     sidecar.checksums = Some(written.checksums);
-    sidecar.rows = Some(written.rows);
+    if let Some(summary) = &mut sidecar.summary {
+        summary.rows = written.rows;
+    }
 }
 
 fn failure(args: &ConvertArgs, error: &ConvertError) -> Failure {

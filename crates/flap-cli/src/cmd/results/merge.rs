@@ -8,7 +8,7 @@ use flap_sweep::files::integrity::{Note, OnDamage};
 use flap_sweep::files::merge::{self, MergeError, OnBuilds, Part};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::notation::text::count;
-use flap_sweep::run::identity;
+use flap_sweep::run::identity::{self, Identity};
 
 use crate::args::MergeArgs;
 use crate::cmd::outputs::is_stdout;
@@ -31,9 +31,9 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         return Err(Failure::usage("name the shards to be merged"));
     };
     let plan = job::plan_of(&sidecar_of(&first.path), &first.sidecar)?.with_all_points();
-    if whole.build != identity::build() {
-        let build = identity::build_text(&whole.build);
-        console::say(&format!("the rows are by {build} of flap {}, as their sidecar says", whole.flap));
+    let Identity { flap, build, .. } = &whole.identity;
+    if build != identity::build() {
+        console::say(&format!("the rows are by build {build} of flap {flap}, as their sidecar says"));
     }
 
     Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
@@ -50,7 +50,7 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
 
-    let rows = whole.rows.unwrap_or_default();
+    let rows = whole.rows().unwrap_or_default();
     job::make(&args.out, args.overwrite.force, |target| {
         let checksums = merge::merge(&parts, &mut readers, &plan, &whole, (target, format))?;
         // Rows that were damaged before are not to be called sound.

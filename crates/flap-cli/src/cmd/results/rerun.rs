@@ -2,7 +2,7 @@
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, RerunError, Wanted};
-use flap_sweep::files::sidecar::{Origin, State};
+use flap_sweep::files::sidecar::Origin;
 
 use crate::args::RerunArgs;
 use crate::cmd::point::with_solver;
@@ -24,7 +24,7 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
             .help("name it there and sweep again, or choose points with --status"),
         _ => Failure::System(format!("cannot read {of}: {error}"), Vec::new()),
     };
-    let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
+    let rows = sidecar.rows();
     let accuracy = args.inaccurate.then_some(plan.solver().accuracy);
     let wanted = Wanted { statuses: args.status.clone(), accuracy };
     let list = rerun::points(&mut source.reader, &wanted, &plan, rows).map_err(unreadable)?;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::{Damage, OnDamage, OpenError};
 use crate::files::results::{Checksums, FileSum, Format, sum_up};
-use crate::files::sidecar::{Sidecar, State};
+use crate::files::sidecar::Sidecar;
 
 /// The damage of the complete results at `path`; `None` if there is none, or their sidecar has no checksums. Reads the file
 /// once, and a second time if its bytes have changed.
@@ -47,7 +47,7 @@ pub(super) fn locate(
     checksums: &Checksums,
 ) -> io::Result<Damage> {
     let (found, read) = sum_up(File::open(path)?, format);
-    let rows = sidecar.rows.filter(|_| sidecar.state == State::Complete);
+    let rows = sidecar.rows();
     let mut damage = Damage::of_text(&found, checksums, rows);
     if let Err(error) = read {
         if error.raw_os_error().is_some() {

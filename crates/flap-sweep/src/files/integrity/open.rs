@@ -9,7 +9,7 @@ use memchr::memrchr;
 use super::check::check;
 use super::{Damage, Note, OnDamage, OpenError, Unverified};
 use crate::files::beside::{journal_of, rows_of, sidecar_of};
-use crate::files::journal::{self, Past, last_intact};
+use crate::files::journal::{self, JournalContents, last_intact};
 use crate::files::results::{Format, Reader};
 use crate::files::sidecar::{ReadError, Sidecar, State};
 
@@ -60,9 +60,9 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     let mut sidecar = beside(path, on_damage, &mut notes)?;
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     let is_complete = sidecar.as_ref().is_some_and(|sidecar| sidecar.state == State::Complete);
-    let past = if is_complete { None } else { journal::read(&journal_of(path)).map_err(unreadable)? };
-    let mut reader = if let Some(past) = past {
-        unfinished(path, format, &past, &mut sidecar, (on_damage, &mut notes))?
+    let recorded = if is_complete { None } else { journal::read(&journal_of(path)).map_err(unreadable)? };
+    let mut reader = if let Some(recorded) = recorded {
+        unfinished(path, format, &recorded, &mut sidecar, (on_damage, &mut notes))?
     } else if let Some(sidecar) = &sidecar {
         notes.extend(match &sidecar.checksums {
             None => Some(Note::Unverified { path: path.to_owned(), why: Unverified::NoChecksums }),
@@ -129,21 +129,21 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
 fn unfinished(
     path: &Path,
     format: Format,
-    past: &Past,
+    recorded: &JournalContents,
     sidecar: &mut Option<Sidecar>,
     (on_damage, notes): (OnDamage, &mut Vec<Note>),
 ) -> Result<Reader, OpenError> {
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     let rows = rows_of(path, format);
     let file = File::open(&rows).map_err(unreadable)?;
-    let intact = last_intact(&file, past).map_err(unreadable)?;
-    let done = intact.as_ref().map(|intact| intact.checkpoint.summary().done());
+    let intact = last_intact(&file, recorded).map_err(unreadable)?;
+    let done = intact.as_ref().map(|intact| intact.checkpoint.summary.done());
     notes.push(Note::Unfinished { path: path.to_owned(), done });
-    let own = &past.header.identity;
+    let own = &recorded.header.identity;
     let damage = Damage {
         altered: intact.is_none(),
         lost: intact.as_ref().map_or(0, |intact| intact.lost),
-        foreign_sidecar: sidecar.as_ref().map_or(Vec::new(), |sidecar| own.differences(&sidecar.identity())),
+        foreign_sidecar: sidecar.as_ref().map_or(Vec::new(), |sidecar| own.differences(&sidecar.identity)),
         ..Damage::default()
     };
     let is_foreign = !damage.foreign_sidecar.is_empty();
@@ -160,7 +160,7 @@ fn unfinished(
     let text = if format.is_columnar() { WAITING } else { format };
     let file = File::open(&rows).map_err(unreadable)?;
     match intact {
-        Some(intact) if are_sound => Reader::of_text(file.take(intact.checkpoint.bytes), text),
+        Some(intact) if are_sound => Reader::of_text(file.take(intact.checkpoint.file.bytes), text),
         _ => whole_rows(file, text),
     }
     .map_err(unreadable)

@@ -57,7 +57,7 @@ pub fn verify(path: &Path) -> Result<Verdict, OpenError> {
     // The file's bytes are those that were written. This checks that they are read as the rows that were computed.
     let damage = locate(path, Format::of(path)?, &sidecar, checksums).map_err(unreadable)?;
     if damage.is_none() {
-        return Ok(Verdict::Sound { rows: sidecar.rows.unwrap_or_default() });
+        return Ok(Verdict::Sound { rows: sidecar.rows().unwrap_or_default() });
     }
     Ok(Verdict::Damaged(damage))
 }

@@ -1,17 +1,272 @@
 //! The rows of a plan into a result file with its sidecar, such that the run can be resumed.
 //!
-//! The caller chooses who computes the rows: [`run::resume`](crate::run::resume) on this machine, or
-//! [`run::feed`](crate::run::feed) with rows of others.
+//! [`begin`] opens the files. The caller pulls rows, from [`run::rows`](crate::run::rows) on this machine or from chunks of others,
+//! writes them to [`Writing::sink`], and ends with [`Writing::finish`].
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::files::beside::sidecar_of;
+use crate::files::csv_sink::CsvSink;
+use crate::files::inputs::Inputs;
+use crate::files::output::{self, CreateError, Output};
+use crate::files::results::Format;
+use crate::files::session::{Session, SessionOptions};
+use crate::files::sidecar::{Origin, Sidecar};
+use crate::files::{companions, disk, replacement};
+use crate::notation::time;
+use crate::plan::Plan;
+use crate::run::{RunError, Sink, Summary};
+use crate::table::layout::Layout;
 
 mod error;
-mod outcome;
 mod resume;
-mod run;
-mod stream;
 
 pub use error::JobError;
-pub use outcome::{Done, Notice, Outcome};
-pub use run::{Begin, Job, run};
-pub use stream::{Engine, to_stream};
 
 pub use crate::files::replacement::{to_resume, unfinished};
+
+/// A plan that is to be run, and the file for its rows.
+pub struct Job<'a> {
+    /// The points.
+    pub plan: &'a Plan,
+    /// The result file.
+    pub out: PathBuf,
+    /// The treatment of results that are there already.
+    pub begin: Begin,
+    /// Options of the session.
+    pub options: SessionOptions,
+    /// The earlier results that the points of a rerun are taken from.
+    pub origin: Option<Origin>,
+}
+
+/// The treatment of results that are there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begin {
+    /// They are an error, unless they are complete and hold the rows of the job: then nothing is left to run.
+    New,
+    /// They are replaced when the new ones are complete. Until then the new ones have [another name](replacement::unfinished).
+    Overwrite,
+    /// They are continued.
+    Resume,
+}
+
+impl Begin {
+    /// The treatment that the options `resume` and `overwrite` ask for, of which at most one is given.
+    pub fn of(resume: bool, overwrite: bool) -> Begin {
+        match (resume, overwrite) {
+            (true, _) => Begin::Resume,
+            (false, true) => Begin::Overwrite,
+            (false, false) => Begin::New,
+        }
+    }
+}
+
+/// A job that has begun.
+pub enum Begun<'a> {
+    /// Its rows are to be written.
+    Writing(Box<Writing<'a>>),
+    /// All of its rows are there already.
+    Complete {
+        /// True if all of them are periodic.
+        all_periodic: bool,
+    },
+}
+
+/// The result file of a job while rows are written.
+pub struct Writing<'a> {
+    job: &'a Job<'a>,
+    target: Target,
+    /// Summary of the rows of earlier runs. The next row is that of the point behind those done.
+    pub before: Summary,
+    /// Number of rows that earlier runs had written but that are no longer in the file, if the job continues one. They are computed
+    /// again.
+    pub lost: Option<u64>,
+    /// Reason why the results could not be locked: another run that writes to them would not be noticed.
+    pub unlocked: Option<io::Error>,
+    /// The earlier results of a replacement, locked until the end of the job.
+    held: Option<File>,
+    begun: Instant,
+}
+
+/// The file that takes the rows.
+enum Target {
+    /// A regular file, with its journal and its sidecar.
+    Session(Box<Session>, Box<Sidecar>),
+    /// A device or a pipe, which has nothing beside it, and nothing to resume.
+    Stream(CsvSink<File>),
+}
+
+/// A job that has ended.
+#[derive(Debug)]
+pub struct Done {
+    /// Summary of all rows, those of earlier runs too.
+    pub summary: Summary,
+    /// Number of rows of earlier runs.
+    pub rows_before: u64,
+    /// Running time of this process (s).
+    pub seconds: f64,
+    /// The file that holds the rows; `None` for a stream.
+    pub place: Option<PathBuf>,
+}
+
+/// Begins the job.
+///
+/// # Errors
+/// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
+/// - [`JobError::Format`] if the name of the results stands for no format
+/// - [`JobError::Exists`] if a file of that name holds other rows
+/// - [`JobError::Unfinished`] if the results are unfinished
+/// - [`JobError::Create`] if the results cannot be made
+/// - [`JobError::Resume`] if the run cannot be resumed
+/// - [`JobError::Open`] if the results are complete already, but damaged
+/// - [`JobError::Write`] if a file beside the results cannot be written
+pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
+    Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
+    match job.begin {
+        Begin::Resume => job.resume(),
+        Begin::Overwrite => job.start(),
+        Begin::New => match job.start() {
+            Err(JobError::Create(CreateError::Exists(_))) => job.existing(),
+            Err(JobError::Create(CreateError::Unfinished(_))) => Err(job.unfinished()),
+            begun => begun,
+        },
+    }
+}
+
+impl<'a> Job<'a> {
+    /// Begins the job at its first point.
+    fn start(&'a self) -> Result<Begun<'a>, JobError> {
+        let format = Format::of(&self.out)?;
+        let overwrite = self.begin == Begin::Overwrite;
+        let Output { file, unlocked } = output::create(&self.out, overwrite)?;
+        if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+            let sink = CsvSink::new(Layout::of(self.plan).names(), file);
+            return Ok(self.writing(Target::Stream(sink), Summary::default()).into());
+        }
+        let refused = |error| JobError::write(&self.out, error, false);
+        if overwrite {
+            replacement::discard(&self.out).map_err(refused)?;
+        }
+        let has_rows = !disk::is_empty(&self.out) || companions::has_journal(&self.out).map_err(refused)?;
+        if !overwrite || !has_rows {
+            let target = self.start_at((&self.out, format), file, false)?;
+            return Ok(Writing { unlocked, ..self.writing(target, Summary::default()) }.into());
+        }
+        let new = replacement::of(&self.out);
+        let created = output::create(&new, false).map_err(|error| match error {
+            CreateError::Exists(path) | CreateError::Unfinished(path) => {
+                CreateError::InTheWay { path, results: self.out.clone() }
+            }
+            error => error,
+        })?;
+        let target = self.start_at((&new, format), created.file, true)?;
+        let held = Some(file);
+        Ok(Writing { unlocked, held, ..self.writing(target, Summary::default()) }.into())
+    }
+
+    /// Begins with the empty `file`, which was created at `place`. If it `replaces` earlier results, it has their name in the end.
+    fn start_at(
+        &self,
+        (place, format): (&Path, Format),
+        file: File,
+        replaces: bool,
+    ) -> Result<Target, JobError> {
+        let started = time::now();
+        let sidecar = self.sidecar(started.clone());
+        let begun = output::check_beside(place, format).map_err(JobError::from).and_then(|()| {
+            write_sidecar(place, &sidecar, false)?;
+            Session::start(file, (place, format), self.plan, &self.options, (started, replaces))
+                .map_err(|error| JobError::write(place, error, false))
+        });
+        let session = begun.inspect_err(|_| {
+            // Nothing is in these files. The first error is the one to report.
+            let _ = companions::remove(place).and_then(|()| fs::remove_file(disk::target(place)));
+        })?;
+        Ok(Target::Session(Box::new(session), Box::new(sidecar)))
+    }
+
+    /// The sidecar of a sweep that `started` at this time.
+    fn sidecar(&self, started: String) -> Sidecar {
+        Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
+    }
+
+    /// The job behind the rows that `before` counts.
+    fn writing(&'a self, target: Target, before: Summary) -> Writing<'a> {
+        Writing { job: self, target, before, lost: None, unlocked: None, held: None, begun: Instant::now() }
+    }
+
+    /// Gives the complete results at `place` their name, and removes the files that they do not need.
+    fn complete(&self, place: &Path) -> Result<(), JobError> {
+        let completed = if place == self.out {
+            companions::remove_progress(place)
+        } else {
+            replacement::commit(&self.out)
+        };
+        completed.map_err(|error| JobError::write(&self.out, error, true))
+    }
+}
+
+impl<'a> From<Writing<'a>> for Begun<'a> {
+    fn from(writing: Writing<'a>) -> Begun<'a> {
+        Begun::Writing(Box::new(writing))
+    }
+}
+
+impl Writing<'_> {
+    /// The sink for the rows behind those of earlier runs.
+    pub fn sink(&mut self) -> &mut dyn Sink {
+        match &mut self.target {
+            Target::Session(session, _) => &mut **session,
+            Target::Stream(sink) => sink,
+        }
+    }
+
+    /// Completes the results and their sidecar, after a run that `ended` so.
+    ///
+    /// # Errors
+    /// - [`JobError::Run`] with the error of the run; the rows written are kept with their journal
+    /// - [`JobError::Write`] if a file beside the results cannot be written
+    pub fn finish(self, ended: Result<Summary, RunError>) -> Result<Done, JobError> {
+        let rows_before = self.before.rows;
+        let seconds = self.begun.elapsed().as_secs_f64();
+        let (mut session, mut sidecar) = match self.target {
+            Target::Session(session, sidecar) => (session, sidecar),
+            Target::Stream(_) => {
+                let summary = ended.map_err(|error| JobError::Run { error, resumable: false })?;
+                return Ok(Done { summary, rows_before, seconds, place: Some(self.job.out.clone()) });
+            }
+        };
+        let closed = ended.and_then(|summary| {
+            session.close(&summary)?;
+            Ok(summary)
+        });
+        let summary = match closed {
+            Ok(summary) => summary,
+            Err(error) => {
+                sidecar.fail(error.to_string(), time::now(), session.seconds());
+                // The first error is the one to report.
+                let _ = write_sidecar(session.path(), &sidecar, true);
+                return Err(JobError::Run { error, resumable: true });
+            }
+        };
+        let is_complete = !summary.is_interrupted();
+        sidecar.finish(&summary, time::now(), session.seconds());
+        sidecar.checksums = is_complete.then(|| session.checksums());
+        write_sidecar(session.path(), &sidecar, true)?;
+        if is_complete {
+            self.job.complete(session.path())?;
+        }
+        let place = if is_complete { self.job.out.clone() } else { session.rows_path() };
+        drop(self.held);
+        Ok(Done { summary, rows_before, seconds: self.begun.elapsed().as_secs_f64(), place: Some(place) })
+    }
+}
+
+/// Writes the sidecar of the results at `place`.
+fn write_sidecar(place: &Path, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
+    let path = sidecar_of(place);
+    sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
+}

@@ -1,11 +1,8 @@
-//! A job that continues earlier work.
+//! A job that finds earlier results: it continues them, or compares them with its own.
 
 use std::path::Path;
 
-use flap_core::simulate::Status;
-
-use super::run::write_sidecar;
-use super::{Engine, Job, JobError, Notice, Outcome};
+use super::{Begun, Job, JobError, Target, Writing, write_sidecar};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
 use crate::files::journal;
@@ -13,36 +10,31 @@ use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
 use crate::files::sidecar::{ReadError, Sidecar, State};
 use crate::files::{companions, disk, output, replacement};
+use crate::run::Summary;
 use crate::run::identity::Identity;
 
-impl Job<'_> {
-    /// Runs the points that are not done yet.
-    pub(super) fn resume(
-        &self,
-        engine: Engine<'_>,
-        tell: &mut dyn FnMut(Notice),
-    ) -> Result<Outcome, JobError> {
+impl<'a> Job<'a> {
+    /// Begins behind the points that are done.
+    pub(super) fn resume(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
-            return self.resume_at(&self.out, engine, tell);
+            return self.resume_at(&self.out);
         };
-        // Locked until the end of the job.
         let held = output::hold(&self.out)?;
         if replacement::is_over(&new, format) {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
             drop(held);
-            return self.resume_at(&self.out, engine, tell);
+            return self.resume_at(&self.out);
         }
-        self.resume_at(&new, engine, tell)
+        let mut begun = self.resume_at(&new)?;
+        if let Begun::Writing(writing) = &mut begun {
+            writing.held = held.map(|output| output.file);
+        }
+        Ok(begun)
     }
 
-    /// Runs the points that are not done yet of the results at `place`.
-    fn resume_at(
-        &self,
-        place: &Path,
-        engine: Engine<'_>,
-        tell: &mut dyn FnMut(Notice),
-    ) -> Result<Outcome, JobError> {
+    /// Begins behind the points that are done of the results at `place`.
+    fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
             companions::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
         let sidecar = Sidecar::read(&sidecar_of(place));
@@ -56,7 +48,7 @@ impl Job<'_> {
         }
         if !has_journal {
             return match sidecar {
-                _ if disk::is_empty(place) => self.start(engine, tell),
+                _ if disk::is_empty(place) => self.start(),
                 Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
                 Err(_) => self.existing(),
                 _ => Err(self.cannot_resume(place, ResumeError::NoJournal(place.to_owned()))),
@@ -65,16 +57,20 @@ impl Job<'_> {
         let resumed = Session::resume(place, self.plan, &self.options)
             .map_err(|error| self.cannot_resume(place, error))?;
         let Resumed { session, before, started, lost, unlocked } = resumed;
-        unlocked.map(Notice::Unlocked).into_iter().for_each(&mut *tell);
-        tell(Notice::Continued { lost, done: before.done() });
         let sidecar = self.sidecar(started);
         write_sidecar(place, &sidecar, false)?;
-        self.work(session, before, sidecar, engine)
+        let target = Target::Session(Box::new(session), Box::new(sidecar));
+        Ok(Writing { lost: Some(lost), unlocked, ..self.writing(target, before) }.into())
     }
 
-    /// The outcome if the sidecar of the results at `place` calls them complete. Only a run that was killed at its very end
+    /// The end of the job if the sidecar of the results at `place` calls them complete. Only a run that was killed at its very end
     /// `has_journal` left: its last steps are repeated, and nothing is written otherwise.
-    fn is_complete(&self, place: &Path, sidecar: &Sidecar, has_journal: bool) -> Result<Outcome, JobError> {
+    fn is_complete<'b>(
+        &self,
+        place: &Path,
+        sidecar: &Sidecar,
+        has_journal: bool,
+    ) -> Result<Begun<'b>, JobError> {
         // The rows of a replacement may have their name already.
         let rows = if place.exists() { place } else { &self.out };
         if !has_journal {
@@ -87,17 +83,17 @@ impl Job<'_> {
         Ok(outcome)
     }
 
-    /// The outcome if a file has the name of the results: it holds the rows wanted, or it is in the way.
-    pub(super) fn existing(&self) -> Result<Outcome, JobError> {
+    /// The end of the job if a file has the name of the results: it holds the rows wanted, or it is in the way.
+    pub(super) fn existing<'b>(&self) -> Result<Begun<'b>, JobError> {
         match Sidecar::read(&sidecar_of(&self.out)) {
             Ok(sidecar) if sidecar.state == State::Complete => self.compared(&self.out, &sidecar),
             _ => Err(JobError::Exists { path: self.out.clone(), changes: Vec::new(), changed: None }),
         }
     }
 
-    /// The outcome if complete results at `rows` have this sidecar: they are the rows wanted, and sound, or in the way.
-    fn compared(&self, rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
-        let changes = sidecar.identity().differences(&self.identity());
+    /// The end of the job if complete results at `rows` have this sidecar: they are the rows wanted, and sound, or in the way.
+    fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
+        let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
             let changed = self.changed_line(sidecar);
             return Err(JobError::Exists { path: self.out.clone(), changes, changed });
@@ -120,7 +116,7 @@ impl Job<'_> {
     fn continues(&self, place: &Path) -> bool {
         let own = self.identity();
         let past = journal::read(&journal_of(place)).ok().flatten().map(|past| past.header.identity);
-        let sidecar = Sidecar::read(&sidecar_of(place)).ok().map(|sidecar| sidecar.identity());
+        let sidecar = Sidecar::read(&sidecar_of(place)).ok().map(|sidecar| sidecar.identity);
         past == sidecar && past.is_some_and(|past| past.is_by_program_of(&own))
     }
 
@@ -151,12 +147,12 @@ impl Job<'_> {
     }
 }
 
-/// The outcome if the results at `rows` hold the rows wanted, and are sound.
-fn sound(rows: &Path, sidecar: &Sidecar) -> Result<Outcome, JobError> {
+/// The end of the job if the results at `rows` hold the rows wanted, and are sound.
+fn sound<'b>(rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
     let format = Format::of(rows)?;
     integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
-    let periodic = sidecar.statuses.as_ref().and_then(|counts| counts.get(Status::Periodic.name()));
-    Ok(Outcome::Complete { all_periodic: periodic == sidecar.rows.as_ref() })
+    let all_periodic = sidecar.summary.as_ref().is_some_and(Summary::all_periodic);
+    Ok(Begun::Complete { all_periodic })
 }
 
 /// The first line of the file called `name` that differs, in words.

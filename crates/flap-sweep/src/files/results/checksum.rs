@@ -37,7 +37,7 @@ pub struct Checksums {
 }
 
 /// A checksum of a file's bytes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileSum {
     /// Number of bytes.
     pub bytes: u64,

@@ -1,16 +1,17 @@
-//! The origin of rows, as far as it decides them: the metadata that Parquet files carry.
+//! The origin of rows, as far as it decides them: the metadata that Parquet files carry, written and read back.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use flap_core::parameter::Parameter;
+use flap_core::simulate::Simulator;
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
+use crate::grid;
 use crate::notation::text;
-use crate::plan::{Plan, Source};
+use crate::plan::{Plan, PointsFile, Source};
 use crate::run::identity::Identity;
-use crate::run::solver::SolverTable;
 use crate::table::layout::{Column, Layout};
 
 /// The columns of a file and the origin of its rows.
@@ -37,7 +38,7 @@ impl Provenance {
             ("flap.model", plan.simulator().name().to_owned()),
             ("flap.preset", plan.preset().to_owned()),
             ("flap.arithmetic", identity.arithmetic.clone()),
-            ("flap.solver", toml_text(&SolverTable(*plan.solver()))),
+            ("flap.solver", toml_text(&plan.solver())),
             ("flap.parameters", toml_text(&parameters(plan))),
             ("flap.units", toml_text(&units)),
             ("flap.grid", plan.source().text.clone()),
@@ -55,18 +56,10 @@ impl Provenance {
 
 /// The devices that a grid begins with, as `[[device]]` tables.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Devices {
+struct Devices {
+    /// With their paths from the folder of the grid file: equal grids in different folders are equal files.
     #[serde(default)]
-    pub(super) device: Vec<Device>,
-}
-
-/// A device.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Device {
-    /// Its path from the folder of the grid file: equal grids in different folders are equal files.
-    pub(super) name: String,
-    /// Its text.
-    pub(super) text: String,
+    device: Vec<Source>,
 }
 
 fn devices(plan: &Plan) -> Devices {
@@ -74,7 +67,7 @@ fn devices(plan: &Plan) -> Devices {
     let device = plan.devices().iter().map(|Source { name, text }| {
         let path = Path::new(name);
         let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
-        Device { name, text: text.clone() }
+        Source { name, text: text.clone() }
     });
     Devices { device: device.collect() }
 }
@@ -93,4 +86,39 @@ pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
 /// `value` as TOML. Names, numbers and words always have a text.
 fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
+}
+
+/// The entries that [`Provenance`] writes, by their keys.
+#[derive(Clone, Debug)]
+pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
+
+impl<'a> Recorded<'a> {
+    /// The entries of a file, if flap has written them.
+    pub fn of(entries: &'a [(String, String)]) -> Option<Recorded<'a>> {
+        let entries: BTreeMap<&str, &str> =
+            entries.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();
+        entries.contains_key("flap").then_some(Recorded(entries))
+    }
+
+    /// The unit of each column that has one.
+    pub fn units(&self) -> BTreeMap<String, String> {
+        toml::from_str(self.text("flap.units")).unwrap_or_default()
+    }
+
+    /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, its
+    /// devices were not recorded, or a file of points has moved or changed.
+    pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
+        let Devices { device } = toml::from_str(self.text("flap.devices")).ok()?;
+        // Devices were named from the folder of the grid file, which is that of the name here.
+        let plan = grid::parse_recorded("grid", self.text("flap.grid"), &device, models).ok()?;
+        let solver = toml::from_str(self.text("flap.solver")).ok()?;
+        let plan = plan.with_solver(solver).ok()?;
+        let points = plan.points_file().map(PointsFile::hash);
+        (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
+    }
+
+    /// The entry `key`, such as `flap.build`; empty if there is none.
+    pub fn text(&self, key: &str) -> &'a str {
+        self.0.get(key).copied().unwrap_or_default()
+    }
 }

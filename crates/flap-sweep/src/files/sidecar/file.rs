@@ -115,13 +115,8 @@ impl Sidecar {
             }
             return Sidecar::parse_damaged(contents);
         }
-        let sidecar = Sidecar::parse_damaged(bytes)?;
-        // Versions that wrote no checksum recorded no builds either.
-        if sidecar.build.is_empty() && sidecar.checksums.is_none() {
-            Ok(sidecar)
-        } else {
-            Err(ParseError::Damaged("its first line is not its checksum"))
-        }
+        Sidecar::parse_damaged(bytes)?;
+        Err(ParseError::Damaged("its first line is not its checksum"))
     }
 
     /// Reads the bytes of the file without its checksum line, or with one that is ignored. Bytes that are not UTF-8 become

@@ -4,12 +4,203 @@
 //! so a reader never sees an incomplete sidecar. It has all that is needed to run the sweep again and to check the results.
 //! Its first line is the checksum of the others.
 
-mod contents;
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use toml::Value;
+
+use crate::files::results::{Checksums, parameters};
+use crate::plan::selection::{self, Selection};
+use crate::plan::{Along, Plan, Source};
+use crate::run::identity::Identity;
+use crate::run::{RunOptions, Summary};
+use crate::table::layout::Layout;
+
 mod file;
 mod plan;
-mod written;
 
-pub use contents::{Followed, Grid, Origin, PointsFile, Rerun, Sidecar, State};
 pub use file::{ParseError, ReadError};
 pub use plan::PlanError;
-pub use written::{End, Start};
+
+/// The contents of a sidecar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sidecar {
+    /// State of the sweep.
+    pub state: State,
+    /// Reason of a failure.
+    pub error: Option<String>,
+    /// Name of the model.
+    pub model: String,
+    /// Name of the preset.
+    pub preset: String,
+    /// Number of points of the grid.
+    pub points: u64,
+    /// The shard that is run, such as `2/3`; `None` for all points.
+    pub shard: Option<String>,
+    /// Start of the first session, as RFC 3339 in UTC.
+    pub started: String,
+    /// End of the last session, as RFC 3339 in UTC.
+    pub finished: Option<String>,
+    /// Running time of all sessions (s).
+    pub seconds: Option<f64>,
+    /// Number of worker threads.
+    pub threads: usize,
+    /// Instructions of the lanes.
+    pub instructions: String,
+    /// Path of the file that lists the points of the sample, from the working directory, if one does.
+    pub points_file: Option<String>,
+    /// The build, the settings and the hashes that decide the rows.
+    pub identity: Identity,
+    /// The summary of the rows, once the sweep has ended.
+    pub summary: Option<Summary>,
+    /// The points of a rerun.
+    pub rerun: Option<Rerun>,
+    /// The parameter that is followed, if the points are designs with a curve of rows each.
+    pub followed: Option<Followed>,
+    /// The parameters before the axes are applied, without those that follow others.
+    parameters: BTreeMap<String, Value>,
+    /// The parameters that are varied.
+    varied: Vec<Unit>,
+    /// The measures in the rows.
+    columns: Vec<Unit>,
+    /// The grid file.
+    pub grid: Source,
+    /// The devices that the grid begins with: its own, then those that this one begins with.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub devices: Vec<Source>,
+    /// Checksums of complete results.
+    pub checksums: Option<Checksums>,
+}
+
+/// State of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum State {
+    /// Running, or killed while it was.
+    Running,
+    /// Every row is written.
+    Complete,
+    /// Stopped before the end.
+    Interrupted,
+    /// Failed before the end.
+    Failed,
+}
+
+/// The earlier results that the points of a rerun are taken from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    /// The result file.
+    pub of: String,
+    /// The statuses of the points there.
+    pub statuses: Vec<String>,
+}
+
+/// The points of a rerun.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rerun {
+    /// The earlier results.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// The indices of the points, such as `3,17,20-31`.
+    pub points: String,
+}
+
+/// The parameter that rises and falls in a response, see [`Along`](crate::plan::Along).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Followed {
+    /// Its name.
+    pub parameter: String,
+    /// Its values, rising.
+    pub values: Vec<f64>,
+    /// Largest error of the ends of bistable bands.
+    pub tolerance: f64,
+    /// True if the unstable orbits of bistable bands are looked for.
+    pub unstable: bool,
+}
+
+/// A column and its unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Unit {
+    name: String,
+    unit: String,
+}
+
+impl Unit {
+    fn new(name: &str, unit: &str) -> Unit {
+        Unit { name: name.to_owned(), unit: unit.to_owned() }
+    }
+}
+
+impl Sidecar {
+    /// The contents for a sweep of `plan` that starts at the time `started`. `origin` names the earlier results that the points of a
+    /// rerun are taken from.
+    pub fn new(plan: &Plan, started: String, options: &RunOptions, origin: Option<Origin>) -> Sidecar {
+        let layout = Layout::of(plan);
+        let (shard, rerun) = match plan.selection() {
+            Selection::All => (None, None),
+            Selection::Shard(shard) => (Some(shard.to_string()), None),
+            Selection::Listed(list) => {
+                let (origin, points) = (origin.unwrap_or_default(), selection::list_text(list));
+                (None, Some(Rerun { origin, points }))
+            }
+        };
+        Sidecar {
+            state: State::Running,
+            error: None,
+            model: plan.simulator().name().to_owned(),
+            preset: plan.preset().to_owned(),
+            points: plan.len(),
+            shard,
+            started,
+            finished: None,
+            seconds: None,
+            threads: options.threads.get(),
+            instructions: options.instructions.name().to_owned(),
+            points_file: plan.points_file().map(|file| file.path.display().to_string()),
+            identity: Identity::of(plan, options),
+            summary: None,
+            rerun,
+            followed: followed(plan),
+            parameters: parameters(plan),
+            varied: layout.varied.iter().map(|(_, p)| Unit::new(p.name, p.unit)).collect(),
+            columns: layout.measures().map(|m| Unit::new(&m.column.name, &m.column.unit)).collect(),
+            grid: plan.source().clone(),
+            devices: plan.devices().to_vec(),
+            checksums: None,
+        }
+    }
+
+    /// Records the end of the sweep, complete or interrupted, after `seconds` of running.
+    pub fn finish(&mut self, summary: &Summary, finished: String, seconds: f64) {
+        self.state = if summary.is_interrupted() { State::Interrupted } else { State::Complete };
+        self.summary = Some(summary.clone());
+        self.finished = Some(finished);
+        self.seconds = Some(seconds);
+    }
+
+    /// Records that the sweep failed with `error`, after `seconds` of running.
+    pub fn fail(&mut self, error: String, finished: String, seconds: f64) {
+        self.state = State::Failed;
+        self.error = Some(error);
+        self.finished = Some(finished);
+        self.seconds = Some(seconds);
+    }
+
+    /// Number of rows of complete results.
+    pub fn rows(&self) -> Option<u64> {
+        let summary = self.summary.as_ref().filter(|_| self.state == State::Complete);
+        summary.map(|summary| summary.rows)
+    }
+
+    /// The earlier results that the points are taken from, if these are the results of a rerun.
+    pub fn origin(&self) -> Option<&Origin> {
+        self.rerun.as_ref().map(|rerun| &rerun.origin)
+    }
+}
+
+/// The parameter that a plan follows.
+fn followed(plan: &Plan) -> Option<Followed> {
+    let Along { parameter, values, tolerance, unstable } = plan.followed()?.clone();
+    let parameter = plan.parameters()[parameter].name.to_owned();
+    Some(Followed { parameter, values, tolerance, unstable })
+}

@@ -10,7 +10,8 @@ use crate::grid::diagnostic::Mistakes;
 use crate::notation::text;
 use crate::notation::value::{self, UnitOf};
 use crate::plan::selection;
-use crate::plan::{self, Along, Plan};
+use crate::plan::{Along, Plan, PointsFile};
+use crate::run::identity::{self, Identity};
 
 /// A sidecar without a plan.
 #[derive(Debug, thiserror::Error)]
@@ -46,20 +47,15 @@ impl Sidecar {
     /// - [`PlanError::Parameters`] if the model of a response has no parameter or no option of a name in it
     /// - [`PlanError::Points`] if the points that were run are not points of the grid
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
-        if [&self.grid].into_iter().chain(&self.devices).any(|file| file.xxh3 != text::hash(&file.text)) {
+        let Identity { grid, devices, points_file, solver, .. } = &self.identity;
+        if *grid != text::hash(&self.grid.text) || *devices != identity::devices(&self.devices) {
             return Err(PlanError::GridText);
         }
-        let devices: Vec<plan::Source> = self
-            .devices
-            .iter()
-            .map(|device| plan::Source { name: device.name.clone(), text: device.text.clone() })
-            .collect();
-        let plan = grid::parse_recorded(&self.grid.name, &self.grid.text, &devices, models)
+        let plan = grid::parse_recorded(&self.grid.name, &self.grid.text, &self.devices, models)
             .map_err(PlanError::Grid)?;
-        let plan = plan.with_solver(self.solver).map_err(|_| PlanError::Solver)?;
-        let points_file = self.points_file.as_ref();
-        if plan.points_file().map(plan::PointsFile::hash) != points_file.map(|file| file.xxh3.clone()) {
-            return Err(PlanError::PointsFile(points_file.map(|file| file.path.clone())));
+        let plan = plan.with_solver(*solver).map_err(|_| PlanError::Solver)?;
+        if plan.points_file().map(PointsFile::hash) != *points_file {
+            return Err(PlanError::PointsFile(self.points_file.clone()));
         }
         let plan = match &self.followed {
             Some(followed) => self.follow(followed, plan).ok_or(PlanError::Parameters)?,

@@ -1,35 +1,37 @@
 //! Rows that other processes compute, put together to what one process writes.
 
-use std::collections::VecDeque;
-use std::sync::atomic::AtomicBool;
-
 use flap_core::num::Backend;
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::{Parcel, RunError, Summary, feed, part};
+use flap_sweep::run::{Chunk, RowWriter, RunError, Summary, chunk};
 use flap_sweep::table::layout::Layout;
 
 use crate::fake::{Fake, Fault};
 use crate::formulas::FORMULAS;
 use crate::support::{csv, options, plan, plan_with};
 
-/// The parcel of a worker for these points.
+/// The chunk of a worker for these points.
 fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
-    let stop = AtomicBool::new(false);
-    part(plan, &options(2, 10), from..to, &stop, &mut |_| {}).unwrap().to_bytes().unwrap()
+    chunk(plan, &options(2, 10), from..to, |_| false).unwrap().to_bytes().unwrap()
 }
 
-/// The text that comes of parcels, with what they come to.
-fn put_together(plan: &Plan, parcels: Vec<Vec<u8>>) -> (String, Result<Summary, RunError>) {
-    let mut parcels = VecDeque::from(parcels);
+/// The text that comes of chunks, with their summary.
+fn put_together(plan: &Plan, chunks: Vec<Vec<u8>>) -> (String, Result<Summary, RunError>) {
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
-    let mut next = |_| parcels.pop_front().map(|bytes| Parcel::from_bytes(&bytes)).transpose();
-    let summary = feed(plan, &options(1, 1), Summary::default(), &mut sink, &mut next);
+    let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).unwrap();
+    let mut take = |bytes: Vec<u8>| {
+        for row in &Chunk::from_bytes(&bytes)?.outcomes(plan, &options(1, 1), output.done())? {
+            output.write(row)?;
+        }
+        output.flush()
+    };
+    let ended = chunks.into_iter().try_for_each(&mut take);
+    let summary = output.finish(ended);
     (String::from_utf8(sink.target().clone()).unwrap(), summary)
 }
 
 #[test]
-fn parcels_put_together_are_the_rows_of_one_run() {
+fn chunks_put_together_are_the_rows_of_one_run() {
     let grids: [&dyn Fn() -> Plan; 2] =
         [&|| plan(Fake::leak(Fault::None, 4), 100), &|| plan_with(Fake::leak(Fault::None, 4), 12, FORMULAS)];
     for grid in grids {
@@ -37,35 +39,35 @@ fn parcels_put_together_are_the_rows_of_one_run() {
         let (alone, summary) = csv(&plan, &options(2, 10));
         for size in [1, 5, 1000] {
             let starts = (0..plan.len()).step_by(size);
-            let parcels = starts.map(|from| bytes(&plan, from, plan.len().min(from + size as u64)));
-            let (together, of_parcels) = put_together(&plan, parcels.collect());
+            let chunks = starts.map(|from| bytes(&plan, from, plan.len().min(from + size as u64)));
+            let (together, of_chunks) = put_together(&plan, chunks.collect());
             assert_eq!(together, alone);
-            assert_eq!(of_parcels.unwrap(), *summary.as_ref().unwrap());
+            assert_eq!(of_chunks.unwrap(), *summary.as_ref().unwrap());
         }
     }
 }
 
 #[test]
-fn parcels_that_end_early_are_an_interrupted_run() {
+fn chunks_that_end_early_are_an_interrupted_run() {
     let plan = plan(Fake::leak(Fault::None, 4), 100);
     let (text, summary) = put_together(&plan, vec![bytes(&plan, 0, 30), bytes(&plan, 30, 50)]);
     let summary = summary.unwrap();
-    assert!(summary.interrupted);
+    assert!(summary.is_interrupted());
     assert_eq!(summary.done(), 50);
     assert_eq!(text.lines().count(), 51);
 }
 
-/// The parcel of a worker with other sources of the same version.
+/// The chunk of a worker with other sources of the same version.
 fn of_another_build(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes[0] ^= 1;
     bytes
 }
 
 #[test]
-fn parcels_that_do_not_fit_are_refused() {
+fn chunks_that_do_not_fit_are_refused() {
     let whole = plan(Fake::leak(Fault::None, 4), 100);
     let other = plan(Fake::leak(Fault::None, 4), 101);
-    for (parcels, complaint) in [
+    for (chunks, complaint) in [
         (vec![bytes(&whole, 10, 20)], "points 10 to 20 came, but point 0 was expected next"),
         (
             vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)],
@@ -76,7 +78,7 @@ fn parcels_that_do_not_fit_are_refused() {
         (vec![of_another_build(bytes(&whole, 0, 10))], "another build of flap than this one"),
         (vec![bytes(&whole, 0, 10)[..40].to_vec()], ""),
     ] {
-        let (text, summary) = put_together(&whole, parcels);
+        let (text, summary) = put_together(&whole, chunks);
         let error = summary.expect_err(complaint).to_string();
         assert!(error.starts_with("rows of a worker do not fit: ") && error.contains(complaint), "{error}");
         // What came before is kept.
@@ -85,16 +87,15 @@ fn parcels_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn parcels_of_other_arithmetic_are_refused() {
+fn chunks_of_other_arithmetic_are_refused() {
     let plan = plan(Fake::leak(Fault::None, 4), 10);
     let mut others = options(1, 10);
     let classes: Vec<Backend> = Backend::available();
     let own = others.instructions.arithmetic();
     let Some(&other) = classes.iter().find(|set| set.arithmetic() != own) else { return };
     others.instructions = other;
-    let stop = AtomicBool::new(false);
-    let parcel = part(&plan, &others, 0..10, &stop, &mut |_| {}).unwrap();
-    let (_, summary) = put_together(&plan, vec![parcel.to_bytes().unwrap()]);
+    let chunk = chunk(&plan, &others, 0..10, |_| false).unwrap();
+    let (_, summary) = put_together(&plan, vec![chunk.to_bytes().unwrap()]);
     let error = summary.expect_err("other rounding").to_string();
     assert!(error.contains("the arithmetic is"), "{error}");
 }

@@ -1,0 +1,187 @@
+//! The file beside unfinished results that records the progress of a run: `<results>.journal`.
+//!
+//! Its first line identifies the run; every other line is a checkpoint. Each line begins with its checksum. A line is
+//! added only when the rows that it counts are safe on disk, and lines are never changed. A crash may leave an incomplete
+//! line at the end; its checksum does not agree.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use toml::de::ValueDeserializer;
+use toml::ser::ValueSerializer;
+use xxhash_rust::xxh3::Xxh3Default;
+
+use crate::files::disk;
+use crate::files::results::FileSum;
+use crate::notation::text;
+use crate::run::Summary;
+use crate::run::identity::Identity;
+
+/// Version of the format.
+const FORMAT: u32 = 1;
+
+/// The first line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    format: u32,
+    /// Start of the first session, as RFC 3339 in UTC.
+    pub started: String,
+    /// True if earlier results are kept until these are complete.
+    pub replaces: bool,
+    /// The identity of the run's rows.
+    pub identity: Identity,
+}
+
+impl Header {
+    /// The first line of a run that starts now.
+    pub fn new(started: String, replaces: bool, identity: Identity) -> Header {
+        Header { format: FORMAT, started, replaces, identity }
+    }
+}
+
+/// A place at which a run can be resumed: every line but the first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// Running time of all sessions (s).
+    pub seconds: f64,
+    /// The part of the file of rows that is written.
+    pub file: FileSum,
+    /// Summary of the rows in it.
+    pub summary: Summary,
+}
+
+/// The contents of a journal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JournalContents {
+    /// The first line.
+    pub header: Header,
+    /// The other lines, each with the number of bytes up to its end.
+    pub checkpoints: Vec<(Checkpoint, u64)>,
+    /// Bytes up to the end of the first line.
+    pub header_bytes: u64,
+}
+
+/// Reads the text of a journal up to the first line that is not whole. `None` if that is the first line, or the journal is
+/// of another format.
+pub fn parse(text: &[u8]) -> Option<JournalContents> {
+    let mut lines = text.split_inclusive(|&byte| byte == b'\n');
+    let first = lines.next()?;
+    let header = read_line(first).filter(|header: &Header| header.format == FORMAT)?;
+    let header_bytes = first.len() as u64;
+    let mut end = header_bytes;
+    let mut checkpoints = Vec::new();
+    for line in lines {
+        let Some(checkpoint) = read_line(line) else { break };
+        end += line.len() as u64;
+        checkpoints.push((checkpoint, end));
+    }
+    Some(JournalContents { header, checkpoints, header_bytes })
+}
+
+/// Reads the journal at `path`. `None` if there is none, or its first line is not whole: no row was written then.
+///
+/// # Errors
+/// The error of the operating system if the file cannot be read.
+pub fn read(path: &Path) -> io::Result<Option<JournalContents>> {
+    match fs::read(path) {
+        Ok(text) => Ok(parse(&text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// The contents of a line, if it is whole.
+fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
+    let line = str::from_utf8(line).ok()?.strip_suffix('\n')?;
+    let (checksum, contents) = line.split_once(' ')?;
+    if checksum != text::hash(contents) {
+        return None;
+    }
+    T::deserialize(ValueDeserializer::parse(contents).ok()?).ok()
+}
+
+fn line(contents: &impl Serialize) -> io::Result<String> {
+    let mut text = String::new();
+    contents.serialize(ValueSerializer::new(&mut text)).map_err(io::Error::other)?;
+    Ok(format!("{} {text}\n", text::hash(&text)))
+}
+
+/// A journal that is being written.
+#[derive(Debug)]
+pub struct Journal(File);
+
+impl Journal {
+    /// Begins a journal.
+    ///
+    /// # Errors
+    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has its name
+    /// - the error of the operating system if the file cannot be written
+    pub fn create(path: &Path, header: &Header) -> io::Result<Journal> {
+        let mut journal = Journal(disk::create_new(path)?);
+        journal.add_line(header)?;
+        Ok(journal)
+    }
+
+    /// Continues a journal after its first `bytes`, and drops the rest.
+    ///
+    /// # Errors
+    /// The error of the operating system if the file cannot be opened or cut.
+    pub fn after(path: &Path, bytes: u64) -> io::Result<Journal> {
+        let file = OpenOptions::new().append(true).open(path)?;
+        file.set_len(bytes)?;
+        Ok(Journal(file))
+    }
+
+    /// Adds a checkpoint. Its rows must be safe on disk.
+    ///
+    /// # Errors
+    /// The error of the operating system if the file cannot be written.
+    pub fn add(&mut self, checkpoint: &Checkpoint) -> io::Result<()> {
+        self.add_line(checkpoint)
+    }
+
+    fn add_line(&mut self, contents: &impl Serialize) -> io::Result<()> {
+        self.0.write_all(line(contents)?.as_bytes())?;
+        self.0.sync_data()
+    }
+}
+
+/// The last checkpoint whose rows are in the file.
+pub(crate) struct IntactRows {
+    pub(crate) checkpoint: Checkpoint,
+    /// Bytes of the journal up to the checkpoint.
+    pub(crate) journal_bytes: u64,
+    /// Hash of the rows up to the checkpoint.
+    pub(crate) hash: Xxh3Default,
+    /// Number of rows behind it that later checkpoints count.
+    pub(crate) lost: u64,
+}
+
+/// Finds the last checkpoint up to which `file` holds the bytes that were written. `None` if it holds other bytes.
+pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
+    let mut hash = Xxh3Default::new();
+    let mut intact = IntactRows {
+        checkpoint: Checkpoint::default(),
+        journal_bytes: journal.header_bytes,
+        hash: hash.clone(),
+        lost: journal.checkpoints.last().map_or(0, |(checkpoint, _)| checkpoint.summary.rows),
+    };
+    for (checkpoint, journal_bytes) in &journal.checkpoints {
+        let Some(missing) = checkpoint.file.bytes.checked_sub(intact.checkpoint.file.bytes) else {
+            return Ok(None);
+        };
+        if io::copy(&mut Read::by_ref(&mut file).take(missing), &mut hash)? < missing {
+            return Ok(Some(intact));
+        }
+        if text::digits(hash.digest()) != checkpoint.file.xxh3 {
+            return Ok(None);
+        }
+        let lost = (intact.lost + intact.checkpoint.summary.rows).saturating_sub(checkpoint.summary.rows);
+        let checkpoint = checkpoint.clone();
+        intact = IntactRows { checkpoint, journal_bytes: *journal_bytes, hash: hash.clone(), lost };
+    }
+    Ok(Some(intact))
+}

@@ -1,0 +1,295 @@
+//! The hold of a run on its result file: rows into it, checkpoints beside it, and the continuation of an earlier run.
+//!
+//! Checkpoints are at places where the bytes so far do not depend on later rows: behind any row, or in compressed files
+//! at the end of a frame. A resumed run drops the rows behind the last checkpoint and computes them again, to the same
+//! bytes.
+//!
+//! A Parquet file can be neither read nor continued before its last byte is written. Its rows are first written to
+//! `<results>.part`, compressed text like that of a `.csv.zst` file, and become columns when the run is complete.
+
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use csv::StringRecord;
+
+use crate::files::beside::{journal_of, rows_of};
+use crate::files::disk;
+use crate::files::journal::{self, Checkpoint, Header, IntactRows, Journal, last_intact};
+use crate::files::output::{self, CreateError, Output};
+use crate::files::results::{
+    Checksums, FileSum, Format, FormatError, Provenance, Reader, TextRows, Writer, text_sum,
+};
+use crate::plan::Plan;
+use crate::run::identity::Identity;
+use crate::run::{RunOptions, Sink, Summary};
+use crate::table::layout::Cell;
+
+/// Options of a session.
+#[derive(Clone, Copy, Debug)]
+pub struct SessionOptions {
+    /// Options of the run.
+    pub run: RunOptions,
+    /// Time between checkpoints, each of which waits for the disk twice. A run that is killed loses the rows of this time.
+    pub checkpoint: Duration,
+}
+
+/// Writes the rows of a plan to a file such that the run can be resumed.
+pub struct Session {
+    path: PathBuf,
+    format: Format,
+    /// Locked for as long as the session lasts.
+    results: File,
+    rows: TextRows,
+    provenance: Provenance,
+    /// Checksum of a Parquet file, once rows have been turned into columns.
+    columns: Option<FileSum>,
+    journal: Journal,
+    checkpoint: Duration,
+    last_checkpoint: Instant,
+    began: Instant,
+    seconds_before: f64,
+}
+
+/// A session that continues the work of earlier ones.
+pub struct Resumed {
+    /// The session.
+    pub session: Session,
+    /// Summary of the earlier sessions.
+    pub before: Summary,
+    /// Start of the first session, as RFC 3339 in UTC.
+    pub started: String,
+    /// Number of rows that had been written but are no longer in the file.
+    pub lost: u64,
+    /// Reason why the results could not be locked.
+    pub unlocked: Option<io::Error>,
+}
+
+/// A run that cannot be resumed.
+#[derive(Debug, thiserror::Error)]
+pub enum ResumeError {
+    /// The results cannot be written.
+    #[error(transparent)]
+    Create(#[from] CreateError),
+    /// The name stands for no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// There is nothing to resume.
+    #[error("{} has no journal: it is not the result of an interrupted sweep", .0.display())]
+    NoJournal(PathBuf),
+    /// The remaining rows would differ from those of the earlier run.
+    #[error("{} cannot be resumed: {}", path.display(), changes.join("; "))]
+    Changed {
+        /// The results.
+        path: PathBuf,
+        /// The differences, in words.
+        changes: Vec<String>,
+    },
+    /// Another program has written to the results.
+    #[error("{} cannot be resumed: it has changed since the sweep wrote it", .0.display())]
+    Altered(PathBuf),
+}
+
+impl Session {
+    /// Begins to write to `results`, an empty file which [`output::create`](crate::files::output::create) opened at `path`. The
+    /// journal records the time `started`, and in `replaces` that the results are to replace earlier ones.
+    ///
+    /// # Errors
+    /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file of waiting rows
+    /// - the error of the operating system if a file cannot be written
+    pub fn start(
+        results: File,
+        (path, format): (&Path, Format),
+        plan: &Plan,
+        options: &SessionOptions,
+        (started, replaces): (String, bool),
+    ) -> io::Result<Session> {
+        let header = Header::new(started, replaces, Identity::of(plan, &options.run));
+        let journal = Journal::create(&journal_of(path), &header)?;
+        let rows_file = if format.is_columnar() {
+            disk::create_new(&rows_of(path, format))?
+        } else {
+            results.try_clone()?
+        };
+        disk::sync_folder(path)?;
+        let target = disk::target(path);
+        if target != path {
+            disk::sync_folder(&target)?;
+        }
+        let rows = TextRows::new(rows_file, format)?;
+        Ok(Session::new(results, (path, format), rows, plan, options, journal))
+    }
+
+    /// Continues the results at `path`.
+    ///
+    /// # Errors
+    /// - [`ResumeError::Format`] if the name stands for no format
+    /// - [`ResumeError::Create`] if a file cannot be opened
+    /// - [`ResumeError::NoJournal`] if there is no journal
+    /// - [`ResumeError::Changed`] if the journal is of other rows
+    /// - [`ResumeError::Altered`] if the results have changed since they were written
+    pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
+        let refused = |source| CreateError::Io { path: path.to_owned(), source };
+        let format = Format::of(path)?;
+        let Output { file: results, unlocked } = output::reopen(path)?;
+        let journal_path = journal_of(path);
+        let past = journal::read(&journal_path).map_err(refused)?;
+        let past = past.ok_or_else(|| ResumeError::NoJournal(path.to_owned()))?;
+        let changes = past.header.identity.differences(&Identity::of(plan, &options.run));
+        if !changes.is_empty() {
+            return Err(ResumeError::Changed { path: path.to_owned(), changes });
+        }
+
+        let rows_path = rows_of(path, format);
+        let rows_file =
+            if format.is_columnar() { disk::open_or_create(&rows_path) } else { results.try_clone() };
+        let rows_file = rows_file.map_err(refused)?;
+        let found = last_intact(&rows_file, &past).map_err(refused)?;
+        let found = found.ok_or_else(|| ResumeError::Altered(rows_path.clone()))?;
+        let IntactRows { checkpoint, journal_bytes, hash, lost } = found;
+        let bytes = checkpoint.file.bytes;
+        let cut = |mut file: &File| {
+            file.set_len(bytes)?;
+            file.seek(SeekFrom::Start(bytes))
+        };
+        cut(&rows_file).map_err(refused)?;
+        let journal = Journal::after(&journal_path, journal_bytes).map_err(refused)?;
+        // Computed anew from all rows, checksums are those of a run that was not interrupted.
+        let (text, summed) = text_sum(File::open(&rows_path).map_err(refused)?, format);
+        summed.map_err(refused)?;
+        let rows = TextRows::after(rows_file, format, (hash, bytes), text).map_err(refused)?;
+        let mut session = Session::new(results, (path, format), rows, plan, options, journal);
+        session.add_seconds(checkpoint.seconds);
+        Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, unlocked })
+    }
+
+    /// A session that writes `rows` for the results at `path`, and their checkpoints to `journal`.
+    fn new(
+        results: File,
+        (path, format): (&Path, Format),
+        rows: TextRows,
+        plan: &Plan,
+        options: &SessionOptions,
+        journal: Journal,
+    ) -> Session {
+        let now = Instant::now();
+        Session {
+            path: path.to_owned(),
+            format,
+            results,
+            rows,
+            provenance: Provenance::of(plan, &Identity::of(plan, &options.run)),
+            columns: None,
+            journal,
+            checkpoint: options.checkpoint,
+            last_checkpoint: now,
+            began: now,
+            seconds_before: 0.0,
+        }
+    }
+
+    /// Adds the running time of earlier sessions.
+    fn add_seconds(&mut self, seconds: f64) {
+        self.seconds_before += seconds;
+    }
+
+    /// Running time so far of all sessions (s).
+    pub fn seconds(&self) -> f64 {
+        self.seconds_before + self.began.elapsed().as_secs_f64()
+    }
+
+    /// The file that holds the rows until they are complete: not the results themselves for a Parquet file.
+    pub fn rows_path(&self) -> PathBuf {
+        rows_of(&self.path, self.format)
+    }
+
+    /// Adds the last checkpoint, after [`Sink::finish`]; completes the results if the run came to its end.
+    ///
+    /// # Errors
+    /// - [`io::ErrorKind::Other`] if a file was removed or replaced
+    /// - the error of the operating system if a file cannot be written
+    pub fn close(&mut self, summary: &Summary) -> io::Result<()> {
+        if !summary.is_interrupted() || self.rows.may_be_cut() {
+            self.note(summary)?;
+        }
+        if !summary.is_interrupted() && self.format.is_columnar() {
+            disk::empty(&self.results)?;
+            self.results.seek(SeekFrom::Start(0))?;
+            let results = self.results.try_clone()?;
+            let text = self.checksums().text;
+            self.columns = assemble(&self.rows_path(), results, &self.provenance, &text)?.file;
+        }
+        Ok(())
+    }
+
+    /// The checksums of complete results.
+    pub fn checksums(&self) -> Checksums {
+        self.rows.checksums(self.columns.clone())
+    }
+
+    /// The results.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Makes the rows durable, then adds a checkpoint behind them.
+    fn note(&mut self, so_far: &Summary) -> io::Result<()> {
+        self.rows.flush()?;
+        disk::check_in_place(&self.results, &self.path)?;
+        disk::check_in_place(self.rows.file(), &self.rows_path())?;
+        self.rows.file().sync_data()?;
+        let (seconds, file) = (self.seconds(), self.rows.extent());
+        self.journal.add(&Checkpoint { seconds, file, summary: so_far.clone() })?;
+        self.last_checkpoint = Instant::now();
+        Ok(())
+    }
+}
+
+impl Sink for Session {
+    fn begin(&mut self) -> io::Result<()> {
+        let names = self.provenance.columns.iter().map(|column| &column.name);
+        if self.rows.extent().bytes == 0 { self.rows.header(names) } else { Ok(()) }
+    }
+
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()> {
+        self.rows.cells(cells)
+    }
+
+    fn done(&mut self, so_far: &Summary) -> io::Result<()> {
+        if self.rows.may_be_cut() && self.last_checkpoint.elapsed() >= self.checkpoint {
+            self.note(so_far)?;
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.rows.flush()
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.rows.finish()
+    }
+}
+
+/// Writes the rows that wait in `part` to the empty file `results`, and gives its checksums.
+///
+/// # Errors
+/// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`
+/// - the error of the operating system if a file cannot be read or written
+fn assemble(part: &Path, results: File, provenance: &Provenance, text: &str) -> io::Result<Checksums> {
+    let mut rows = Reader::new(File::open(part)?, Format::CsvZstd)?;
+    let mut writer = Writer::new(results, Format::Parquet, provenance)?;
+    let mut row = StringRecord::new();
+    while rows.next(&mut row)? {
+        writer.row(&row)?;
+    }
+    let checksums = writer.finish()?;
+    if checksums.text != text {
+        return Err(io::Error::other(format!(
+            "the rows in {} have changed since they were written",
+            part.display()
+        )));
+    }
+    Ok(checksums)
+}

@@ -1,0 +1,150 @@
+//! Rows of a run into a sink, in order, with their summary.
+
+use std::io;
+
+use flap_core::simulate::Row;
+
+use super::summary::{Limits, Summary};
+use super::{Outcome, RunError};
+use crate::plan::Plan;
+use crate::table::layout::{Cell, Layout};
+
+/// A table that takes rows in order.
+///
+/// Calls come as `begin`, then any number of `write`, `done` and `flush`, then `finish`; nothing comes after an error.
+pub trait Sink {
+    /// Writes the header, if the sink has one.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn begin(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// Takes the next row: one cell per column.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
+
+    /// Takes the summary of all rows so far, after every row and every excluded point, so that the run can be resumed
+    /// there.
+    ///
+    /// # Errors
+    /// If it cannot be noted.
+    fn done(&mut self, so_far: &Summary) -> io::Result<()> {
+        let _ = so_far;
+        Ok(())
+    }
+
+    /// Hands the rows so far to the operating system, so that a killed process loses little. Does nothing for a sink in
+    /// memory.
+    ///
+    /// # Errors
+    /// If the rows cannot be written.
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// Completes the output and makes it durable. Does nothing for a sink in memory.
+    ///
+    /// # Errors
+    /// If the rows cannot be written.
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Writes the rows of a plan to a sink, and counts them. Its errors are [`RunError::Sink`].
+pub struct RowWriter<'a> {
+    plan: &'a Plan,
+    layout: Layout<'a>,
+    limits: Limits,
+    summary: Summary,
+    sink: &'a mut dyn Sink,
+}
+
+impl<'a> RowWriter<'a> {
+    /// Begins to write the rows of `plan` to `sink`, where the rows that `before` counts are written already.
+    ///
+    /// # Errors
+    /// [`RunError::Sink`] if the header cannot be written.
+    pub fn begin(plan: &'a Plan, before: Summary, sink: &'a mut dyn Sink) -> Result<RowWriter<'a>, RunError> {
+        // The header is there from the beginning, however long the first row takes.
+        sink.begin()?;
+        sink.flush()?;
+        let summary = Summary::after(before, plan);
+        Ok(RowWriter { plan, layout: Layout::of(plan), limits: Limits::of(plan), summary, sink })
+    }
+
+    /// The columns of the rows.
+    pub fn layout(&self) -> &Layout<'a> {
+        &self.layout
+    }
+
+    /// Number of points that are done with, the first ones of those selected: the position of the next one.
+    pub fn done(&self) -> u64 {
+        self.summary.done()
+    }
+
+    /// Writes the row of the next point, or counts it if it is excluded.
+    ///
+    /// # Errors
+    /// [`RunError::Sink`] if it cannot be written.
+    pub fn write(&mut self, outcome: &Outcome) -> Result<(), RunError> {
+        match outcome {
+            Outcome::Ran(row) => {
+                let point = self.plan.selected_point(self.done());
+                let cells = self.layout.cells(&point, row);
+                self.write_rows(point.index, [(cells, row)])
+            }
+            Outcome::Excluded(unsatisfied) => self.exclude(unsatisfied),
+        }
+    }
+
+    /// Writes the rows of the next unit, whose index in the plan is given, but for those that an earlier run has written.
+    pub(crate) fn write_rows<'r>(
+        &mut self,
+        index: u64,
+        rows: impl IntoIterator<Item = (Vec<Cell<'static>>, &'r Row)>,
+    ) -> Result<(), RunError> {
+        let written = usize::try_from(self.summary.begun).unwrap_or(usize::MAX);
+        let mut rows = rows.into_iter().skip(written).peekable();
+        while let Some((cells, row)) = rows.next() {
+            self.sink.write(&cells)?;
+            self.summary.add(index, row, &self.limits);
+            if rows.peek().is_some() {
+                self.summary.begun += 1;
+                self.sink.done(&self.summary)?;
+            }
+        }
+        self.summary.begun = 0;
+        self.summary.ran += 1;
+        Ok(self.sink.done(&self.summary)?)
+    }
+
+    /// Counts the next unit as one that does not satisfy the conditions with these numbers, and has no row.
+    pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
+        self.summary.exclude(unsatisfied);
+        Ok(self.sink.done(&self.summary)?)
+    }
+
+    /// Hands the rows so far to the operating system.
+    ///
+    /// # Errors
+    /// [`RunError::Sink`] if they cannot be written.
+    pub fn flush(&mut self) -> Result<(), RunError> {
+        Ok(self.sink.flush()?)
+    }
+
+    /// Completes the sink after a run that `ended` so, unless the sink cannot be written to.
+    ///
+    /// # Errors
+    /// The error of the run, or [`RunError::Sink`].
+    pub fn finish(self, ended: Result<(), RunError>) -> Result<Summary, RunError> {
+        if !matches!(ended, Err(RunError::Sink(_))) {
+            self.sink.finish()?;
+        }
+        ended.map(|()| self.summary)
+    }
+}
