@@ -109,7 +109,11 @@ fn the_results_page_is_complete() {
     let page = document("docs/results.md");
     let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");
     assert_eq!(folder.flap("sweep grid.toml --out o.csv").code, 0);
-    for line in folder.read("o.csv.meta.toml").lines().take_while(|line| !line.starts_with("[solver]")) {
+    let sidecar = folder.read("o.csv.meta.toml");
+    let (origin, rest) = sidecar.split_once("[identity.solver]").unwrap();
+    let (_, summary) = rest.split_once("[summary]").unwrap();
+    let summary = summary.split("[parameters]").next().unwrap();
+    for line in origin.lines().chain(summary.lines()) {
         if let Some(key) = line.split(" = ").next().filter(|_| line.contains(" = ")) {
             assert!(page.contains(&format!("`{key}`")), "{key} is not described");
         }

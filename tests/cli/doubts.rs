@@ -10,7 +10,7 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     let said = "2 rows miss the accuracy of [solver], see their error_estimate. This command runs them again: \
                 flap results rerun rows.csv --inaccurate --rtol 1e-10 --out rows.accurate.csv\n";
     folder.ends(0, "sweep --grid grid.toml --out rows.csv").says(said);
-    assert!(folder.read("rows.csv.meta.toml").contains("[doubts]\ninaccurate = 2\n"));
+    assert!(folder.read("rows.csv.meta.toml").contains("[summary.warnings]\ninaccurate = 2\n"));
 
     let again =
         folder.ends(0, "results rerun rows.csv --inaccurate --rtol 1e-8 --accuracy 1e-2 --out again.csv");

@@ -67,10 +67,10 @@ strong = "lift_mean_mn > 1"
         let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
         assert!(bytes(&merged) == bytes(&format!("one.{ending}")), "{merged}");
         let sidecar = |name: &str| folder.read(&format!("{name}.meta.toml")).parse::<toml::Table>().unwrap();
-        for key in ["points", "rows", "excluded", "unsatisfied", "statuses"] {
-            assert!(sidecar(&merged).contains_key(key), "{key}");
-            assert_eq!(sidecar(&merged)[key], sidecar("whole.csv")[key], "{key}");
+        for key in ["points", "ran", "rows", "excluded", "unsatisfied", "statuses", "warnings"] {
+            assert_eq!(sidecar(&merged)["summary"][key], sidecar("whole.csv")["summary"][key], "{key}");
         }
+        assert_eq!(sidecar(&merged)["points"], sidecar("whole.csv")["points"]);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use flap_core::simulate::SolverSettings;
-use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::{Output, Plan, Value};
 
 use crate::fake::{FLY, index, plan};

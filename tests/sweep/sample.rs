@@ -3,7 +3,7 @@
 use std::fs;
 
 use flap_core::parameter::Invalid;
-use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Plan, Verdict};
 

@@ -220,12 +220,13 @@ fn checkpoints_read_back() {
     let header = Header::new("2026-01-02".to_owned(), false, Identity::of(&plan, &options(2, 100)));
     let mut journal = Journal::create(&path, &header).unwrap();
     let file = FileSum { bytes: 12_345, xxh3: "000000000000feed".to_owned() };
-    let checkpoint = Checkpoint { seconds: 1.5, file, summary };
+    let checkpoint = Checkpoint::new(1.5, file, summary);
     journal.add(&checkpoint).unwrap();
     let past = journal::read(&path).unwrap().unwrap();
     assert_eq!(past.header, header);
     assert_eq!(past.checkpoints.len(), 1);
     assert_eq!(past.checkpoints[0].0, checkpoint);
+    assert_eq!(checkpoint.summary.invalid[1].reason, "two lines");
 }
 
 #[test]

@@ -318,11 +318,11 @@ impl From<MergeError> for Failure {
     }
 }
 
-impl From<sidecar::ReadError> for Failure {
-    fn from(error: sidecar::ReadError) -> Failure {
+impl From<sidecar::SidecarError> for Failure {
+    fn from(error: sidecar::SidecarError) -> Failure {
         match &error {
-            sidecar::ReadError::Damaged { .. } => Failure::damaged(error.to_string()),
-            sidecar::ReadError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
+            sidecar::SidecarError::Damaged { .. } => Failure::damaged(error.to_string()),
+            sidecar::SidecarError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
                 Failure::System(error.to_string(), Vec::new())
             }
             _ => Failure::usage(error.to_string()),

@@ -154,7 +154,7 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
 pub(crate) fn open(error: &OpenError) -> PyErr {
     match error {
         OpenError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
-        OpenError::Sidecar(sidecar::ReadError::Io { path, source }) => {
+        OpenError::Sidecar(sidecar::SidecarError::Io { path, source }) => {
             io_error(&format!("cannot read {}", path.display()), source)
         }
         OpenError::Format(_) => PyValueError::new_err(error.to_string()),

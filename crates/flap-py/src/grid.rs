@@ -6,7 +6,7 @@ use flap_core::simulate;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::study::survey;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyException, PyIndexError, PyTypeError};

@@ -4,7 +4,7 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::notation::position::position;
+use crate::notation::text::position;
 
 /// Most bytes of a file that people write or an instrument records: grids, devices, outlines, waveforms, motions, points in images.
 pub const MOST_BYTES: u64 = 16 << 20;

@@ -8,7 +8,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
-use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Plan, Verdict};
 use flap_sweep::resonance::Range;

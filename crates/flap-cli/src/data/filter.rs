@@ -220,7 +220,7 @@ pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, 
     }
     match units::parse_as(text, unit) {
         Ok(number) => Ok(Some(number)),
-        Err(error) if error.problem == units::Problem::NoNumber => Ok(None),
+        Err(error) if error.problem == units::UnitProblem::NoNumber => Ok(None),
         Err(error) => {
             let failure = Failure::usage(format!("--where {name}={text}: {}", error.message(name)));
             Err(error.help().into_iter().fold(failure, Failure::help))

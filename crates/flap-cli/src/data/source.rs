@@ -9,7 +9,7 @@ use flap_sweep::files::integrity::{self, Note, Opened};
 use flap_sweep::files::results::Reader;
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::axis::Values;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;
 

@@ -7,7 +7,7 @@ use flap_sweep::files::beside::{journal_of, sidecar_of};
 use flap_sweep::files::integrity::{self, Damage, Note, OnDamage, Opened};
 use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Reader};
-use flap_sweep::files::sidecar::{PlanError, ReadError, Sidecar, State};
+use flap_sweep::files::sidecar::{PlanError, Sidecar, SidecarError, State};
 use flap_sweep::plan::Plan;
 
 use crate::args::ReadArgs;
@@ -29,16 +29,16 @@ pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sid
 pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sidecar, Failure> {
     let path = sidecar_of(results);
     let sidecar = match Sidecar::read(&path) {
-        Err(ReadError::Damaged { .. }) if on_damage == OnDamage::Tolerate => Sidecar::read_damaged(&path),
+        Err(SidecarError::Damaged { .. }) if on_damage == OnDamage::Tolerate => Sidecar::read_damaged(&path),
         read => read,
     };
     sidecar.map_err(|error| {
         let is_missing =
-            matches!(&error, ReadError::Io { source, .. } if source.kind() == ErrorKind::NotFound);
+            matches!(&error, SidecarError::Io { source, .. } if source.kind() == ErrorKind::NotFound);
         if is_missing && !results.exists() {
             return Failure::usage(format!("{} does not exist", results.display()));
         }
-        let help = if matches!(error, ReadError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
+        let help = if matches!(error, SidecarError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
         Failure::from(error).help(help)
     })
 }

@@ -8,7 +8,7 @@ use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Selection;
-use flap_sweep::run::{Doubts, InvalidPoint};
+use flap_sweep::run::{InvalidPoint, Warnings};
 use flap_sweep::table::layout::Layout;
 
 use super::exclusion;
@@ -29,7 +29,7 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
-    report_doubts(plan, done);
+    report_warnings(plan, done);
     report_unsettled(plan, done);
 
     let to = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
@@ -42,8 +42,8 @@ pub(super) fn report(plan: &Plan, done: &Done) {
 }
 
 /// Tells the user the numbers of rows to be read with care, with advice.
-fn report_doubts(plan: &Plan, done: &Done) {
-    let Doubts { inaccurate, powerless, at_range_end } = done.summary.doubts;
+fn report_warnings(plan: &Plan, done: &Done) {
+    let Warnings { inaccurate, negative_power, at_range_end } = done.summary.warnings;
     if inaccurate > 0 {
         let rows = count(inaccurate, "row");
         let verb = if inaccurate == 1 { "misses" } else { "miss" };
@@ -68,9 +68,9 @@ fn report_doubts(plan: &Plan, done: &Done) {
             None => format!("{said}, see their error_estimate: lower rtol there"),
         });
     }
-    if powerless > 0 {
-        let rows = count(powerless, "row");
-        let verb = if powerless == 1 { "has" } else { "have" };
+    if negative_power > 0 {
+        let rows = count(negative_power, "row");
+        let verb = if negative_power == 1 { "has" } else { "have" };
         console::say(&format!(
             "{rows} {verb} negative mean power: the model's air gives energy to the wing there (docs/model.md)"
         ));

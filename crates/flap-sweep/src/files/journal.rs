@@ -53,6 +53,17 @@ pub struct Checkpoint {
     pub summary: Summary,
 }
 
+impl Checkpoint {
+    /// The checkpoint behind the rows that `summary` counts, in a `file` of these bytes, after `seconds` of running.
+    pub fn new(seconds: f64, file: FileSum, mut summary: Summary) -> Checkpoint {
+        // A checkpoint is one line, and so are reasons.
+        for invalid in &mut summary.invalid {
+            invalid.reason = invalid.reason.replace(['\n', '\r'], " ");
+        }
+        Checkpoint { seconds, file, summary }
+    }
+}
+
 /// The contents of a journal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JournalContents {

@@ -1,11 +1,10 @@
 //! Result files: their formats, and the files beside them that record their origin and the progress of a run.
 //!
 //! From the bottom up: `beside` names the files and `disk` writes them; [`results`] are rows in files; [`journal`] and
-//! [`sidecar`] are the files beside them, and `companions` removes those; `output` opens a result file, a [`session`] writes it, [`integrity`] checks it, and
-//! a [`job`] runs a plan from beginning to end.
+//! [`sidecar`] are the files beside them, and `replacement` removes those that flap wrote; `output` opens a result file,
+//! a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a plan from beginning to end.
 
 pub mod beside;
-mod companions;
 pub mod csv_sink;
 pub mod disk;
 pub mod inputs;

@@ -4,10 +4,10 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::files::beside::{journal_of, rows_of, sidecar_of};
-use crate::files::results::Format;
-use crate::files::sidecar::{Sidecar, State};
-use crate::files::{companions, disk, replacement};
+use super::beside::{journal_of, rows_of, sidecar_of};
+use super::results::Format;
+use super::sidecar::{Sidecar, State};
+use super::{disk, replacement};
 
 /// A result file that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -81,8 +81,8 @@ pub fn create(path: &Path, overwrite: bool) -> Result<Output, CreateError> {
     }
     let unlocked = lock(&file, path)?;
     let allowed = if overwrite {
-        check_sidecar(path, companions::has_sidecar(path))
-    } else if companions::has_journal(path).map_err(&refused)? || replacement::unfinished(path).is_some() {
+        check_sidecar(path, replacement::has_sidecar(path))
+    } else if replacement::has_journal(path).map_err(&refused)? || replacement::unfinished(path).is_some() {
         Err(CreateError::Unfinished(path.to_owned()))
     } else if metadata.len() > 0 {
         Err(CreateError::Exists(path.to_owned()))
@@ -165,7 +165,7 @@ pub fn replace<E: From<io::Error>>(
     let sidecar = sidecar.map(|sidecar| sidecar.prepare(&sidecar_of(results))).transpose()?;
     rows.file().sync_all()?;
     replacement::discard(results)?;
-    companions::remove(results)?;
+    replacement::remove_companions(results)?;
     rows.commit()?;
     Ok(sidecar.map_or(Ok(()), disk::Whole::commit)?)
 }

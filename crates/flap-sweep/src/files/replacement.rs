@@ -1,6 +1,9 @@
-//! New results that are to replace earlier ones (`--restart`).
+//! The files beside results that flap wrote itself. No other files are ever removed or replaced.
 //!
-//! The earlier results keep their names until the new ones are complete. Until then the new results of `rows.csv` are
+//! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the journal
+//! beside them: it is begun only where there is no file of their name.
+//!
+//! With `--restart`, the earlier results keep their names until the new ones are complete. Until then the new results of `rows.csv` are
 //! `rows.new.csv`, with a sidecar and a journal of that name. The journal records that they are a replacement, so a file that
 //! only has such a name is never taken for one.
 //!
@@ -12,11 +15,48 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::files::beside::{journal_of, part_of, replacement_of, rows_of, sidecar_of};
-use crate::files::companions;
-use crate::files::disk;
-use crate::files::journal;
-use crate::files::results::Format;
+use super::beside::{journal_of, part_of, replacement_of, rows_of, sidecar_of};
+use super::results::Format;
+use super::sidecar::Sidecar;
+use super::{disk, journal};
+
+/// True if there is a sidecar beside the results, damaged or not.
+pub(crate) fn has_sidecar(results: &Path) -> bool {
+    Sidecar::read_damaged(&sidecar_of(results)).is_ok()
+}
+
+/// True if there is a journal beside the results.
+///
+/// # Errors
+/// The error of the operating system if a file of that name cannot be read.
+pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
+    Ok(journal::read(&journal_of(results))?.is_some())
+}
+
+/// Removes the waiting rows and the journal. Killed in between, the journal still names the rows as flap's.
+///
+/// # Errors
+/// The error of the operating system if a file cannot be removed.
+pub(crate) fn remove_progress(results: &Path) -> io::Result<()> {
+    if has_journal(results)? {
+        if Format::of(results).is_ok_and(Format::is_columnar) {
+            disk::remove_if_there(&part_of(results))?;
+        }
+        disk::remove_if_there(&journal_of(results))?;
+    }
+    Ok(())
+}
+
+/// Removes the sidecar, the waiting rows and the journal.
+///
+/// # Errors
+/// The error of the operating system if a file cannot be removed.
+pub(crate) fn remove_companions(results: &Path) -> io::Result<()> {
+    if has_sidecar(results) {
+        disk::remove_if_there(&sidecar_of(results))?;
+    }
+    remove_progress(results)
+}
 
 /// The unfinished replacement of the results at `results`, such as `rows.new.csv`. `None` if there is none.
 pub fn unfinished(results: &Path) -> Option<PathBuf> {
@@ -48,7 +88,7 @@ pub(crate) fn discard(results: &Path) -> io::Result<()> {
     let Some(new) = unfinished(results) else { return Ok(()) };
     disk::remove_if_there(&new)?;
     // The journal goes last: without it the others would be nobody's.
-    companions::remove(&new)
+    remove_companions(&new)
 }
 
 /// Puts the replacement of `results`, which is complete with its sidecar, in their place.
@@ -62,7 +102,7 @@ pub(crate) fn commit(results: &Path) -> io::Result<()> {
         if Format::of(&new).is_ok_and(Format::is_columnar) {
             disk::remove_if_there(&part_of(&new))?;
         }
-        companions::remove(results)?;
+        remove_companions(results)?;
         disk::rename(&new, &disk::target(results))?;
     }
     if beside.exists() {
@@ -72,5 +112,5 @@ pub(crate) fn commit(results: &Path) -> io::Result<()> {
         whole.commit()?;
         fs::remove_file(&beside)?;
     }
-    companions::remove_progress(&new)
+    remove_progress(&new)
 }

@@ -240,7 +240,7 @@ impl Session {
         disk::check_in_place(self.rows.file(), &self.rows_path())?;
         self.rows.file().sync_data()?;
         let (seconds, file) = (self.seconds(), self.rows.extent());
-        self.journal.add(&Checkpoint { seconds, file, summary: so_far.clone() })?;
+        self.journal.add(&Checkpoint::new(seconds, file, so_far.clone()))?;
         self.last_checkpoint = Instant::now();
         Ok(())
     }

@@ -8,13 +8,9 @@ use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 
 use super::lookup::Lookup;
-use super::params;
-use super::preset;
-use super::problems::Problems;
-use super::syntax;
+use super::problems::{self, Problems};
 use super::table::{self, Entry};
-use super::uncertainty;
-use super::value;
+use super::{params, uncertainty, value};
 use crate::input::{self, MOST_BYTES};
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::{Robot, Source, Value, WithUnits};
@@ -77,7 +73,7 @@ impl Reader<'_> {
             value::text("description", description.value, problems);
         }
         let Some(entry) = table::find(root, "device") else {
-            let (model, preset) = preset::read(root, self.models, problems)?;
+            let (model, preset) = params::read_preset(root, self.models, problems)?;
             let values = Value::of_preset(model, preset);
             return Some(Base {
                 robot: Robot::Wing(model),
@@ -132,7 +128,7 @@ impl Reader<'_> {
     fn device(self, text: &str, chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         let (root, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
-            syntax::report(&errors, problems);
+            problems::report_syntax(&errors, problems);
             return None;
         }
         let root = table::entries(root.get_ref());

@@ -11,8 +11,8 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Output;
-use crate::table::fixed::{POINT, RUN, STATUS};
 use crate::table::format::Format;
+use crate::table::layout::{POINT, RUN, STATUS};
 
 pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 

@@ -1,5 +1,7 @@
-//! The whole of a grid file.
+//! The whole of a grid file, from a path or from its text.
 
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
@@ -10,17 +12,13 @@ use toml::de::DeTable;
 use super::device::{Base, Reader, Shelf};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
-use super::keys::KEYS;
 use super::lookup::Lookup;
-use super::problems::Problems;
+use super::problems::{self, Problems};
 use super::table::{self, Entry};
-use super::vehicle::Told;
-use super::{
-    axes, conditions, derived, former, gradient, measures, output, resonance, sample, solver, syntax,
-    vehicle, zip,
-};
-use crate::plan::axes::Axes;
-use crate::plan::axis::Axis;
+use super::vehicle::{self, Told};
+use super::{axes, former, gradient, output, resonance, sample, solver};
+use crate::input::{self, InputError, MOST_BYTES};
+use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
 use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
@@ -51,7 +49,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let mut problems = Problems::new(Arc::clone(&source));
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        syntax::report(&errors, &mut problems);
+        problems::report_syntax(&errors, &mut problems);
         return Err(problems.into_mistakes());
     }
 
@@ -74,7 +72,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
         read_points(&root, base, simulator, told, reader.models, &mut problems);
     names.are_measured = true;
-    let own = measures::read(table::find(&root, "measure"), &mut names, &mut problems);
+    let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let gradient = table::find(&root, "gradient");
     let gradient = gradient::read(gradient, simulator, &names, &derived, resonance.is_some(), &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
@@ -137,15 +135,15 @@ fn read_points<'n>(
     let set = base.set(root, models, problems);
     let mut lookup = Lookup { simulator, models, problems };
     let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
-    axes.extend(zip::read(table::find(root, "zip"), &mut lookup));
+    axes.extend(axes::read_zip(table::find(root, "zip"), &mut lookup));
     let means = means(&base, simulator, &axes);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
     axes.sort_by_key(|placed| placed.span.start);
     axes::report_repeats(&axes, &set, &mut lookup);
-    let drafts = derived::drafts(table::find(root, "derived"), &mut lookup);
-    derived::report_repeats(
+    let drafts = formula::derived_drafts(table::find(root, "derived"), &mut lookup);
+    formula::report_derived_twice(
         &drafts,
         &axes,
         &[("set under [params]", &set), ("set in [vehicle]", &told.set)],
@@ -181,8 +179,8 @@ fn read_points<'n>(
     let columns =
         resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
     let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
-    let derived = derived::read(&drafts, &names, problems);
-    let conditions = conditions::read(table::find(root, "where"), &names, problems);
+    let derived = formula::read_derived(&drafts, &names, problems);
+    let conditions = formula::read_conditions(table::find(root, "where"), &names, problems);
     Points { base, axes, sample_file, resonance, derived, conditions, unreached, names }
 }
 
@@ -202,11 +200,101 @@ fn means(base: &Base, simulator: &dyn Simulator, axes: &[axes::Placed]) -> Vec<V
 }
 
 fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>, problems: &mut Problems) {
-    for entry in root.iter().filter(|entry| !KEYS.contains(&entry.key)) {
-        let diagnostic = table::report_unknown_key(entry, &KEYS, "at the top of a grid file", problems);
+    for entry in root.iter().filter(|entry| !table::KEYS.contains(&entry.key)) {
+        let diagnostic =
+            table::report_unknown_key(entry, &table::KEYS, "at the top of a grid file", problems);
         if model.is_some_and(|model| Parameter::index(model.parameters(), entry.key).is_some()) {
             diagnostic.help.clear();
             diagnostic.help("parameters go into [params], or into [axes] to vary them");
         }
     }
+}
+
+/// The reason why there is no plan.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file has no text to be used.
+    #[error("{}", placed(path, error))]
+    Input {
+        /// The path as given.
+        path: PathBuf,
+        /// The reason.
+        #[source]
+        error: InputError,
+    },
+    /// The file holds results.
+    #[error("{}: this looks like results, not like a grid file", .0.display())]
+    Results(PathBuf),
+    /// The text is not a proper grid: the mistakes, in the order of the file.
+    #[error("{}", one_per_line(.0))]
+    Grid(Mistakes),
+}
+
+impl ReadError {
+    /// Advice, if there is any.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
+            ReadError::Input { error: InputError::TooLarge(_), .. } => {
+                Some("put long lists of points into a CSV file: [sample] with `method = \"file\"`".to_owned())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The reason with the path, and with line and column behind it as terminals link to them.
+fn placed(path: &Path, error: &InputError) -> String {
+    let path = path.display();
+    match error {
+        InputError::NotUtf8 { byte, line, column } => {
+            format!("{path}:{line}:{column}: not UTF-8 text at byte {byte}: save the file as UTF-8")
+        }
+        _ => format!("{path}: {error}"),
+    }
+}
+
+fn one_per_line(mistakes: &Mistakes) -> String {
+    let mut lines: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+    if mistakes.more() > 0 {
+        lines.push(format!("and {} more", mistakes.more()));
+    }
+    lines.join("\n")
+}
+
+/// Reads the grid file at `path` and makes its plan, with the presets of all models.
+///
+/// # Errors
+/// If the file cannot be read, or there are mistakes in it.
+pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
+    let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
+    read_from(file, path, models)
+}
+
+/// Reads a grid from a stream, such as stdin, and makes its plan, with the presets of all models. `name` stands for the
+/// stream in messages and in the sidecar of rows. Files that the grid names are relative to the folder of `name`.
+///
+/// # Errors
+/// If the stream cannot be read, or there are mistakes in the grid.
+pub fn read_from(
+    source: impl io::Read,
+    name: &Path,
+    models: &[&'static dyn Simulator],
+) -> Result<Plan, ReadError> {
+    let refused = |error| ReadError::Input { path: name.to_owned(), error };
+    let bytes = input::beginning(source, MOST_BYTES).map_err(refused)?;
+    if looks_like_results(&bytes) {
+        return Err(ReadError::Results(name.to_owned()));
+    }
+    let text = input::of_bytes(bytes, MOST_BYTES).map_err(refused)?;
+    parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
+}
+
+/// True if a file that begins with these bytes is compressed, Parquet, or has the header of results.
+fn looks_like_results(bytes: &[u8]) -> bool {
+    const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+    let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let mut columns = header.split(|byte| *byte == b',');
+    let is_table = columns.next() == Some(b"point") && columns.any(|column| column == b"status");
+    is_table || bytes.starts_with(&ZSTD) || bytes.starts_with(b"PAR1")
 }

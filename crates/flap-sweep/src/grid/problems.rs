@@ -1,10 +1,11 @@
-//! The mistakes found so far.
+//! The mistakes found so far, and those of TOML's syntax.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::grid::diagnostic::{Diagnostic, Mistakes};
+use super::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
 
 /// Diagnostics that are kept. Others are only counted, so that a file with millions of mistakes takes neither time nor memory
@@ -88,5 +89,48 @@ impl Problems {
         self.found
             .sort_by_key(|diagnostic| (!Arc::ptr_eq(&diagnostic.source, &source), diagnostic.span.start));
         Mistakes::new(self.found, self.only_counted)
+    }
+}
+
+/// Reports the errors of the TOML parser: one per line, since one slip makes several.
+pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems) {
+    let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
+    let mut lines = HashSet::new();
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        let line = newlines.partition_point(|newline| *newline < span.start);
+        if !lines.insert(line) {
+            continue;
+        }
+        let text = problems.text().get(span.clone()).unwrap_or_default().to_owned();
+        let (message, help) = explain(error.message(), &text);
+        let diagnostic = problems.report(span, message);
+        if let Some(help) = help {
+            diagnostic.help(help);
+        }
+    }
+}
+
+/// The parser's message about `text` in the words of someone who writes grid files, and advice.
+///
+/// Other messages pass through as they are.
+fn explain(message: &str, text: &str) -> (String, Option<String>) {
+    let said = |begins: &str| message.starts_with(begins);
+    if message == "duplicate key" {
+        (format!("`{text}` is defined twice"), Some("keep one of them".into()))
+    } else if said("string values must be quoted") && text.is_empty() {
+        ("a value is missing".into(), Some("write a number, text in quotes, a list or a range".into()))
+    } else if said("string values must be quoted") {
+        (format!("`{text}` needs quotes"), Some(format!("write \"{}\"", text.escape_default())))
+    } else if said("invalid basic string, expected `\"`") || said("invalid literal string, expected `'`") {
+        ("a closing quote is missing".into(), Some("end text with the quote it begins with".into()))
+    } else if said("missing comma between array elements") {
+        let help = "put commas between the values of a list, and ] after the last";
+        (format!("not valid TOML: {message}"), Some(help.into()))
+    } else if said("unexpected key or value") {
+        let help = "start each key on a new line; numbers have a decimal point, not a comma";
+        (format!("not valid TOML: {message}"), Some(help.into()))
+    } else {
+        (format!("not valid TOML: {message}"), None)
     }
 }

@@ -6,8 +6,7 @@ use toml::de::DeValue;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::axes::Axes;
-use crate::plan::axis::Values;
+use crate::plan::axes::{Axes, Values};
 
 pub(super) const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];

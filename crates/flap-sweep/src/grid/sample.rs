@@ -13,7 +13,7 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::axis::{Axis, Values};
+use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::{Design, Method};
 use crate::plan::{PointsFile, Value};
 

@@ -8,6 +8,26 @@ use toml::de::{DeTable, DeValue};
 use super::problems::Problems;
 use crate::grid::diagnostic::Diagnostic;
 
+/// The keys at the top of a grid file.
+pub(super) const KEYS: [&str; 16] = [
+    "description",
+    "preset",
+    "device",
+    "params",
+    "correlation",
+    "vehicle",
+    "resonance",
+    "axes",
+    "zip",
+    "sample",
+    "derived",
+    "where",
+    "measure",
+    "gradient",
+    "solver",
+    "output",
+];
+
 /// One `key = value`.
 pub(super) struct Entry<'t> {
     pub(super) key: &'t str,

@@ -8,7 +8,7 @@ use toml::de::{DeInteger, DeValue};
 
 use super::problems::Problems;
 use super::table::{self, Entry};
-use crate::notation::units::{self, Problem, UnitError};
+use crate::notation::units::{self, UnitError, UnitProblem};
 use crate::notation::value::{self, UnitOf, ValueError};
 
 type Value<'t> = Spanned<DeValue<'t>>;
@@ -222,7 +222,7 @@ fn integer_as_float(integer: &DeInteger<'_>) -> Result<f64, UnitError> {
             8 => "0o",
             _ => "0b",
         };
-        let problem = Problem::TooLarge(format!("{prefix}{}", integer.as_str()));
+        let problem = UnitProblem::TooLarge(format!("{prefix}{}", integer.as_str()));
         UnitError { span: 0..0, problem }
     })
 }

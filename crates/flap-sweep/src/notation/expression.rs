@@ -9,16 +9,13 @@
 
 mod error;
 mod evaluate;
-mod function;
-mod operation;
 mod parse;
 mod scope;
 #[cfg(test)]
 mod tests;
-mod token;
 
 pub use error::{ExpressionError, Problem};
-use operation::Operation;
+use evaluate::Operation;
 pub use scope::{Kind, Meaning, Scope};
 
 /// True if `name` can be given to something that expressions are to use.
@@ -27,8 +24,8 @@ pub fn is_free_name(name: &str) -> bool {
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
         && characters.all(|character| character.is_ascii_alphanumeric() || character == '_')
         && !["and", "or", "not"].contains(&name)
-        && function::find(name).is_none()
-        && function::constant(name).is_none()
+        && evaluate::find(name).is_none()
+        && evaluate::constant(name).is_none()
 }
 
 /// An expression that has passed every check.

@@ -1,4 +1,4 @@
-//! Numbers and options as text, the same in result files and on the terminal.
+//! Numbers and options as text, the same in result files and on the terminal; names that resemble another; positions in texts.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -155,6 +155,56 @@ pub(crate) fn digits(hash: u64) -> String {
     format!("{hash:016x}")
 }
 
+/// Longer names than this, in bytes, are no misspelt ones.
+const LONGEST_NAME: usize = 200;
+
+/// Shorter names than this, in bytes, stand at the beginning of too many others.
+const SHORTEST_PART: usize = 4;
+
+/// The one of `names` that `name` most likely stands for, if any is close: the first that begins with it, as `lift_mean_mn` for
+/// `lift`, the first that contains it as a word, or the one that it is a misspelling of.
+pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    // The time of a comparison grows with the product of both lengths.
+    if name.len() > LONGEST_NAME {
+        return None;
+    }
+    let name = &*name.to_lowercase();
+    let names = names.into_iter().filter(|candidate| candidate.len() <= LONGEST_NAME);
+    let names: Vec<(String, &str)> = names.map(|candidate| (candidate.to_lowercase(), candidate)).collect();
+    let is_word = |(candidate, _): &&(String, &str)| {
+        let ends = |text: &str| !text.starts_with(char::is_alphanumeric);
+        let begins = |text: &str| !text.ends_with(char::is_alphanumeric);
+        let mut places = candidate.match_indices(name);
+        places.any(|(at, part)| begins(&candidate[..at]) && ends(&candidate[at + part.len()..]))
+    };
+    if name.len() >= SHORTEST_PART {
+        let begins = names.iter().find(|(candidate, _)| candidate.starts_with(name));
+        if let Some((_, candidate)) = begins.or_else(|| names.iter().find(is_word)) {
+            return Some(candidate);
+        }
+    }
+    names
+        .iter()
+        .map(|(lower, candidate)| (strsim::jaro_winkler(name, lower), *candidate))
+        .filter(|(likeness, _)| *likeness > 0.8)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
+}
+
+/// Line and column of a byte of `text`, both from 1; columns count characters.
+pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
+    let mut end = byte.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &text[..end];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.matches('\n').count();
+    // Editors do not show the byte order mark.
+    let column = 1 + before[line_start..].chars().filter(|c| *c != '\u{feff}').count();
+    (line, column)
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -260,5 +310,37 @@ mod tests {
     #[test]
     fn control_characters_are_written_out() {
         assert_eq!(printable("a\u{1b}[31mb\0\n µ"), "a\\u{1b}[31mb\\u{0}\\n µ");
+    }
+
+    #[test]
+    fn nearest_names() {
+        let names = ["drive_voltage_pp", "drive_frequency", "wing_area"];
+        assert_eq!(nearest("drive_voltage", names), Some("drive_voltage_pp"));
+        assert_eq!(nearest("WING_AREA", names), Some("wing_area"));
+        assert_eq!(nearest("temperature", names), None);
+        assert_eq!(nearest(&"wing_area".repeat(30), names), None);
+        let long = "wing_area".repeat(30);
+        assert_eq!(nearest("wing_area", [&*long]), None);
+    }
+
+    #[test]
+    fn parts_of_names_come_before_misspellings() {
+        let names = ["point", "stroke_pp_deg", "lift_mean_mn", "lift_min_mn", "lift_max_mn", "mean_lift"];
+        assert_eq!(nearest("lift", names), Some("lift_mean_mn"));
+        assert_eq!(nearest("LIFT_MAX", names), Some("lift_max_mn"));
+        assert_eq!(nearest("pp_deg", names), Some("stroke_pp_deg"));
+        assert_eq!(nearest("lift", ["xxxxxliftxxxxx"]), None, "a part of a word is no word");
+        assert_eq!(nearest("lift_mni_mn", names), Some("lift_min_mn"));
+    }
+
+    #[test]
+    fn positions_count_characters_not_bytes() {
+        let text = "a = 1\n\"µ\" = 2\n";
+        assert_eq!(position(text, 0), (1, 1));
+        assert_eq!(position(text, 4), (1, 5));
+        assert_eq!(position(text, 6), (2, 1));
+        assert_eq!(position(text, 11), (2, 5));
+        assert_eq!(position(text, text.len()), (3, 1));
+        assert_eq!(position("\u{feff}a", 3), (1, 1));
     }
 }

@@ -4,17 +4,14 @@
 //! such as `^2` or `²`. Decimal units are converted in the text of the number, before it is rounded to a
 //! float, so that `"135 um"` is the very float that `135e-6` is.
 
-mod dimension;
-mod error;
 mod number;
 mod prefixed;
-mod table;
 mod unit;
 
 use std::ops::Range;
 
-pub use error::{Problem, UnitError};
 pub(crate) use number::scan;
+pub use number::{UnitError, UnitProblem};
 pub use prefixed::{exact, meant, prefixed};
 use unit::Unit;
 
@@ -38,7 +35,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let unit_span = unit_start..unit_start + unit_text.len();
     if unit_text.is_empty() && !si_unit.is_empty() {
         number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem })?;
-        let problem = Problem::NoUnit { wanted: si_unit.to_owned(), usual: table::usual(si_unit) };
+        let problem = UnitProblem::NoUnit { wanted: si_unit.to_owned(), usual: unit::usual(si_unit) };
         return Err(UnitError { span: start..start + length, problem });
     }
     let Ok(wanted) = unit::parse(si_unit) else {
@@ -46,16 +43,16 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
             return number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem });
         }
         let (unit, wanted) = (unit_text.to_owned(), si_unit.to_owned());
-        return Err(UnitError { span: unit_span, problem: Problem::NotConverted { unit, wanted } });
+        return Err(UnitError { span: unit_span, problem: UnitProblem::NotConverted { unit, wanted } });
     };
     let unit = unit::parse(unit_text)
         .map_err(|error| offset(with_suggestion(error, unit_text, si_unit, wanted), unit_start))?;
     if !unit.dimension.fits(wanted.dimension) {
-        let problem = Problem::Mismatch {
+        let problem = UnitProblem::Mismatch {
             unit: unit_text.to_owned(),
             measures: unit.dimension.to_string(),
             wanted: si_unit.to_owned(),
-            usual: table::usual(si_unit),
+            usual: unit::usual(si_unit),
         };
         return Err(UnitError { span: unit_span, problem });
     }
@@ -67,7 +64,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(at_number(Problem::TooLarge(text[start..unit_span.end].to_owned())))
+        Err(at_number(UnitProblem::TooLarge(text[start..unit_span.end].to_owned())))
     }
 }
 
@@ -93,10 +90,10 @@ fn offset(error: UnitError, start: usize) -> UnitError {
 /// makes the whole measure the same as `si_unit` before any other.
 fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
     let span = error.span.clone();
-    if let Problem::UnknownUnit { unit, nearest, usual } = &mut error.problem {
-        *usual = table::usual(si_unit);
+    if let UnitProblem::UnknownUnit { unit, nearest, usual } = &mut error.problem {
+        *usual = unit::usual(si_unit);
         if nearest.is_none() {
-            let guesses = table::suggestions(unit);
+            let guesses = unit::suggestions(unit);
             let fits = |guess: &&String| {
                 let repaired = format!("{}{guess}{}", &text[..span.start], &text[span.end..]);
                 unit::parse(&repaired).is_ok_and(|unit| unit.dimension.fits(wanted.dimension))

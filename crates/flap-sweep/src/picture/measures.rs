@@ -1,6 +1,6 @@
 //! The measures that a picture shows if none is named.
 
-use crate::table::fixed;
+use crate::table::layout;
 
 /// The part that a measure plays in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl Role {
 /// The index in `columns` of the measure that plays a part: the first that is usual for it, else the first measure.
 /// Columns of the run, such as `cycles`, are no measures, and neither are those in `taken`.
 pub fn usual<'n>(role: Role, columns: &[&'n str], taken: &[&'n str]) -> Option<usize> {
-    let is_free = |column: &&str| !taken.contains(column) && !fixed::is_fixed(column);
+    let is_free = |column: &&str| !taken.contains(column) && !layout::is_fixed(column);
     let places = |wanted: &str| columns.iter().position(|column| *column == wanted && is_free(column));
     let first = || columns.iter().position(&is_free);
     role.names().iter().find_map(|name| places(name)).or_else(first)

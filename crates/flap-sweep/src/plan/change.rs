@@ -4,15 +4,13 @@ use flap_core::parameter::Kind;
 use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::of_all_wings;
 
+use super::Plan;
+use super::axes::{Along, Axis, TooManyPoints, Values};
+use super::gradient::{self, Gradient, NoShares, Per};
+use super::selection::{Selection, Shard};
+use super::value::Value;
 use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
-use crate::plan::Plan;
-use crate::plan::along::Along;
-use crate::plan::axes::TooManyPoints;
-use crate::plan::axis::{Axis, Values};
-use crate::plan::gradient::{self, Gradient, NoShares, Per};
-use crate::plan::selection::{Selection, Shard};
-use crate::plan::value::Value;
 
 /// A change that would make a plan untrue.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -3,17 +3,17 @@
 //! A [`Design`] spreads points over the unit cube, a [`Distribution`] carries each coordinate over to a parameter. Any
 //! point is computed in constant time and depends on the seed and its index alone.
 
-mod distribution;
-mod joe_kuo;
-mod latin;
-mod normal;
-mod random;
-mod sobol;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng, SeedableRng};
 
 pub use distribution::Distribution;
-use latin::Permutation;
-pub(crate) use normal::quantile as normal_quantile;
+pub(crate) use distribution::quantile as normal_quantile;
 use sobol::Sobol;
+
+mod distribution;
+mod sobol;
+#[cfg(test)]
+mod tests;
 
 /// The method by which points are spread over the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,16 +47,14 @@ impl Design {
     pub const MAX_POINTS: u64 = 1 << 32;
 
     /// The largest number of dimensions.
-    pub const MAX_DIMENSIONS: usize = joe_kuo::DIRECTIONS.len() + 1;
+    pub const MAX_DIMENSIONS: usize = sobol::DIRECTIONS.len() + 1;
 
     /// `count` points over `dimensions` dimensions; at most [`Design::MAX_POINTS`] and [`Design::MAX_DIMENSIONS`].
     pub fn new(method: Method, seed: u64, count: u64, dimensions: usize) -> Design {
         let kind = match method {
-            Method::Sobol => {
-                Kind::Sobol((0..dimensions).map(|d| Sobol::new(d, random::key(seed, d))).collect())
-            }
+            Method::Sobol => Kind::Sobol((0..dimensions).map(|d| Sobol::new(d, key(seed, d))).collect()),
             Method::LatinHypercube => {
-                let permutation = |d| Permutation::new(count, random::key(seed, d));
+                let permutation = |d| Permutation::new(count, key(seed, d));
                 Kind::LatinHypercube((0..dimensions).map(permutation).collect())
             }
             Method::Random => Kind::Random,
@@ -89,14 +87,80 @@ impl Design {
             Kind::Sobol(dimensions) => dimensions[dimension].coordinate(index),
             Kind::LatinHypercube(permutations) => {
                 let interval = permutations[dimension].get(index) as f64;
-                let within = random::coordinate(self.seed, dimension, index);
+                let within = coordinate(self.seed, dimension, index);
                 // In the last interval the sum may be rounded to the very end.
                 ((interval + within) / self.count as f64).min(1.0 - f64::EPSILON)
             }
-            Kind::Random => random::coordinate(self.seed, dimension, index),
+            Kind::Random => coordinate(self.seed, dimension, index),
         }
     }
 }
 
-#[cfg(test)]
-mod tests;
+/// A random number of the open interval from 0 to 1.
+pub(super) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
+    let mut generator = stream(seed, dimension, false);
+    // In 32-bit words.
+    generator.set_word_pos(2 * u128::from(index));
+    // The middle of one of 2^52 intervals, so that neither end is met.
+    ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+}
+
+/// A random key for a dimension.
+pub(super) fn key(seed: u64, dimension: usize) -> u64 {
+    stream(seed, dimension, true).next_u64()
+}
+
+fn stream(seed: u64, dimension: usize, is_key: bool) -> ChaCha8Rng {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(2 * dimension as u64 + u64::from(is_key));
+    generator
+}
+
+/// Rounds of the cipher. Four make it as good as random, if the key is; two more cost nothing.
+const ROUNDS: u64 = 6;
+
+/// A random permutation of the numbers below `count` that is not stored.
+///
+/// A Feistel cipher permutes the numbers of so many bits, at least as many as needed and even; numbers that come out
+/// too large go through it again, which leads back in a few times.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Permutation {
+    count: u64,
+    half_bits: u32,
+    key: u64,
+}
+
+impl Permutation {
+    /// The permutation of `count` numbers with this key.
+    pub(super) fn new(count: u64, key: u64) -> Permutation {
+        let bits = u64::BITS - count.saturating_sub(1).leading_zeros();
+        Permutation { count, half_bits: bits.div_ceil(2).max(1), key }
+    }
+
+    /// The image of `index`, which must be less than `count`.
+    pub(super) fn get(&self, index: u64) -> u64 {
+        let mut number = self.once(index);
+        while number >= self.count {
+            number = self.once(number);
+        }
+        number
+    }
+
+    fn once(&self, number: u64) -> u64 {
+        let mask = (1 << self.half_bits) - 1;
+        let (mut left, mut right) = (number >> self.half_bits, number & mask);
+        for round in 0..ROUNDS {
+            let mixed = mix(self.key ^ mix(round << 32 ^ right));
+            (left, right) = (right, left ^ (mixed & mask));
+        }
+        left << self.half_bits | right
+    }
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): each bit depends on all.
+fn mix(mut x: u64) -> u64 {
+    x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    x ^ (x >> 31)
+}

@@ -6,16 +6,14 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 use flap_core::vehicle::Vehicle;
 
-use crate::plan::along::Along;
-use crate::plan::axes::Axes;
-use crate::plan::files::{Output, PointsFile, Source};
-use crate::plan::formula::{Condition, Derived, OwnMeasure};
-use crate::plan::gradient::Gradient;
-use crate::plan::robot::Robot;
-use crate::plan::selection::Selection;
-use crate::plan::uncertainty::Uncertainty;
-use crate::plan::value::Value;
-use crate::plan::with_units::WithUnits;
+use super::axes::{Along, Axes};
+use super::files::{Output, PointsFile, Source};
+use super::formula::{Condition, Derived, OwnMeasure};
+use super::gradient::Gradient;
+use super::robot::Robot;
+use super::selection::Selection;
+use super::uncertainty::Uncertainty;
+use super::value::{Value, WithUnits};
 use crate::resonance::AtResonance;
 
 /// A design space that has passed every check, and the settings with which its points are run.

@@ -2,9 +2,9 @@
 
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 
+use super::Plan;
+use super::axes::Values;
 use crate::notation::text;
-use crate::plan::Plan;
-use crate::plan::axis::Values;
 
 /// The decision whether a point is run.
 #[derive(Clone, Debug, PartialEq)]

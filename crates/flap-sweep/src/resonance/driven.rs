@@ -1,12 +1,12 @@
-//! The drive frequencies at which the settled stroke of one design is largest.
+//! The drive frequencies at which the settled stroke of one design is largest, and its free motion after an impulse.
+
+use std::f64::consts::PI;
 
 use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, run_list};
 
-use super::error::SearchError;
-use super::range::{Objective, Range};
 use super::search::{Found, Peaks, Search, Seen};
-use super::study::Study as _;
-use super::target::{Target, has_prescribed_stroke};
+use super::sequence::PointSequence as _;
+use super::target::{Objective, Range, SearchError, Target, has_prescribed_stroke};
 
 /// Most peaks that are reported.
 const PEAKS: usize = 2;
@@ -136,4 +136,38 @@ fn gaps(seen: &[Seen]) -> Vec<Gap> {
         }
     }
     gaps
+}
+
+/// An impulse whose amplitude no wing can reach.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("an impulse of {:.1} deg ({amplitude} rad) is larger than half a turn", amplitude.to_degrees())]
+pub struct LargeImpulse {
+    /// The amplitude (rad).
+    amplitude: f64,
+}
+
+impl LargeImpulse {
+    /// The remedy.
+    pub const HELP: &str = "give at most 180 deg, such as \"20 deg\"";
+}
+
+/// The amplitude (rad) of an impulse, if it is at most half a turn: a wing that turns further passes through the body.
+///
+/// # Errors
+/// [`LargeImpulse`] for a larger amplitude.
+pub fn impulse(amplitude: f64) -> Result<f64, LargeImpulse> {
+    if amplitude.abs() <= PI { Ok(amplitude) } else { Err(LargeImpulse { amplitude }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_impulse_is_at_most_half_a_turn() {
+        assert_eq!(impulse(-PI), Ok(-PI));
+        let refused = impulse(20.0).map_err(|error| error.to_string());
+        assert_eq!(refused, Err("an impulse of 1145.9 deg (20 rad) is larger than half a turn".to_owned()));
+        assert!(impulse(f64::NAN).is_err());
+    }
 }

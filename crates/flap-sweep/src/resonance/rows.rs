@@ -4,10 +4,9 @@ use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings};
 
-use super::range::{Objective, Range};
 use super::search::{Peaks, Search};
-use super::study::{self, Desk};
-use super::target::{Target, places};
+use super::sequence::{self, SequenceSource};
+use super::target::{Objective, Range, Target, places};
 
 /// A model whose rows are those of each design at its own resonance: the drive frequency of a point does not matter.
 ///
@@ -75,14 +74,14 @@ impl Rows for AtResonance {
     }
 
     fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        study::run_all(self.target.model, backend, solver, &mut Designs { at: self, jobs });
+        sequence::run_all(self.target.model, backend, solver, &mut Designs { at: self, jobs });
     }
 
     /// A resonance is looked for from rest: `begin` does not matter.
     fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
         let design = Point::at_rest(0, run.values.to_vec());
         let mut search = Search::new(&self.target, design, Peaks::HIGHEST);
-        study::run_one(self.target.model, run.backend, run.solver, &mut search);
+        sequence::run_one(self.target.model, run.backend, run.solver, &mut search);
         search.into_row().1
     }
 }
@@ -93,8 +92,8 @@ struct Designs<'a> {
     jobs: &'a mut dyn Jobs,
 }
 
-impl<'a> Desk for Designs<'a> {
-    type Study = Search<'a>;
+impl<'a> SequenceSource for Designs<'a> {
+    type Sequence = Search<'a>;
 
     fn next(&mut self, idle: bool) -> Option<Search<'a>> {
         Some(Search::new(&self.at.target, self.jobs.next(idle)?, Peaks::HIGHEST))

@@ -1,48 +1,52 @@
-//! Studies: points of which each is chosen by the rows of earlier ones.
+//! Sequences of points of which each is chosen by the rows of earlier ones.
 //!
-//! A study knows no threads and no lanes. Many studies are open at once, so that the lanes are full while each study waits
-//! for its own rows.
+//! Many sequences are open at once, so that the lanes are full while each sequence waits for its own rows.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
-pub trait Study {
-    /// The points to run next, whose indices do not matter; none if the study has ended. Called again when [`Study::take`] has had their rows.
+pub trait PointSequence {
+    /// The points to run next, whose indices do not matter; none if the sequence has ended. Called again when [`PointSequence::take`] has had their rows.
     fn probes(&mut self) -> Vec<Point>;
 
     /// Takes the rows of the latest probes, in their order.
     fn take(&mut self, rows: Vec<Row>);
 }
 
-/// The source of studies, which takes them back when they have ended.
-pub trait Desk {
-    /// The kind of study.
-    type Study: Study;
+/// The source of sequences, which takes them back when they have ended.
+pub trait SequenceSource {
+    /// The kind of sequence.
+    type Sequence: PointSequence;
 
-    /// The next study, or `None` if there is none for now. With `idle` nothing is running: the call may wait, and `None`
+    /// The next sequence, or `None` if there is none for now. With `idle` nothing is running: the call may wait, and `None`
     /// means that there will be no more.
-    fn next(&mut self, idle: bool) -> Option<Self::Study>;
+    fn next(&mut self, idle: bool) -> Option<Self::Sequence>;
 
-    /// Takes a study that has ended.
-    fn done(&mut self, study: Self::Study);
+    /// Takes a sequence that has ended.
+    fn done(&mut self, sequence: Self::Sequence);
 
-    /// True if the work is to end at once, see [`Jobs::interrupted`]. Studies that are open are dropped.
+    /// True if the work is to end at once, see [`Jobs::interrupted`]. Sequences that are open are dropped.
     fn interrupted(&self) -> bool;
 }
 
-/// Studies that are open at once, as long as none of them has a point to run.
+/// Sequences that are open at once, as long as none of them has a point to run.
 const MOST_OPEN: usize = 256;
 
-/// Runs the studies of `desk` on the lanes of `backend` until there are none left.
-pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, desk: &mut impl Desk) {
-    rows.run(backend, solver, &mut Interleaved { desk, open: Vec::new() });
+/// Runs the sequences of `source` on the lanes of `backend` until there are none left.
+pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, source: &mut impl SequenceSource) {
+    rows.run(backend, solver, &mut Interleaved { source, open: Vec::new() });
 }
 
-/// Runs one study on scalars. Gives it the same bits as [`run_all`].
-pub fn run_one(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, study: &mut impl Study) {
+/// Runs one sequence on scalars. Gives it the same bits as [`run_all`].
+pub fn run_one(
+    rows: &dyn Rows,
+    backend: Backend,
+    solver: &SolverSettings,
+    sequence: &mut impl PointSequence,
+) {
     loop {
-        let probes = study.probes();
+        let probes = sequence.probes();
         if probes.is_empty() {
             return;
         }
@@ -50,19 +54,19 @@ pub fn run_one(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, study
             rows.run_point(&PointRun::new(backend, solver, &probe.values), probe.begin.as_deref())
         };
         let found = probes.iter().map(row).collect();
-        study.take(found);
+        sequence.take(found);
     }
 }
 
-/// The points of open studies as one stream.
-struct Interleaved<'a, D: Desk> {
-    desk: &'a mut D,
-    open: Vec<Option<Open<D::Study>>>,
+/// The points of open sequences as one stream.
+struct Interleaved<'a, D: SequenceSource> {
+    source: &'a mut D,
+    open: Vec<Option<Open<D::Sequence>>>,
 }
 
-/// A study with points to run or running.
+/// A sequence with points to run or running.
 struct Open<S> {
-    study: S,
+    sequence: S,
     /// Points that have not begun, the next one last, each with its place among the probes.
     waiting: Vec<(usize, Point)>,
     /// Rows of the probes, as far as they are here.
@@ -70,23 +74,23 @@ struct Open<S> {
     missing: usize,
 }
 
-impl<S: Study> Open<S> {
-    /// Asks the study for points. Gives it back if it has ended.
-    fn ask(mut study: S) -> Result<Open<S>, S> {
-        let probes = study.probes();
+impl<S: PointSequence> Open<S> {
+    /// The sequence with its next points. Gives it back if it has ended.
+    fn begin(mut sequence: S) -> Result<Open<S>, S> {
+        let probes = sequence.probes();
         if probes.is_empty() {
-            return Err(study);
+            return Err(sequence);
         }
         let missing = probes.len();
         let rows = probes.iter().map(|_| None).collect();
-        Ok(Open { study, waiting: probes.into_iter().enumerate().rev().collect(), rows, missing })
+        Ok(Open { sequence, waiting: probes.into_iter().enumerate().rev().collect(), rows, missing })
     }
 }
 
-/// Points of one study have indices from a multiple of this on.
+/// Points of one sequence have indices from a multiple of this on.
 const STRIDE: u64 = 1 << 32;
 
-impl<D: Desk> Interleaved<'_, D> {
+impl<D: SequenceSource> Interleaved<'_, D> {
     /// A point that can begin now.
     fn waiting(&mut self) -> Option<Point> {
         for (slot, open) in (0_u64..).zip(&mut self.open) {
@@ -98,12 +102,12 @@ impl<D: Desk> Interleaved<'_, D> {
         None
     }
 
-    /// Opens another study. False if there is none for now.
+    /// Opens another sequence. False if there is none for now.
     fn open_another(&mut self, idle: bool) -> bool {
         loop {
-            let Some(study) = self.desk.next(idle) else { return false };
-            match Open::ask(study) {
-                Err(ended) => self.desk.done(ended),
+            let Some(sequence) = self.source.next(idle) else { return false };
+            match Open::begin(sequence) {
+                Err(ended) => self.source.done(ended),
                 Ok(open) => {
                     match self.open.iter_mut().find(|slot| slot.is_none()) {
                         Some(slot) => *slot = Some(open),
@@ -116,7 +120,7 @@ impl<D: Desk> Interleaved<'_, D> {
     }
 }
 
-impl<D: Desk> Jobs for Interleaved<'_, D> {
+impl<D: SequenceSource> Jobs for Interleaved<'_, D> {
     fn next(&mut self, idle: bool) -> Option<Point> {
         let waiting = self.waiting();
         if waiting.is_some() {
@@ -139,15 +143,15 @@ impl<D: Desk> Jobs for Interleaved<'_, D> {
             *slot = Some(open);
             return;
         }
-        let Open { mut study, rows, .. } = open;
-        study.take(rows.into_iter().flatten().collect());
-        match Open::ask(study) {
+        let Open { mut sequence, rows, .. } = open;
+        sequence.take(rows.into_iter().flatten().collect());
+        match Open::begin(sequence) {
             Ok(open) => *slot = Some(open),
-            Err(ended) => self.desk.done(ended),
+            Err(ended) => self.source.done(ended),
         }
     }
 
     fn interrupted(&self) -> bool {
-        self.desk.interrupted()
+        self.source.interrupted()
     }
 }

@@ -1,11 +1,61 @@
-//! The target of a search: a quantity of a model over its drive frequency.
+//! The target of a search for a resonance: the range of the drive frequency, the quantity that is largest there, and errors.
 
-use flap_core::parameter::Parameter;
-use flap_core::simulate::Simulator;
+use flap_core::parameter::{Invalid, Parameter};
+use flap_core::simulate::{Simulator, Unfinished};
 
-use super::error::SearchError;
-use super::range::{Objective, Range};
 use crate::notation::text;
+
+/// The quantity that is largest at a resonance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// The stroke.
+    Stroke,
+    /// The mean lift.
+    Lift,
+    /// Mean lift over mean electrical power.
+    Efficiency,
+}
+
+impl Objective {
+    /// The objectives, in the order of [`Objective::NAMES`].
+    pub const ALL: [Objective; 3] = [Objective::Stroke, Objective::Lift, Objective::Efficiency];
+
+    /// Their names in grid files.
+    pub const NAMES: [&'static str; 3] = ["stroke", "lift", "efficiency"];
+
+    /// The name in grid files.
+    pub fn name(self) -> &'static str {
+        Objective::NAMES[self as usize]
+    }
+
+    /// The column with the quantity.
+    pub(super) fn column(self) -> &'static str {
+        match self {
+            Objective::Stroke => "stroke_amplitude_deg",
+            Objective::Lift => "lift_mean_mn",
+            Objective::Efficiency => "efficiency_gf_per_w",
+        }
+    }
+}
+
+/// The range in which resonances are looked for, and the accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The quantity that is largest.
+    pub of: Objective,
+    /// Lowest drive frequency (Hz); half of the design's lower natural frequency if `None`.
+    pub from: Option<f64>,
+    /// Highest drive frequency (Hz); one and a half times the design's upper natural frequency if `None`.
+    pub to: Option<f64>,
+    /// Largest error of the frequency (Hz), more than zero.
+    pub tolerance: f64,
+}
+
+impl Default for Range {
+    fn default() -> Self {
+        Range { of: Objective::Stroke, from: None, to: None, tolerance: 0.05 }
+    }
+}
 
 /// The parameter that is searched for.
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
@@ -65,4 +115,40 @@ pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) ->
     parameters.iter().zip(values).any(|(parameter, &value)| {
         parameter.name == "stroke_mode" && text::option(parameter, value) == Some("prescribed")
     })
+}
+
+/// Reason why a search for resonances finds none.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SearchError {
+    /// The tolerance (Hz) is not more than zero.
+    #[error("the tolerance must be more than zero, not {0} Hz")]
+    Tolerance(f64),
+    /// The stroke is prescribed.
+    #[error("stroke_mode is \"prescribed\": such a stroke is the same at every frequency, {0}")]
+    Prescribed(&'static str),
+    /// The model lacks a parameter or a measure.
+    #[error("the model {0}")]
+    Model(&'static str),
+    /// The range has no frequencies.
+    #[error(
+        "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero, and less than the last"
+    )]
+    Range {
+        /// Lowest frequency (Hz).
+        from: f64,
+        /// Highest frequency (Hz).
+        to: f64,
+    },
+    /// No motion of the design is periodic: the reason of one of them.
+    #[error("{0}")]
+    Design(String),
+    /// The natural frequencies cannot be computed, or the search was interrupted.
+    #[error(transparent)]
+    Unfinished(#[from] Unfinished),
+}
+
+impl From<Invalid> for SearchError {
+    fn from(invalid: Invalid) -> SearchError {
+        SearchError::Unfinished(invalid.into())
+    }
 }

@@ -6,7 +6,7 @@
 //! not depend on the number of threads.
 //!
 //! ```no_run
-//! # use flap_sweep::{files::csv::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
+//! # use flap_sweep::{files::csv_sink::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
 //! # fn csv(plan: &Plan) -> Result<Summary, RunError> {
 //! let mut sink = CsvSink::new(Layout::of(plan).names(), std::io::stdout());
 //! let mut output = RowWriter::begin(plan, Summary::default(), &mut sink)?;
@@ -30,7 +30,6 @@ use std::time::Duration;
 use flap_core::num::Backend;
 
 mod chunk;
-mod gradient;
 pub mod identity;
 mod points;
 mod queue;
@@ -40,7 +39,7 @@ mod writer;
 
 pub use chunk::{Chunk, chunk};
 pub use points::{Outcome, alone, rows};
-pub use summary::{Counts, Doubts, InvalidPoint, Summary, Unsatisfied};
+pub use summary::{Counts, InvalidPoint, Summary, Unsatisfied, Warnings};
 pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink};

@@ -39,11 +39,11 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
 
 /// Rows with measures that are to be read with care.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Doubts {
+pub struct Warnings {
     /// Rows whose error estimate exceeds the accuracy that was asked for.
     pub inaccurate: u64,
     /// Rows whose mean electrical power is negative: the air gives the wing more energy than it takes.
-    pub powerless: u64,
+    pub negative_power: u64,
     /// Rows whose resonance is at an end of the range in which it was looked for.
     pub at_range_end: u64,
 }
@@ -86,7 +86,7 @@ pub struct Summary {
     /// Rows by status.
     pub statuses: Counts,
     /// Rows to be read with care.
-    pub doubts: Doubts,
+    pub warnings: Warnings,
     /// The conditions of the plan, in its order.
     pub unsatisfied: Vec<Unsatisfied>,
     /// The first few invalid points.
@@ -135,9 +135,7 @@ impl Summary {
         if let (Status::Invalid, Some(reason)) = (row.status, &row.reason)
             && self.invalid.len() < Summary::MOST_INVALID
         {
-            // Files have a reason in one line.
-            let reason = reason.replace(['\n', '\r'], " ");
-            self.invalid.push(InvalidPoint { point: index, reason });
+            self.invalid.push(InvalidPoint { point: index, reason: reason.clone() });
         }
         self.rows += 1;
         self.statuses.0[row.status as usize] += 1;
@@ -145,9 +143,9 @@ impl Summary {
         self.cycles += u64::from(row.cycles);
         let measure =
             |position: Option<usize>| position.and_then(|position| row.measures.get(position).copied());
-        self.doubts.inaccurate += u64::from(row.error_estimate > limits.accuracy);
-        self.doubts.powerless += u64::from(measure(limits.power).is_some_and(|power| power < 0.0));
-        self.doubts.at_range_end += u64::from(measure(limits.margin) == Some(0.0));
+        self.warnings.inaccurate += u64::from(row.error_estimate > limits.accuracy);
+        self.warnings.negative_power += u64::from(measure(limits.power).is_some_and(|power| power < 0.0));
+        self.warnings.at_range_end += u64::from(measure(limits.margin) == Some(0.0));
     }
 
     /// Adds the summary of other points of the same plan.
@@ -161,9 +159,9 @@ impl Summary {
         for (own, count) in self.statuses.0.iter_mut().zip(other.statuses.0) {
             *own += count;
         }
-        self.doubts.inaccurate += other.doubts.inaccurate;
-        self.doubts.powerless += other.doubts.powerless;
-        self.doubts.at_range_end += other.doubts.at_range_end;
+        self.warnings.inaccurate += other.warnings.inaccurate;
+        self.warnings.negative_power += other.warnings.negative_power;
+        self.warnings.at_range_end += other.warnings.at_range_end;
         for Unsatisfied { condition, points } in &other.unsatisfied {
             match self.unsatisfied.iter_mut().find(|known| known.condition == *condition) {
                 Some(known) => known.points += points,

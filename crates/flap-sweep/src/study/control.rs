@@ -1,9 +1,478 @@
 //! Control effectiveness of a vehicle: the change of its mean force and torque with each input, and trims.
 
-mod effectiveness;
-mod input;
-mod trim;
+use flap_core::num::Backend;
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{
+    Change, Gradients as _, Interrupt, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
+};
+use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
+use nalgebra::{DMatrix, DVector};
 
-pub use effectiveness::{COMPONENTS, ControlError, Effectiveness, Flight, Mode};
-pub use input::{Input, InputError, WORDS};
-pub use trim::{Target, Trim, TrimError, trim};
+use crate::plan::gradient::{self, is_least};
+
+/// Words for the parameters of a drive: each with the names that models have for it.
+pub const WORDS: [(&str, &[&str]); 6] = [
+    ("amplitude", &["drive_voltage_pp"]),
+    ("bias", &["drive_offset", "drive_bias"]),
+    ("frequency", &["drive_frequency"]),
+    ("second_harmonic", &["drive_second_harmonic"]),
+    ("second_phase", &["drive_second_phase"]),
+    ("third_harmonic", &["drive_third_harmonic"]),
+];
+
+/// The last part of the names of differences in words.
+const DIFFERENCE: &str = "_difference";
+
+/// An input of a vehicle: one of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// The name as given: a parameter, or a word such as `bias_difference`.
+    pub name: String,
+    /// Index in the vehicle's parameter table.
+    pub parameter: usize,
+    /// Unit in which people give it: such as `V`, `deg`, or empty.
+    pub unit: &'static str,
+    /// That unit in SI.
+    pub factor: f64,
+}
+
+/// The reason why there is no such input.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InputError {
+    /// The vehicle has no such parameter.
+    #[error("the vehicle has no input `{0}`")]
+    Unknown(String),
+    /// The parameter is a choice.
+    #[error("`{0}` is a choice, not an input")]
+    Choice(String),
+}
+
+impl Input {
+    /// The input called `name`: a parameter of the vehicle, or one of [`WORDS`], alone for all wings, behind the name of a
+    /// wing for that one (`left_bias`), or in front of `_difference` for the left-right difference.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, InputError> {
+        let parameters = parameters(vehicle);
+        let unknown = || InputError::Unknown(name.to_owned());
+        let index = names(vehicle, name)
+            .iter()
+            .find_map(|name| Parameter::index(parameters, name))
+            .ok_or_else(unknown)?;
+        let parameter = &parameters[index];
+        if let Kind::Choice(_) = parameter.kind {
+            return Err(InputError::Choice(name.to_owned()));
+        }
+        let (unit, factor) = match parameter.unit {
+            "rad" => ("deg", 1.0_f64.to_radians()),
+            "m" => ("mm", 1e-3),
+            "kg" => ("mg", 1e-6),
+            unit => (unit, 1.0),
+        };
+        Ok(Input { name: name.to_owned(), parameter: index, unit, factor })
+    }
+
+    /// The inputs that a vehicle has by default: amplitude, bias and, if its drive has harmonics, the second one; each for all
+    /// wings and, where there are a left and a right one, as a difference.
+    pub fn usual(vehicle: &Vehicle, has_harmonics: bool) -> Vec<Input> {
+        let words = ["amplitude", "bias", "second_harmonic"];
+        let words = if has_harmonics { &words[..] } else { &words[..2] };
+        let names = words.iter().flat_map(|word| [(*word).to_owned(), format!("{word}{DIFFERENCE}")]);
+        names.filter_map(|name| Input::of(vehicle, &name).ok()).collect()
+    }
+
+    /// All names of inputs, for suggestions.
+    pub fn names(vehicle: &Vehicle) -> Vec<String> {
+        let words = WORDS.iter().flat_map(|(word, _)| {
+            let of_wings = vehicle.mounts().iter().map(move |mount| format!("{}_{word}", mount.name));
+            [(*word).to_owned(), format!("{word}{DIFFERENCE}")].into_iter().chain(of_wings)
+        });
+        let words = words.filter(|name| Input::of(vehicle, name).is_ok());
+        let parameters = parameters(vehicle).iter();
+        let numbers = parameters.filter(|parameter| !matches!(parameter.kind, Kind::Choice(_)));
+        words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
+    }
+
+    /// The size of its parameter (SI), from which changes are measured; `None` if it is not known.
+    fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
+        gradient::size(vehicle, values, self.parameter).map(f64::abs)
+    }
+}
+
+/// The vehicle's parameter table.
+fn parameters(vehicle: &Vehicle) -> &[Parameter<'_>] {
+    use flap_core::simulate::Simulator as _;
+    vehicle.parameters()
+}
+
+/// The parameters that a name may stand for.
+fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
+    let mut names = vec![name.to_owned()];
+    let mut add = |word: &str, first: &str| {
+        let known = WORDS.iter().find(|(known, _)| *known == word);
+        names.extend(
+            known.iter().flat_map(|(_, of_models)| of_models.iter().map(|one| format!("{first}{one}"))),
+        );
+    };
+    add(name, "");
+    if let Some(word) = name.strip_suffix(DIFFERENCE) {
+        add(word, "difference_");
+    }
+    for mount in vehicle.mounts() {
+        if let Some(word) = name.strip_prefix(&format!("{}_", mount.name)) {
+            add(word, &format!("{}_", mount.name));
+        }
+    }
+    names
+}
+
+/// Steps of Newton's iteration.
+const MOST_STEPS: usize = 40;
+
+/// The share of a target to which it is met; where the error of the motion allows no more, of the largest component.
+const TOLERANCE: f64 = 1e-6;
+
+/// The largest change of the inputs in a step, in their typical sizes.
+const LARGEST_STEP: f64 = 0.2;
+
+/// The smallest part of a step that is tried.
+const SMALLEST_PART: f64 = 1e-3;
+
+/// A wanted component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Its place in [`COMPONENTS`].
+    pub component: usize,
+    /// The wanted value (mN or uN·m).
+    pub value: f64,
+}
+
+/// Inputs that give the wanted force and torque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trim {
+    /// The control effectiveness there, with the values of the inputs.
+    pub at: Effectiveness,
+    /// Steps of Newton's iteration.
+    pub steps: usize,
+}
+
+/// The reason why there is no trim.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TrimError {
+    /// More targets than inputs.
+    #[error("{targets} targets need as many inputs, not {inputs}")]
+    FewInputs {
+        /// Number of targets.
+        targets: usize,
+        /// Number of inputs.
+        inputs: usize,
+    },
+    /// The iteration comes no nearer.
+    #[error("the targets are not reached: {}", nearest(at, targets))]
+    NotReached {
+        /// The nearest point.
+        at: Box<Effectiveness>,
+        /// The targets.
+        targets: Vec<Target>,
+    },
+    /// The effectiveness is not known.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+}
+
+fn nearest(at: &Effectiveness, targets: &[Target]) -> String {
+    let parts = targets.iter().map(|target| {
+        format!(
+            "{} = {:.4} instead of {}",
+            COMPONENTS[target.component], at.wrench[target.component], target.value
+        )
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// The inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives. Where there are more inputs
+/// than targets, each step is the smallest one, in typical sizes of the inputs.
+///
+/// # Errors
+/// If there are fewer inputs than targets, the motion is not periodic at the beginning, or the targets are not reached.
+pub fn trim(
+    flight: &Flight<'_>,
+    values: &[f64],
+    inputs: &[Input],
+    targets: &[Target],
+) -> Result<Trim, TrimError> {
+    if targets.len() > inputs.len() {
+        return Err(TrimError::FewInputs { targets: targets.len(), inputs: inputs.len() });
+    }
+    let mut values = own_values(flight.vehicle, values, inputs);
+    let sizes: Option<Vec<f64>> = inputs.iter().map(|input| input.size(flight.vehicle, &values)).collect();
+    let Some(sizes) = sizes else {
+        let without = inputs.iter().find(|input| input.size(flight.vehicle, &values).is_none());
+        let name = without.map_or_else(String::new, |input| input.name.clone());
+        return Err(ControlError::NoSize(name).into());
+    };
+    let mut at = flight.effectiveness(&values, inputs, None)?;
+    let mut taken = 0;
+    let own = own_sizes(&at.wrench, targets);
+    for steps in 0..MOST_STEPS {
+        let missed = missed_by(&at.wrench, targets);
+        if is_met(&missed, &own) {
+            return Ok(Trim { at, steps });
+        }
+        let slopes = DMatrix::from_fn(targets.len(), inputs.len(), |i, j| {
+            at.matrix[(targets[i].component, j)] / inputs[j].factor * sizes[j]
+        });
+        let step =
+            slopes.svd(true, true).solve(&missed, 1e-12).unwrap_or_else(|_| DVector::zeros(inputs.len()));
+        let largest = step.amax();
+        let mut part = if largest > LARGEST_STEP { LARGEST_STEP / largest } else { 1.0 };
+        let next = loop {
+            let mut tried = values.clone();
+            for ((input, size), step) in inputs.iter().zip(&sizes).zip(step.iter()) {
+                tried[input.parameter] += part * size * step;
+            }
+            let row = flight.row(&tried, Some(&at.row.state));
+            let better = row.status == Status::Periodic && {
+                let left = missed_by(&flight.wrench(&row), targets);
+                left.component_div(&own).norm() < missed.component_div(&own).norm()
+            };
+            if better {
+                break Some((tried, row));
+            }
+            part *= 0.5;
+            if part < SMALLEST_PART {
+                break None;
+            }
+        };
+        let Some((tried, row)) = next else { break };
+        values = tried;
+        taken = steps + 1;
+        at = flight.effectiveness(&values, inputs, Some(&row.state))?;
+    }
+    let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
+    if is_met(&missed_by(&at.wrench, targets), &all) {
+        return Ok(Trim { at, steps: taken });
+    }
+    Err(TrimError::NotReached { at: Box::new(at), targets: targets.to_vec() })
+}
+
+/// The targets less the components.
+fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
+    let missed = targets.iter().map(|target| target.value - wrench[target.component]);
+    DVector::from_iterator(targets.len(), missed)
+}
+
+/// The largest of the components and the targets.
+fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
+    let targets = targets.iter().map(|target| &target.value);
+    wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
+}
+
+/// The size of each target: its own, or the largest of all if it is zero.
+fn own_sizes(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
+    let largest = largest(wrench, targets);
+    let own = targets.iter().map(|target| if target.value == 0.0 { largest } else { target.value.abs() });
+    DVector::from_iterator(targets.len(), own)
+}
+
+/// True if all targets are met but for a small share of these sizes.
+fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
+    missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
+}
+
+/// Force and torque: the columns of rows.
+pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
+
+/// The share of the largest effect of an input below which another one has none.
+const IDLE: f64 = 1e-9;
+
+/// The reason why a vehicle's control effectiveness is not known.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ControlError {
+    /// The motion of its wings has no derivatives.
+    #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason.as_deref()))]
+    NotPeriodic {
+        /// Status of its row.
+        status: Status,
+        /// The reason of an invalid row.
+        reason: Option<String>,
+    },
+    /// An input that is zero, and has no size by which it may be changed.
+    #[error("`{0}` is zero and has no typical size: give it a value")]
+    NoSize(String),
+    /// A derivative is not known.
+    #[error("the derivative of {of} by `{by}` is not known: {}", reason.name())]
+    NoSlope {
+        /// The component.
+        of: &'static str,
+        /// The input.
+        by: String,
+        /// The reason.
+        reason: NoSlope,
+    },
+    /// The motion cannot be followed.
+    #[error(transparent)]
+    Unfinished(#[from] Unfinished),
+}
+
+fn because(reason: Option<&str>) -> String {
+    reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
+}
+
+/// A vehicle at an operating point.
+pub struct Flight<'f> {
+    /// The vehicle.
+    pub vehicle: &'f Vehicle,
+    /// Settings of its integration.
+    pub solver: &'f SolverSettings,
+    /// Ends the work early.
+    pub interrupted: Interrupt<'f>,
+}
+
+/// The change of a vehicle's mean force and torque with its inputs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effectiveness {
+    /// The inputs, in the order of the columns.
+    pub inputs: Vec<Input>,
+    /// The values of the inputs, in their units.
+    pub values: Vec<f64>,
+    /// Mean force (mN) and torque (uN·m), see [`COMPONENTS`].
+    pub wrench: [f64; 6],
+    /// 6 × inputs: the change of each component, in mN or uN·m, per unit of each input.
+    pub matrix: DMatrix<f64>,
+    /// The row at the operating point.
+    pub row: Row,
+}
+
+/// A combination of inputs, and the combination of force and torque that it makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Singular value: force (mN) and torque (uN·m, which is mN at 1 mm) per unit of the combination.
+    pub size: f64,
+    /// Shares of the components, a vector of length 1.
+    pub components: [f64; 6],
+    /// Shares of the inputs, a vector of length 1.
+    pub inputs: Vec<f64>,
+}
+
+impl Flight<'_> {
+    /// The row at these values of the vehicle's parameters, near the state `begin` if one is given.
+    pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
+        let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
+        self.vehicle.run_point(&run, begin)
+    }
+
+    /// Mean force (mN) and torque (uN·m) of a row with measures.
+    pub fn wrench(&self, row: &Row) -> [f64; 6] {
+        COMPONENTS.map(|name| row.measures[self.place(name)])
+    }
+
+    fn place(&self, component: &str) -> usize {
+        self.vehicle.columns().iter().position(|column| column.name == component).unwrap_or_default()
+    }
+
+    /// The control effectiveness of `inputs` at these values, from the exact derivatives of the settled orbit. A wing's own
+    /// parameter that has no value takes that of all wings.
+    ///
+    /// # Errors
+    /// If the motion is not periodic, or a derivative is not known.
+    pub fn effectiveness(
+        &self,
+        values: &[f64],
+        inputs: &[Input],
+        begin: Option<&[f64]>,
+    ) -> Result<Effectiveness, ControlError> {
+        let values = own_values(self.vehicle, values, inputs);
+        let row = self.row(&values, begin);
+        if (self.interrupted)() {
+            return Err(Unfinished::Interrupted.into());
+        }
+        if row.status != Status::Periodic {
+            return Err(ControlError::NotPeriodic { status: row.status, reason: row.reason });
+        }
+        let mut changes = Vec::with_capacity(inputs.len());
+        for input in inputs {
+            let size = input.size(self.vehicle, &values);
+            let size = size.ok_or_else(|| ControlError::NoSize(input.name.clone()))? * Change::SHARE;
+            let moved = |by: f64| {
+                let mut values = values.clone();
+                values[input.parameter] += by;
+                values
+            };
+            // What can only grow has a one-sided difference; at rest, that would be the square of the change.
+            let at_rest = row.floquet_max.is_nan();
+            let is_one_sided = !at_rest && is_least(parameters(self.vehicle), &values, input.parameter);
+            let behind = moved(if is_one_sided { 0.0 } else { -size });
+            changes.push(Change { ahead: moved(size), behind, size });
+        }
+        let run = PointRun::new(Backend::best(), self.solver, &values).until(self.interrupted);
+        let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
+        let mut matrix = DMatrix::zeros(6, inputs.len());
+        for (j, (input, slopes)) in inputs.iter().zip(&gradient.slopes).enumerate() {
+            for (i, of) in COMPONENTS.into_iter().enumerate() {
+                let slope = slopes[self.place(of)];
+                let by = || input.name.clone();
+                matrix[(i, j)] =
+                    slope.map_err(|reason| ControlError::NoSlope { of, by: by(), reason })? * input.factor;
+            }
+        }
+        Ok(Effectiveness {
+            values: inputs.iter().map(|input| values[input.parameter] / input.factor).collect(),
+            inputs: inputs.to_vec(),
+            wrench: self.wrench(&row),
+            matrix,
+            row,
+        })
+    }
+}
+
+/// The values with those of all wings in place of a wing's own that are not set.
+fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
+    let mut filled = values.to_vec();
+    for input in inputs {
+        filled[input.parameter] = standing(parameters(vehicle), values, input.parameter);
+    }
+    filled
+}
+
+impl Effectiveness {
+    /// The same without inputs that change nothing beside the others, unless none is left.
+    pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
+        let effects = self.inputs.iter().enumerate().map(|(j, input)| {
+            let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
+            self.matrix.column(j).amax() * size
+        });
+        let effects: Vec<f64> = effects.collect();
+        let largest = effects.iter().copied().fold(0.0, f64::max);
+        let kept: Vec<usize> = (0..effects.len()).filter(|&j| effects[j] > IDLE * largest).collect();
+        if !kept.is_empty() {
+            self.inputs = kept.iter().map(|&j| self.inputs[j].clone()).collect();
+            self.values = kept.iter().map(|&j| self.values[j]).collect();
+            self.matrix = self.matrix.select_columns(&kept);
+        }
+        self
+    }
+
+    /// The combinations of inputs that make force and torque, the strongest first: the singular value decomposition of the
+    /// matrix.
+    pub fn modes(&self) -> Vec<Mode> {
+        let decomposed = self.matrix.clone().svd(true, true);
+        let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };
+        let modes = decomposed.singular_values.iter().enumerate().map(|(i, &size)| {
+            let inputs: Vec<f64> = v_t.row(i).iter().copied().collect();
+            // The largest share of the inputs is positive.
+            let largest = inputs
+                .iter()
+                .copied()
+                .fold(0.0, |one: f64, other| if other.abs() > one.abs() { other } else { one });
+            let sign = 1.0_f64.copysign(largest);
+            Mode {
+                size,
+                components: core::array::from_fn(|j| sign * u[(j, i)]),
+                inputs: inputs.into_iter().map(|share| sign * share).collect(),
+            }
+        });
+        modes.collect()
+    }
+}

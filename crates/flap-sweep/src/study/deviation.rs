@@ -4,7 +4,7 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 
 use crate::notation::text;
 use crate::notation::units;
-use crate::plan::axis::Values;
+use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
 use crate::plan::{Plan, Value};
 

@@ -1,13 +1,12 @@
-//! The columns of a result file: their order, their meaning and their cells.
+//! The columns of a result file: their order, their meaning and their cells; the columns that all models share.
 
+use std::borrow::Cow;
 use std::sync::LazyLock;
 
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{NoSlope, Point, Row};
 
-pub use super::column::{Cell, Column, Kind};
-use super::fixed::{BISTABLE, CURVE, Fixed, POINT, RUN, STATUS};
-use crate::notation::expression;
+use crate::notation::{expression, text};
 use crate::plan::Plan;
 use crate::plan::gradient::{self, column_name, meaning};
 
@@ -311,3 +310,162 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     let split = ENDINGS.iter().find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, *unit)));
     split.unwrap_or((name, ""))
 }
+
+/// A column of a result file, as tables with types and units see it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name, with its unit for a measure.
+    pub name: String,
+    /// The unit in words; empty for what has none.
+    pub unit: Cow<'static, str>,
+    /// The type of its cells. Any cell may be empty.
+    pub kind: Kind,
+    /// One line of meaning.
+    pub doc: String,
+}
+
+/// The type of the cells of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Whole numbers from 0.
+    Whole,
+    /// Numbers.
+    Number,
+    /// `true` or `false`.
+    Flag,
+    /// Words.
+    Text,
+}
+
+impl Column {
+    pub(crate) fn new(name: &str, unit: impl Into<Cow<'static, str>>, kind: Kind, doc: &str) -> Column {
+        Column { name: name.to_owned(), unit: unit.into(), kind, doc: doc.to_owned() }
+    }
+
+    pub(crate) fn of_parameter(parameter: &Parameter) -> Column {
+        let kind = match parameter.kind {
+            parameter::Kind::Choice(_) => Kind::Text,
+            parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
+        };
+        Column::new(parameter.name, parameter.unit, kind, parameter.doc)
+    }
+}
+
+/// The entry of a row in a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'t> {
+    /// A whole number.
+    Whole(u64),
+    /// A number; NaN if it is not known.
+    Number(f64),
+    /// True or false; `None` if it is not known.
+    Flag(Option<bool>),
+    /// A word.
+    Text(&'t str),
+}
+
+impl<'t> Cell<'t> {
+    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell<'static> {
+        text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
+    }
+
+    /// The cell of a column of this `kind` from its text in a result file; `None` if that does not belong there.
+    pub fn parse(kind: Kind, text: &'t str) -> Option<Cell<'t>> {
+        let is_unknown = text.is_empty();
+        Some(match kind {
+            Kind::Whole => Cell::Whole(text.parse().ok()?),
+            Kind::Number => Cell::Number(if is_unknown { f64::NAN } else { text.parse().ok()? }),
+            Kind::Flag => Cell::Flag(if is_unknown { None } else { Some(text.parse().ok()?) }),
+            Kind::Text => Cell::Text(text),
+        })
+    }
+}
+
+/// A column that does not depend on the model.
+#[derive(Debug)]
+pub(crate) struct Fixed {
+    /// Its name.
+    pub(crate) name: &'static str,
+    pub(super) kind: Kind,
+    pub(crate) doc: &'static str,
+    pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
+}
+
+/// The first column.
+pub(crate) const POINT: Fixed = Fixed {
+    name: "point",
+    kind: Kind::Whole,
+    doc: "index of the point in the grid, from 0",
+    cell: |point, _| Cell::Whole(point.index),
+};
+
+/// The column before the measures.
+pub(crate) const STATUS: Fixed = Fixed {
+    name: "status",
+    kind: Kind::Text,
+    doc: "result of the search for an orbit, such as periodic or unsettled",
+    cell: |_, row| Cell::Text(row.status.name()),
+};
+
+/// The name of the column of curves that is true where the ways up and down have different motions.
+pub(crate) const BISTABLE: &str = "bistable";
+
+/// True if measures cannot be called `name`: rows may have another column of that name.
+pub(crate) fn is_fixed(name: &str) -> bool {
+    name == BISTABLE || [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
+}
+
+/// The columns on the course of a run, behind the measures.
+pub(crate) const RUN: [Fixed; 7] = [
+    Fixed {
+        name: "cycles",
+        kind: Kind::Whole,
+        doc: "drive periods integrated, those of the measurement included",
+        cell: |_, row| Cell::Whole(row.cycles.into()),
+    },
+    Fixed {
+        name: "residual",
+        kind: Kind::Number,
+        doc: "change of the state over the last period of the motion, in units of settle_tol",
+        cell: |_, row| Cell::Number(row.residual),
+    },
+    Fixed {
+        name: "period",
+        kind: Kind::Whole,
+        doc: "drive periods until the motion repeats; 0 if no orbit was found",
+        cell: |_, row| Cell::Whole(row.period.into()),
+    },
+    Fixed {
+        name: "floquet_max",
+        kind: Kind::Number,
+        doc: "factor by which a change of the motion grows or decays per orbit in the end: below 1 the motion is stable, near 1 it \
+              settles slowly",
+        cell: |_, row| Cell::Number(row.floquet_max),
+    },
+    Fixed {
+        name: "stable",
+        kind: Kind::Flag,
+        doc: "true if motions near the orbit approach it",
+        cell: |_, row| Cell::Flag(row.stable()),
+    },
+    Fixed {
+        name: "error_estimate",
+        kind: Kind::Number,
+        doc: "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
+        cell: |_, row| Cell::Number(row.error_estimate),
+    },
+    Fixed {
+        name: "rhs_evals",
+        kind: Kind::Whole,
+        doc: "evaluations of the equations of motion",
+        cell: |_, row| Cell::Whole(row.rhs_evals),
+    },
+];
+
+/// The first column of curves, in place of `point`.
+pub(crate) const CURVE: Fixed = Fixed {
+    name: "curve",
+    kind: Kind::Whole,
+    doc: "index of the design in the grid, from 0",
+    cell: |point, _| Cell::Whole(point.index),
+};

@@ -1,7 +1,5 @@
 //! Tables of rows: their columns, rows as text, and the formats of their files.
 
-mod column;
-pub(crate) mod fixed;
 pub mod format;
 pub mod labels;
 pub mod layout;

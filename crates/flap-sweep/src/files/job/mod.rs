@@ -8,25 +8,22 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::files::beside::sidecar_of;
-use crate::files::csv_sink::CsvSink;
-use crate::files::inputs::Inputs;
-use crate::files::output::{self, CreateError, Output};
-use crate::files::results::Format;
-use crate::files::session::{Session, SessionOptions};
-use crate::files::sidecar::{Origin, Sidecar};
-use crate::files::{companions, disk, replacement};
+use super::beside::sidecar_of;
+use super::csv_sink::CsvSink;
+use super::inputs::{Inputs, Overlap};
+use super::integrity::OpenError;
+use super::output::{self, CreateError, Output};
+pub use super::replacement::{to_resume, unfinished};
+use super::results::{Format, FormatError};
+use super::session::{ResumeError, Session, SessionOptions};
+use super::sidecar::{Origin, Sidecar};
+use super::{disk, replacement};
 use crate::notation::time;
 use crate::plan::Plan;
 use crate::run::{RunError, Sink, Summary};
 use crate::table::layout::Layout;
 
-mod error;
-mod resume;
-
-pub use error::JobError;
-
-pub use crate::files::replacement::{to_resume, unfinished};
+mod earlier;
 
 /// A plan that is to be run, and the file for its rows.
 pub struct Job<'a> {
@@ -150,7 +147,7 @@ impl<'a> Job<'a> {
         if overwrite {
             replacement::discard(&self.out).map_err(refused)?;
         }
-        let has_rows = !disk::is_empty(&self.out) || companions::has_journal(&self.out).map_err(refused)?;
+        let has_rows = !disk::is_empty(&self.out) || replacement::has_journal(&self.out).map_err(refused)?;
         if !overwrite || !has_rows {
             let target = self.start_at((&self.out, format), file, false)?;
             return Ok(Writing { unlocked, ..self.writing(target, Summary::default()) }.into());
@@ -183,7 +180,7 @@ impl<'a> Job<'a> {
         });
         let session = begun.inspect_err(|_| {
             // Nothing is in these files. The first error is the one to report.
-            let _ = companions::remove(place).and_then(|()| fs::remove_file(disk::target(place)));
+            let _ = replacement::remove_companions(place).and_then(|()| fs::remove_file(disk::target(place)));
         })?;
         Ok(Target::Session(Box::new(session), Box::new(sidecar)))
     }
@@ -201,7 +198,7 @@ impl<'a> Job<'a> {
     /// Gives the complete results at `place` their name, and removes the files that they do not need.
     fn complete(&self, place: &Path) -> Result<(), JobError> {
         let completed = if place == self.out {
-            companions::remove_progress(place)
+            replacement::remove_progress(place)
         } else {
             replacement::commit(&self.out)
         };
@@ -269,4 +266,82 @@ impl Writing<'_> {
 fn write_sidecar(place: &Path, sidecar: &Sidecar, resumable: bool) -> Result<(), JobError> {
     let path = sidecar_of(place);
     sidecar.write(&path).map_err(|error| JobError::write(&path, error, resumable))
+}
+
+/// Reason why a job failed.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// The results would overwrite a file that they are made from.
+    #[error(transparent)]
+    Overlap(#[from] Overlap),
+    /// The name stands for no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The results cannot be made.
+    #[error(transparent)]
+    Create(#[from] CreateError),
+    /// A file has the name of the results, and does not hold their rows.
+    #[error("{} exists already{}", path.display(), other_rows(changes))]
+    Exists {
+        /// The file.
+        path: PathBuf,
+        /// The differences between its rows and those of the job, in words; empty if they are not known.
+        changes: Vec<String>,
+        /// The first line of the grid file that differs, in words.
+        changed: Option<String>,
+    },
+    /// A file has the name of the results, and is the unfinished result of an interrupted sweep.
+    #[error("{} is the unfinished result of an interrupted sweep{}", path.display(), other_rows(changes))]
+    Unfinished {
+        /// The file.
+        path: PathBuf,
+        /// The differences between its rows and those of the job, in words.
+        changes: Vec<String>,
+        /// The first line of the grid file that has changed, in words.
+        changed: Option<String>,
+        /// True if the sweep that began the rows can be continued from its sidecar.
+        continues: bool,
+    },
+    /// The run cannot be resumed.
+    #[error("{error}")]
+    Resume {
+        /// The reason.
+        error: ResumeError,
+        /// The first line of the grid file that has changed, in words.
+        changed: Option<String>,
+        /// True if the sweep that began the rows can be continued from its sidecar.
+        continues: bool,
+    },
+    /// The results are complete, but they or their sidecar are damaged or cannot be read.
+    #[error(transparent)]
+    Open(OpenError),
+    /// A file beside the results cannot be written, or they cannot be completed.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+        /// True if the run can be resumed.
+        resumable: bool,
+    },
+    /// The run failed.
+    #[error("{error}")]
+    Run {
+        /// The reason.
+        error: RunError,
+        /// True if the run can be resumed: if its rows went into a file.
+        resumable: bool,
+    },
+}
+
+/// The differences of existing rows, as the end of a message.
+fn other_rows(changes: &[String]) -> String {
+    if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
+}
+
+impl JobError {
+    fn write(path: &Path, source: io::Error, resumable: bool) -> JobError {
+        JobError::Write { path: path.to_owned(), source, resumable }
+    }
 }

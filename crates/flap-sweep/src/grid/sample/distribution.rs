@@ -3,11 +3,11 @@
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
-use super::super::problems::Problems;
-use super::super::table::{self, Entry};
-use super::super::{axes, value};
+use crate::grid::problems::Problems;
+use crate::grid::table::{self, Entry};
+use crate::grid::{axes, value};
 use crate::plan::Value;
-use crate::plan::axis::Values;
+use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
 
 pub(in crate::grid) const KEYS: [&str; 6] = ["from", "to", "scale", "mean", "sd", "relative_sd"];

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use csv::ByteRecord;
 use flap_core::parameter::Parameter;
 
-use super::super::axes::Placed;
-use super::super::lookup::Lookup;
-use super::super::table::{self, Entry};
-use super::super::value::text as text_of;
+use crate::grid::axes::Placed;
+use crate::grid::lookup::Lookup;
+use crate::grid::table::{self, Entry};
+use crate::grid::value::text as text_of;
 use crate::input::{self, MOST_LISTED};
 use crate::notation::units;
 use crate::notation::value::{self, UnitOf};
-use crate::plan::axis::{Axis, Values};
+use crate::plan::axes::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
 /// Mistakes in cells that are reported; a file with more has the wrong columns.

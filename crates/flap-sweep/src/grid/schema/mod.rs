@@ -4,16 +4,13 @@
 //! contradictions are left to the check.
 
 mod model;
-mod parameter;
-mod part;
 mod sections;
-mod vehicle;
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 use serde_json::{Value, json};
 
-use super::keys::KEYS;
+use super::table::KEYS;
 
 /// The schema of grid files with the presets of these models (draft 2020-12).
 pub fn of_models(models: &[&'static dyn Simulator]) -> Value {
@@ -26,14 +23,14 @@ pub fn of_preset(model: &'static dyn Simulator, preset: &Preset) -> Value {
 }
 
 fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
-    let mut definitions = parameter::shared();
+    let mut definitions = model::shared();
     for &model in models {
         model::define(model, defaults, &mut definitions);
     }
-    let properties = part::properties(KEYS, |key| match key {
-        "description" | "device" => part::text(sections::about(key)),
+    let properties = sections::properties(KEYS, |key| match key {
+        "description" | "device" => sections::text(sections::about(key)),
         "preset" => sections::preset(models),
-        "vehicle" => vehicle::section(models),
+        "vehicle" => sections::vehicle(models),
         "resonance" => sections::resonance(),
         "where" => sections::conditions(),
         "measure" => sections::measures(),
@@ -62,7 +59,8 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
 /// A section that differs between models. The preset decides which model's applies; here each is named, so that editors know
 /// all keys, beside the empty schema, which accepts anything.
 fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
-    let references = models.iter().map(|model| part::to(&format!("{}/properties/{section}", model.name())));
+    let references =
+        models.iter().map(|model| sections::to(&format!("{}/properties/{section}", model.name())));
     let any: Vec<Value> = [json!({})].into_iter().chain(references).collect();
     json!({"description": sections::about(section), "anyOf": any})
 }
@@ -75,7 +73,7 @@ fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
     let mut is_named = json!({"properties": {"preset": {"enum": presets}}});
     // The parameters and columns of a vehicle have the names of its wings in them.
-    let mut rules = json!({"if": {"not": {"required": ["vehicle"]}}, "then": part::to(model.name())});
+    let mut rules = json!({"if": {"not": {"required": ["vehicle"]}}, "then": sections::to(model.name())});
     if only {
         rules = json!({"allOf": [rules, begins]});
     } else {

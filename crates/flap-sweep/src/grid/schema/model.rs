@@ -1,17 +1,196 @@
-//! The sections of a grid file that differ between models.
+//! The schemas of one model: of each parameter, as a value, along an axis and as a distribution, and of the sections with them.
+
+use std::fmt::Write as _;
 
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Simulator};
 use serde_json::{Map, Value, json};
 
-use super::super::sample::{FILE_KEYS, KEYS as SAMPLE_KEYS, METHODS, OF};
-use super::super::uncertainty::CORRELATION_KEYS;
-use super::super::{gradient, output, resonance};
-use super::sections::about;
-use super::{parameter, part};
+use super::sections::{self, about, capitalized};
+use crate::grid::sample::{FILE_KEYS, KEYS as SAMPLE_KEYS, METHODS, OF, distribution};
+use crate::grid::uncertainty::{CORRELATION_KEYS, VALUE_KEYS};
+use crate::grid::{gradient, output, range, resonance};
+use crate::notation::text;
+use crate::notation::units::prefixed;
+use crate::plan::axes::Axes;
 use crate::plan::sample::Design;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
-use crate::table::fixed::{Fixed, RUN};
+use crate::table::layout::{Fixed, RUN};
+
+/// The definitions that all parameters share: of numbers that describe values along axes and their distributions.
+pub(super) fn shared() -> Map<String, Value> {
+    let keys = ["n", "step", "scale", "sd", "relative_sd", "source"];
+    sections::properties(keys, |key| match key {
+        "n" => sections::count("Number of values, both ends included.", Axes::MAX_POINTS),
+        "step" => sections::quantity("Distance between values, in place of `n`.", false),
+        "scale" => sections::choice("Spacing of the values. Default: linear.", &range::SCALES),
+        "sd" => sections::positive("Standard deviation in the unit of the parameter.", false),
+        "relative_sd" => {
+            sections::positive("Standard deviation as a share of the value, such as \"5 %\".", false)
+        }
+        _ => sections::text("The place that the value comes from, in your words."),
+    })
+}
+
+/// A single value of the parameter with this place in the model's table.
+pub(super) fn value(model: &dyn Simulator, place: usize, defaults: Option<&Preset>) -> Value {
+    let parameter = &model.parameters()[place];
+    let description = description(model, place);
+    let mut schema = match parameter.kind {
+        Kind::Choice(options) => sections::choice(&description, options),
+        Kind::Number(allowed) | Kind::Following(allowed, _) => {
+            let mut schema = sections::quantity(&description, !parameter.unit.is_empty());
+            limit(&mut schema, allowed);
+            schema
+        }
+    };
+    let default = defaults.map(|preset| (preset.values)()[place]).filter(|value| !value.is_nan());
+    if let Some(default) = default {
+        schema["default"] = default_of(parameter, default);
+    }
+    schema
+}
+
+/// Puts the range of numbers into the schema.
+fn limit(schema: &mut Value, allowed: Range) {
+    let limits = match allowed {
+        Range::Any => vec![],
+        Range::NonNegative => vec![("minimum", json!(0))],
+        Range::Positive => vec![("exclusiveMinimum", json!(0))],
+        Range::Between(low, high) => {
+            vec![("exclusiveMinimum", json!(low)), ("exclusiveMaximum", json!(high))]
+        }
+        Range::Share => vec![("minimum", json!(0)), ("maximum", json!(1))],
+        Range::Whole(first, last) => {
+            vec![("minimum", json!(first)), ("maximum", json!(last)), ("multipleOf", json!(1))]
+        }
+    };
+    for (key, limit) in limits {
+        schema[key] = limit;
+    }
+}
+
+/// A default as a user writes it.
+fn default_of(parameter: &Parameter, value: f64) -> Value {
+    match parameter.kind {
+        Kind::Choice(_) => json!(text::value(parameter, value)),
+        _ if parameter.unit.is_empty() => json!(value),
+        _ => json!(prefixed(value, parameter.unit)),
+    }
+}
+
+/// Meaning, symbol, unit, range, and the values of the presets.
+fn description(model: &dyn Simulator, place: usize) -> String {
+    let parameter = &model.parameters()[place];
+    let Parameter { unit, symbol, kind, .. } = parameter;
+    let mut lines = meaning(parameter);
+    if !symbol.is_empty() {
+        let _ = write!(lines, " Symbol: {symbol}.");
+    }
+    match kind {
+        Kind::Number(range) => lines += &numbers(unit, *range),
+        Kind::Following(range, follows) => {
+            lines += &numbers(unit, *range);
+            let _ = write!(lines, "\n\nIf not set: {follows}.");
+        }
+        Kind::Choice(_) => {}
+    }
+    for preset in model.presets() {
+        let value = (preset.values)()[place];
+        let value = match kind {
+            _ if value.is_nan() => "not set".to_owned(),
+            Kind::Choice(_) => text::value(parameter, value),
+            _ => prefixed(value, unit),
+        };
+        let _ = write!(lines, "\n\n{}: {value}", preset.name);
+    }
+    lines
+}
+
+/// The meaning as a sentence.
+fn meaning(parameter: &Parameter) -> String {
+    capitalized(parameter.doc.trim_end_matches('.')) + "."
+}
+
+/// Unit and range in words.
+fn numbers(unit: &str, range: Range) -> String {
+    let form = if unit.is_empty() {
+        "A number, or text such as \"5 %\"".to_owned()
+    } else {
+        format!("A number in {unit}, or text with a unit")
+    };
+    format!("\n\n{form}; {}.", range.describe())
+}
+
+/// A value with its standard error. `value` is the schema of the value.
+pub(super) fn uncertain(parameter: &Parameter, value: &Value) -> Value {
+    let keys =
+        sections::properties(
+            VALUE_KEYS,
+            |key| if key == "value" { value.clone() } else { sections::to(key) },
+        );
+    let mut table =
+        sections::table(&format!("{}\n\nA value with its standard error.", meaning(parameter)), keys);
+    table["required"] = json!(["value"]);
+    table["not"] = json!({"required": ["sd", "relative_sd"]});
+    table
+}
+
+/// The values of a parameter along an axis: a list, or a range. `value` is the schema of one of them.
+pub(super) fn axis(parameter: &Parameter, value: &Value) -> Value {
+    let meaning = meaning(parameter);
+    if let Kind::Choice(_) = parameter.kind {
+        return json!({
+            "description": format!("{meaning}\n\nA list of options."),
+            "type": "array", "items": value, "minItems": 1,
+        });
+    }
+    let keys = sections::properties(range::KEYS, |key| match key {
+        "from" | "to" => value.clone(),
+        _ => sections::to(key),
+    });
+    json!({
+        "description": format!(
+            "{meaning}\n\nA list such as [1, 2, 5], or a range such as {{ from = 1, to = 5, n = 9 }} or \
+             {{ from = 1, to = 5, step = 0.5 }}."
+        ),
+        "type": ["array", "object"],
+        "items": value,
+        "minItems": 1,
+        "properties": keys,
+        "additionalProperties": false,
+        "required": ["from", "to"],
+        "if": {"required": ["n"]},
+        "then": {"not": {"type": "object", "required": ["step"]}},
+        "else": {"required": ["step"]},
+    })
+}
+
+/// The distribution of a parameter, or a list of values. `value` is the schema of a value.
+pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
+    if let Kind::Choice(_) = parameter.kind {
+        return axis(parameter, value);
+    }
+    let keys = sections::properties(distribution::KEYS, |key| match key {
+        "scale" | "sd" | "relative_sd" => sections::to(key),
+        _ => value.clone(),
+    });
+    let normal: Vec<Value> = ["mean", "sd", "relative_sd"].map(|key| json!({"required": [key]})).into();
+    json!({
+        "description": format!(
+            "{}\n\nEqually likely values: {{ from, to }}. Normal ones: {{ mean, sd }} or {{ relative_sd }}. Or a list.",
+            meaning(parameter)
+        ),
+        "type": ["array", "object"],
+        "items": value,
+        "minItems": 1,
+        "properties": keys,
+        "additionalProperties": false,
+        "if": {"anyOf": normal},
+        "then": {"not": {"type": "object", "required": ["sd", "relative_sd"]}},
+        "else": {"required": ["from", "to"]},
+    })
+}
 
 /// Puts the rules of a model into the definitions of a schema, under the model's name, and those of its parameters.
 pub(super) fn define(
@@ -21,12 +200,12 @@ pub(super) fn define(
 ) {
     let name = model.name();
     for (place, parameter) in model.parameters().iter().enumerate() {
-        let value = reference(name, parameter, "value");
+        let values = reference(name, parameter, "value");
         for (role, schema) in [
-            ("value", parameter::value(model, place, defaults)),
-            ("uncertain", parameter::uncertain(parameter, &value)),
-            ("axis", parameter::axis(parameter, &value)),
-            ("distribution", parameter::distribution(parameter, &value)),
+            ("value", value(model, place, defaults)),
+            ("uncertain", uncertain(parameter, &values)),
+            ("axis", axis(parameter, &values)),
+            ("distribution", distribution(parameter, &values)),
         ] {
             definitions.insert(key(name, parameter, role), schema);
         }
@@ -48,17 +227,17 @@ fn key(model: &str, parameter: &Parameter, role: &str) -> String {
 }
 
 fn reference(model: &str, parameter: &Parameter, role: &str) -> Value {
-    part::to(&key(model, parameter, role))
+    sections::to(&key(model, parameter, role))
 }
 
 fn sections(model: &'static dyn Simulator) -> Value {
     let is_number = |parameter: &&Parameter| !matches!(parameter.kind, Kind::Choice(_));
     let (all, numbers) = (model.parameters(), model.parameters().iter().filter(is_number));
     let of_role = |role: &'static str| move |parameter: &Parameter| reference(model.name(), parameter, role);
-    let formula = part::text("A formula in SI units, such as \"2 * wing_length\".");
+    let formula = sections::text("A formula in SI units, such as \"2 * wing_length\".");
     let mut zip = keyed(about("zip"), all, of_role("axis"));
     zip["minProperties"] = json!(1);
-    let [measure, column] = [MEASURE, COLUMN].map(|kind| part::to(&format!("{}.{kind}", model.name())));
+    let [measure, column] = [MEASURE, COLUMN].map(|kind| sections::to(&format!("{}.{kind}", model.name())));
     json!({
         "properties": {
             "params": keyed(about("params"), all, |parameter| single(model, parameter)),
@@ -95,7 +274,7 @@ fn keyed<'p>(
             former.insert(format!("^{}$", parameter.former), rule);
         }
     }
-    let mut table = part::table(description, now);
+    let mut table = sections::table(description, now);
     if !former.is_empty() {
         table["patternProperties"] = Value::Object(former);
     }
@@ -115,9 +294,9 @@ fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
 /// Correlations between two parameters each.
 fn correlation(parameters: &[Parameter]) -> Value {
     let name = json!({"enum": names(parameters, |kind| !matches!(kind, Kind::Choice(_)))});
-    let keys = part::properties(CORRELATION_KEYS, |key| match key {
+    let keys = sections::properties(CORRELATION_KEYS, |key| match key {
         "between" => {
-            let mut pair = part::list("Two parameters with standard errors.", &name);
+            let mut pair = sections::list("Two parameters with standard errors.", &name);
             pair["minItems"] = json!(2);
             pair["maxItems"] = json!(2);
             pair
@@ -126,7 +305,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
             "description": "Their correlation.", "type": "number", "exclusiveMinimum": -1, "exclusiveMaximum": 1,
         }),
     });
-    let mut pair = part::table(about("correlation"), keys);
+    let mut pair = sections::table(about("correlation"), keys);
     pair["required"] = json!(CORRELATION_KEYS);
     json!({"description": about("correlation"), "type": "array", "items": pair})
 }
@@ -141,18 +320,18 @@ fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind) -> bool) -> 
 fn sample(parameters: &Value) -> Value {
     let mut keys = SAMPLE_KEYS.to_vec();
     keys.extend(FILE_KEYS.iter().filter(|key| !SAMPLE_KEYS.contains(key)));
-    let properties = part::properties(keys, |key| match key {
-        "method" => part::choice("The method by which points are spread.", &METHODS),
-        "n" => part::count("Number of points.", Design::MAX_POINTS),
+    let properties = sections::properties(keys, |key| match key {
+        "method" => sections::choice("The method by which points are spread.", &METHODS),
+        "n" => sections::count("Number of points.", Design::MAX_POINTS),
         "seed" => json!({
             "description": "Number of the sample: another seed gives another sample. Default: 0.",
             "type": "integer", "minimum": 0,
         }),
-        "of" => part::choice("Builds of the device: all parameters with standard errors.", &OF),
-        "path" => part::text("The file of points, relative to the folder of the grid file."),
+        "of" => sections::choice("Builds of the device: all parameters with standard errors.", &OF),
+        "path" => sections::text("The file of points, relative to the folder of the grid file."),
         _ => parameters.clone(),
     });
-    let mut table = part::table(about("sample"), properties);
+    let mut table = sections::table(about("sample"), properties);
     table["required"] = json!(["method"]);
     table["if"] = json!({"properties": {"method": {"const": "file"}}});
     table["then"] = json!({"propertyNames": {"enum": FILE_KEYS}, "required": ["path"]});
@@ -171,26 +350,26 @@ fn sample(parameters: &Value) -> Value {
 fn gradient(parameters: &[Parameter], measure: &Value) -> Value {
     let has_shares = |kind| !matches!(kind, Kind::Choice(_) | Kind::Number(Range::Whole(..)));
     let name = json!({"enum": names(parameters, has_shares)});
-    let keys = part::properties(gradient::KEYS, |key| match key {
-        "of" => part::list("Measures of the model or of [measure].", &or_own(measure)),
-        _ => part::list("Parameters that have a value: neither derived nor choices.", &name),
+    let keys = sections::properties(gradient::KEYS, |key| match key {
+        "of" => sections::list("Measures of the model or of [measure].", &or_own(measure)),
+        _ => sections::list("Parameters that have a value: neither derived nor choices.", &name),
     });
-    let mut table = part::table(about("gradient"), keys);
+    let mut table = sections::table(about("gradient"), keys);
     table["required"] = json!(gradient::KEYS);
     table
 }
 
 fn output(column: &Value) -> Value {
-    let keys = part::properties(output::KEYS, |key| match key {
-        "path" => part::text(
+    let keys = sections::properties(output::KEYS, |key| match key {
+        "path" => sections::text(
             "The file, relative to the working directory: .csv, .csv.zst or .parquet; - for stdout.",
         ),
-        _ => part::list(
+        _ => sections::list(
             "Columns to write behind the status, in this order. Default: all of them.",
             &or_own(column),
         ),
     });
-    part::table(about("output"), keys)
+    sections::table(about("output"), keys)
 }
 
 /// A known name, or any other: the user may define it.

@@ -1,11 +1,74 @@
-//! The sections of a grid file that are the same for every model, and the meanings of all.
+//! The schemas of sections that are the same for all models, and small schemas of which larger ones consist.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings};
-use serde_json::{Value, json};
+use flap_core::vehicle::MOST_WINGS;
+use serde_json::{Map, Value, json};
 
-use super::super::resonance;
-use super::part;
+use crate::grid::resonance;
+use crate::grid::uncertainty::VALUE_KEYS;
+use crate::grid::vehicle::{KEYS, PLANE_KEYS, WING_KEYS};
 use crate::resonance::{Objective, Range};
+
+/// A reference to a definition.
+pub(super) fn to(definition: &str) -> Value {
+    json!({"$ref": format!("#/$defs/{definition}")})
+}
+
+/// A schema for each of the keys.
+pub(super) fn properties<'k>(
+    keys: impl IntoIterator<Item = &'k str>,
+    schema: impl Fn(&str) -> Value,
+) -> Map<String, Value> {
+    keys.into_iter().map(|key| (key.to_owned(), schema(key))).collect()
+}
+
+/// A table with these keys and no others.
+pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value {
+    json!({
+        "description": description,
+        "type": "object",
+        "properties": Value::Object(properties),
+        "additionalProperties": false,
+    })
+}
+
+/// One of some options.
+pub(super) fn choice(description: &str, options: &[&str]) -> Value {
+    json!({"description": description, "enum": options})
+}
+
+/// Text that is not empty.
+pub(super) fn text(description: &str) -> Value {
+    json!({"description": description, "type": "string", "minLength": 1})
+}
+
+/// A whole number from 1 on.
+pub(super) fn count(description: &str, most: u64) -> Value {
+    json!({"description": description, "type": "integer", "minimum": 1, "maximum": most})
+}
+
+/// A list without repetitions.
+pub(super) fn list(description: &str, items: &Value) -> Value {
+    json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
+}
+
+/// A number, bare or as text: with a unit if it `has_unit`.
+pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
+    // A number; then a unit, where there must be one. Units other than `1/m` begin with neither a digit nor a point.
+    let pattern = if has_unit {
+        r"^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?(\s*[^0-9.\s]|\s+1)"
+    } else {
+        r"^\s*[+-]?\.?[0-9]"
+    };
+    json!({"description": description, "type": ["number", "string"], "pattern": pattern})
+}
+
+/// A number of more than zero, bare or as text: with a unit if it `has_unit`.
+pub(super) fn positive(description: &str, has_unit: bool) -> Value {
+    let mut schema = quantity(description, has_unit);
+    schema["exclusiveMinimum"] = json!(0);
+    schema
+}
 
 /// The meaning of a section.
 pub(super) fn about(section: &str) -> &'static str {
@@ -38,7 +101,7 @@ pub(super) fn about(section: &str) -> &'static str {
 pub(super) fn preset(models: &[&'static dyn Simulator]) -> Value {
     let presets = models.iter().flat_map(|model| model.presets());
     let (names, docs): (Vec<&str>, Vec<&str>) = presets.map(|preset| (preset.name, preset.doc)).unzip();
-    let mut schema = part::choice(about("preset"), &names);
+    let mut schema = choice(about("preset"), &names);
     schema["x-taplo"] = json!({"docs": {"enumValues": docs}});
     schema
 }
@@ -46,20 +109,20 @@ pub(super) fn preset(models: &[&'static dyn Simulator]) -> Value {
 pub(super) fn resonance() -> Value {
     let tolerance = format!("Largest error of the frequency. Default: {} Hz.", Range::default().tolerance);
     let of = format!("The measure that is largest at the resonance. Default: {}.", Objective::NAMES[0]);
-    let keys = part::properties(resonance::KEYS, |key| match key {
-        "of" => part::choice(&of, &Objective::NAMES),
-        "from" => part::positive("Lowest drive frequency, in Hz or as text with a unit.", true),
-        "to" => part::positive("Highest drive frequency, in Hz or as text with a unit.", true),
-        _ => part::positive(&tolerance, true),
+    let keys = properties(resonance::KEYS, |key| match key {
+        "of" => choice(&of, &Objective::NAMES),
+        "from" => positive("Lowest drive frequency, in Hz or as text with a unit.", true),
+        "to" => positive("Highest drive frequency, in Hz or as text with a unit.", true),
+        _ => positive(&tolerance, true),
     });
-    part::table(about("resonance"), keys)
+    table(about("resonance"), keys)
 }
 
 pub(super) fn conditions() -> Value {
     json!({
         "description": about("where"),
         "type": "object",
-        "additionalProperties": part::text("A condition, such as \"wing_length < 0.03 and arms == 'axis'\"."),
+        "additionalProperties": text("A condition, such as \"wing_length < 0.03 and arms == 'axis'\"."),
     })
 }
 
@@ -69,7 +132,7 @@ pub(super) fn measures() -> Value {
         "description": about("measure"),
         "type": "object",
         "propertyNames": {"pattern": "^[A-Za-z_][A-Za-z0-9_]*$"},
-        "additionalProperties": part::text(about_one),
+        "additionalProperties": text(about_one),
     })
 }
 
@@ -95,11 +158,76 @@ pub(super) fn solver() -> Value {
         rule["default"] = value;
         (setting.name.to_owned(), rule)
     });
-    part::table(about("solver"), settings.collect())
+    table(about("solver"), settings.collect())
 }
 
 /// The text with a capital first letter.
 pub(super) fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
+    let keys = properties(KEYS, |key| match key {
+        "about" => lengths("The point about which torques are taken: forward, to the left, upwards."),
+        "total_mass" => mass(),
+        _ => json!({
+            "description": "The wings, each under [[vehicle.wings]].",
+            "type": "array", "minItems": 1, "maxItems": MOST_WINGS, "items": wing(models),
+        }),
+    });
+    let mut table = table(about("vehicle"), keys);
+    table["required"] = json!(["wings"]);
+    table
+}
+
+/// A mass, with or without its standard error.
+fn mass() -> Value {
+    let about = "Mass of the whole vehicle, in kg or as text with a unit.";
+    let mass = positive(about, true);
+    let keys = properties(VALUE_KEYS, |key| if key == "value" { mass.clone() } else { to(key) });
+    let mut uncertain = table("A mass with its standard error.", keys);
+    uncertain["required"] = json!(["value"]);
+    uncertain["not"] = json!({"required": ["sd", "relative_sd"]});
+    json!({"description": about, "anyOf": [mass, uncertain]})
+}
+
+/// A wing.
+fn wing(models: &[&'static dyn Simulator]) -> Value {
+    let keys = properties(WING_KEYS, |key| match key {
+        "name" => json!({
+            "description": "First part of the names of its parameters and columns.",
+            "type": "string", "pattern": "^[a-z][a-z0-9_]*$",
+        }),
+        "mirrored" => json!({
+            "description": "The wing is the mirror image of one at its position: a wing on the right.", "type": "boolean",
+        }),
+        "position" => {
+            lengths("The shoulder: forward, to the left, upwards; of a mirrored wing to the right.")
+        }
+        "plane" => {
+            let angles = properties(PLANE_KEYS, |_| number("An angle, in rad or as text with a unit."));
+            table("The orientation of its stroke plane.", angles)
+        }
+        "preset" => preset(models),
+        "device" => text("A device whose numbers the wing has."),
+        _ => json!({"description": "Parameters that the wing has of its own.", "type": "object"}),
+    });
+    let mut table = table("A wing of the vehicle.", keys);
+    table["required"] = json!(["name"]);
+    table["not"] = json!({"required": ["preset", "device"]});
+    table
+}
+
+/// Three lengths.
+fn lengths(description: &str) -> Value {
+    json!({
+        "description": description, "type": "array", "minItems": 3, "maxItems": 3,
+        "items": number("A length, in m or as text with a unit."),
+    })
+}
+
+/// A number, or text with a unit.
+fn number(description: &str) -> Value {
+    json!({"description": description, "type": ["number", "string", "object"]})
 }

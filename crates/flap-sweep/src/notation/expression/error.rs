@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::function;
+use super::evaluate;
 use super::scope::Kind;
 use crate::notation::{nearest, text};
 
@@ -133,7 +133,7 @@ impl ExpressionError {
                 Some("write ln for the natural logarithm, or log10".to_owned())
             }
             Problem::UnknownFunction(name) => {
-                let known: Vec<&str> = function::names().collect();
+                let known: Vec<&str> = evaluate::names().collect();
                 let listed = || format!("functions: {}", known.join(", "));
                 Some(nearest(name, known.iter().copied()).map_or_else(listed, did_you_mean))
             }

@@ -1,9 +1,136 @@
-//! Decimal numbers whose power of ten is shifted in the text.
+//! Decimal numbers whose power of ten is shifted in the text, and mistakes in quantities.
 //!
 //! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit.
 //! Shifting the exponent before the number is parsed rounds once.
 
-use super::error::{Problem, UnitError};
+use std::fmt;
+use std::ops::Range;
+
+/// A quantity that cannot be used, with the place of the mistake in its text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitError {
+    /// Bytes of the text at fault.
+    pub span: Range<usize>,
+    /// The mistake.
+    pub problem: UnitProblem,
+}
+
+/// A mistake in a quantity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UnitProblem {
+    /// The text does not start with a number.
+    NoNumber,
+    /// The number is not one, such as `1e-3e`.
+    BadNumber(String),
+    /// The number is infinite or not a number.
+    NotFinite(String),
+    /// The number, as written, is beyond the largest 64-bit float.
+    TooLarge(String),
+    /// The number, as written, is not zero but too small for a 64-bit float.
+    TooSmall(String),
+    /// A number without a unit where there must be one.
+    NoUnit {
+        /// The SI unit wanted.
+        wanted: String,
+        /// Ways to write it.
+        usual: Vec<String>,
+    },
+    /// There is no such unit.
+    UnknownUnit {
+        /// As written.
+        unit: String,
+        /// The unit that may have been meant.
+        nearest: Option<String>,
+        /// Ways to write the unit wanted; empty for a pure number.
+        usual: Vec<String>,
+    },
+    /// The unit is not put together properly.
+    BadUnit(&'static str),
+    /// The unit wanted is not one of flap, and the unit as written is another.
+    NotConverted {
+        /// The unit as written.
+        unit: String,
+        /// The unit wanted.
+        wanted: String,
+    },
+    /// The unit measures something else.
+    Mismatch {
+        /// The unit as written.
+        unit: String,
+        /// The quantity that it measures, such as `a time`.
+        measures: String,
+        /// The SI unit wanted; empty for a pure number.
+        wanted: String,
+        /// Ways to write it; empty for a pure number.
+        usual: Vec<String>,
+    },
+}
+
+impl UnitError {
+    /// The message, with `what` as the name of the value.
+    pub fn message(&self, what: &str) -> String {
+        match &self.problem {
+            UnitProblem::NoNumber => format!("{what} must start with a number"),
+            UnitProblem::BadNumber(text) => format!("`{text}` is not a number"),
+            UnitProblem::NotFinite(text) => format!("{what} cannot be `{text}`: values are finite"),
+            UnitProblem::TooLarge(text) => {
+                format!("`{text}` is too large for {what} (largest about 1.8e308)")
+            }
+            UnitProblem::TooSmall(text) => {
+                format!("`{text}` is too small for {what} (smallest but zero about 4.9e-324)")
+            }
+            UnitProblem::NoUnit { .. } => format!("{what} needs a unit"),
+            UnitProblem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
+            UnitProblem::BadUnit(expected) => format!("malformed unit: expected {expected}"),
+            UnitProblem::NotConverted { unit, wanted } => {
+                format!("`{unit}` cannot be converted into `{wanted}`, the unit of {what} in its model")
+            }
+            UnitProblem::Mismatch { unit, measures, wanted, .. } => {
+                let wanted =
+                    if wanted.is_empty() { "a pure number".to_owned() } else { format!("in {wanted}") };
+                format!("`{unit}` is {measures}, but {what} is {wanted}")
+            }
+        }
+    }
+
+    /// Advice, if there is any.
+    pub fn help(&self) -> Option<String> {
+        match &self.problem {
+            UnitProblem::NoNumber => {
+                Some("write a bare number, or a number with its unit such as \"200 V\"".to_owned())
+            }
+            UnitProblem::BadNumber(_) => {
+                Some("numbers look like 12, 0.5 or 1.5e-6, with a space before the unit".to_owned())
+            }
+            UnitProblem::NoUnit { wanted, usual } => {
+                Some(format!("add a unit: {}; or write a bare number in {wanted}", usual.join(", ")))
+            }
+            UnitProblem::UnknownUnit { nearest: Some(nearest), .. } => {
+                Some(format!("did you mean `{nearest}`?"))
+            }
+            UnitProblem::NotConverted { wanted, .. } => Some(format!("write the number in {wanted}")),
+            UnitProblem::BadUnit(_) => Some("units look like V, N*m/rad, mm^2 or kg/(m*s)".to_owned()),
+            UnitProblem::UnknownUnit { usual, .. } | UnitProblem::Mismatch { usual, .. }
+                if usual.is_empty() =>
+            {
+                Some("write a bare number, or use %".to_owned())
+            }
+            UnitProblem::UnknownUnit { usual, .. } | UnitProblem::Mismatch { usual, .. } => {
+                Some(format!("use {}", usual.join(", ")))
+            }
+            UnitProblem::NotFinite(_) | UnitProblem::TooLarge(_) | UnitProblem::TooSmall(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message("the value"))?;
+        self.help().map_or(Ok(()), |help| write!(f, "; {help}"))
+    }
+}
+
+impl std::error::Error for UnitError {}
 
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +154,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     let word = text[sign..].split(|c: char| !c.is_alphabetic()).next().unwrap_or("");
     if ["nan", "inf", "infinity"].contains(&word.to_lowercase().as_str()) {
         let end = sign + word.len();
-        return Err(UnitError { span: 0..end, problem: Problem::NotFinite(text[..end].to_owned()) });
+        return Err(UnitError { span: 0..end, problem: UnitProblem::NotFinite(text[..end].to_owned()) });
     }
 
     let whole = digits(sign);
@@ -38,7 +165,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
         end += 1 + fraction;
     }
     if whole + fraction == 0 {
-        return Err(UnitError { span: 0..text.len(), problem: Problem::NoNumber });
+        return Err(UnitError { span: 0..text.len(), problem: UnitProblem::NoNumber });
     }
     let mantissa = &text[..end];
 
@@ -54,7 +181,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
 
     if text[end..].starts_with(|c: char| c.is_ascii_digit() || "eE.,_+-".contains(c)) {
         let run = text.find(char::is_whitespace).unwrap_or(text.len());
-        return Err(UnitError { span: 0..run, problem: Problem::BadNumber(text[..run].to_owned()) });
+        return Err(UnitError { span: 0..run, problem: UnitProblem::BadNumber(text[..run].to_owned()) });
     }
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
@@ -71,13 +198,13 @@ impl Number<'_> {
     ///
     /// # Errors
     /// If it is too large for a float, or too small without being zero.
-    pub(crate) fn shifted(self, shift: i32) -> Result<f64, Problem> {
+    pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitProblem> {
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
-        let value: f64 = text.parse().map_err(|_| Problem::BadNumber(self.mantissa.to_owned()))?;
+        let value: f64 = text.parse().map_err(|_| UnitProblem::BadNumber(self.mantissa.to_owned()))?;
         if value.is_infinite() {
-            Err(Problem::TooLarge(self.text.to_owned()))
+            Err(UnitProblem::TooLarge(self.text.to_owned()))
         } else if value == 0.0 && self.mantissa.contains(|c: char| ('1'..='9').contains(&c)) {
-            Err(Problem::TooSmall(self.text.to_owned()))
+            Err(UnitProblem::TooSmall(self.text.to_owned()))
         } else {
             Ok(value)
         }
@@ -111,18 +238,18 @@ mod tests {
 
     #[test]
     fn malformed() {
-        let bad = |text: &str| Problem::BadNumber(text.to_owned());
+        let bad = |text: &str| UnitProblem::BadNumber(text.to_owned());
         let cases = [
             ("1e-3e m", 0..5, bad("1e-3e")),
             ("1.2.3 V", 0..5, bad("1.2.3")),
             ("1,5 V", 0..3, bad("1,5")),
             ("1_000 V", 0..5, bad("1_000")),
             ("5e V", 0..2, bad("5e")),
-            ("fast", 0..4, Problem::NoNumber),
-            ("", 0..0, Problem::NoNumber),
-            (".", 0..1, Problem::NoNumber),
-            ("nan V", 0..3, Problem::NotFinite("nan".to_owned())),
-            ("-Infinity", 0..9, Problem::NotFinite("-Infinity".to_owned())),
+            ("fast", 0..4, UnitProblem::NoNumber),
+            ("", 0..0, UnitProblem::NoNumber),
+            (".", 0..1, UnitProblem::NoNumber),
+            ("nan V", 0..3, UnitProblem::NotFinite("nan".to_owned())),
+            ("-Infinity", 0..9, UnitProblem::NotFinite("-Infinity".to_owned())),
         ];
         for (text, span, problem) in cases {
             assert_eq!(scan(text), Err(UnitError { span, problem }), "{text}");
@@ -132,10 +259,10 @@ mod tests {
     #[test]
     fn ends_of_the_float_range() {
         let shifted = |text: &str, shift| scan(text).expect(text).0.shifted(shift);
-        assert_eq!(shifted("1e400", 0), Err(Problem::TooLarge("1e400".to_owned())));
+        assert_eq!(shifted("1e400", 0), Err(UnitProblem::TooLarge("1e400".to_owned())));
         assert_eq!(shifted("1e400", -100), Ok(1e300));
-        assert_eq!(shifted("1e-400", 0), Err(Problem::TooSmall("1e-400".to_owned())));
-        assert!(matches!(shifted("1e99999999999999999999", 0), Err(Problem::TooLarge(_))));
+        assert_eq!(shifted("1e-400", 0), Err(UnitProblem::TooSmall("1e-400".to_owned())));
+        assert!(matches!(shifted("1e99999999999999999999", 0), Err(UnitProblem::TooLarge(_))));
         assert_eq!(shifted("0.0e-400", 0), Ok(0.0));
     }
 }

@@ -7,14 +7,14 @@ const PREFIXES: [(&str, i32); 9] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
 
 /// `value` in `si_unit`, to six digits and with the prefix that leaves few of them before the point: `17 mm` for 0.017 m.
-/// [`parse_as`](super::parse_as) reads it back.
+/// [`parse_as`] reads it back.
 pub fn prefixed(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let value = if tens == 0 { value } else { value / 10_f64.powi(tens) };
     format!("{} {unit}", digits(value)).trim_end().to_owned()
 }
 
-/// `value` in `si_unit` with the same prefix and with all its digits: [`parse_as`](super::parse_as) gives the very float back.
+/// `value` in `si_unit` with the same prefix and with all its digits: [`parse_as`] gives the very float back.
 pub fn exact(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let scientific = format!("{value:e}");

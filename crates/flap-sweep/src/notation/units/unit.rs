@@ -1,8 +1,8 @@
-//! Unit expressions: `V`, `uN*m/rad`, `mm²`, `kg/(m*s)`.
+//! Unit expressions: `V`, `uN*m/rad`, `mm²`, `kg/(m*s)`; their dimensions, and the table of units.
 
-use super::dimension::Dimension;
-use super::error::{Problem, UnitError};
-use super::table::{self, Symbol};
+use std::fmt;
+
+use super::number::{UnitError, UnitProblem};
 
 /// A unit, reduced to how it converts to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +94,7 @@ impl<'t> Reader<'t> {
     /// An error at the next character.
     fn expected(&self, expected: &'static str) -> UnitError {
         let length = self.rest().chars().next().map_or(0, char::len_utf8);
-        UnitError { span: self.at..self.at + length, problem: Problem::BadUnit(expected) }
+        UnitError { span: self.at..self.at + length, problem: UnitProblem::BadUnit(expected) }
     }
 
     /// The sign of the powers that follow: `*` or `/`.
@@ -124,13 +124,13 @@ impl<'t> Reader<'t> {
         let span = self.at..self.at + length + digits;
         let unknown = |nearest| UnitError {
             span: span.clone(),
-            problem: Problem::UnknownUnit {
+            problem: UnitProblem::UnknownUnit {
                 unit: rest[..length + digits].to_owned(),
                 nearest,
                 usual: Vec::new(),
             },
         };
-        let Some((symbol, prefix)) = table::find(name) else {
+        let Some((symbol, prefix)) = find(name) else {
             return Err(unknown(None));
         };
         if digits > 0 {
@@ -167,6 +167,238 @@ impl<'t> Reader<'t> {
         }
         Ok(if negative { -power } else { power })
     }
+}
+
+/// Exponents of the SI base units that models need: metre, kilogram, second, ampere.
+///
+/// An angle is a pure number, so that a torsional stiffness may be given in N*m/rad or N*m. Radians and
+/// hertz are counted none the less: a drive at 100 Hz is not one at 100 rad/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Dimension {
+    base: [i32; 4],
+    radian: i32,
+    hertz: i32,
+}
+
+impl Dimension {
+    /// Metres, kilograms, seconds and amperes to these powers.
+    pub(super) const fn base(metre: i32, kilogram: i32, second: i32, ampere: i32) -> Dimension {
+        Dimension { base: [metre, kilogram, second, ampere], radian: 0, hertz: 0 }
+    }
+
+    /// A plane angle.
+    pub(super) const ANGLE: Dimension = Dimension { base: [0; 4], radian: 1, hertz: 0 };
+
+    /// Cycles per second.
+    pub(super) const FREQUENCY: Dimension = Dimension { base: [0, 0, -1, 0], radian: 0, hertz: 1 };
+
+    /// The dimension of a product of this quantity with another one to the given power.
+    pub(super) fn times(self, other: Dimension, power: i32) -> Dimension {
+        // Saturating: absurd exponents then merely fail to match.
+        let add = |a: i32, b: i32| a.saturating_add(b.saturating_mul(power));
+        let mut base = self.base;
+        for (sum, exponent) in base.iter_mut().zip(other.base) {
+            *sum = add(*sum, exponent);
+        }
+        Dimension { base, radian: add(self.radian, other.radian), hertz: add(self.hertz, other.hertz) }
+    }
+
+    /// True if a value of this dimension can stand in place of a `wanted` one.
+    pub(super) fn fits(self, wanted: Dimension) -> bool {
+        let mixes_turns_and_radians =
+            (self.hertz != 0 && wanted.radian != 0) || (self.radian != 0 && wanted.hertz != 0);
+        self.base == wanted.base && !mixes_turns_and_radians
+    }
+}
+
+/// In words where there are any (`a voltage`), otherwise in base units.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| *dimension == *self) {
+            return f.write_str(name);
+        }
+        let plain = Dimension { radian: 0, hertz: 0, ..*self };
+        if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| *dimension == plain) {
+            return f.write_str(name);
+        }
+        let symbols = ["m", "kg", "s", "A"];
+        let powers: Vec<String> = symbols
+            .iter()
+            .zip(self.base)
+            .filter(|(_, exponent)| *exponent != 0)
+            .map(|(symbol, exponent)| match exponent {
+                1 => (*symbol).to_owned(),
+                _ => format!("{symbol}^{exponent}"),
+            })
+            .collect();
+        f.write_str(&powers.join("*"))
+    }
+}
+
+/// Dimensions that have a name. Angles and frequencies come before the plain numbers and rates they are.
+const NAMES: &[(Dimension, &str)] = &[
+    (Dimension::ANGLE, "an angle"),
+    (Dimension { base: [0, 0, -1, 0], radian: 1, hertz: 0 }, "an angular rate"),
+    (Dimension { base: [0, 0, -2, 0], radian: 1, hertz: 0 }, "an angular acceleration"),
+    (Dimension::FREQUENCY, "a frequency"),
+    (Dimension::base(0, 0, 0, 0), "a pure number"),
+    (Dimension::base(1, 0, 0, 0), "a length"),
+    (Dimension::base(2, 0, 0, 0), "an area"),
+    (Dimension::base(3, 0, 0, 0), "a volume"),
+    (Dimension::base(0, 1, 0, 0), "a mass"),
+    (Dimension::base(0, 0, 1, 0), "a time"),
+    (Dimension::base(0, 0, -1, 0), "a rate"),
+    (Dimension::base(0, 0, -2, 0), "a rate of a rate"),
+    (Dimension::base(1, 0, -1, 0), "a speed"),
+    (Dimension::base(1, 0, -2, 0), "an acceleration"),
+    (Dimension::base(1, 1, -2, 0), "a force"),
+    (Dimension::base(2, 1, -2, 0), "a torque or an energy"),
+    (Dimension::base(2, 1, -3, 0), "a power"),
+    (Dimension::base(-1, 1, -2, 0), "a pressure"),
+    (Dimension::base(0, 1, -2, 0), "a stiffness"),
+    (Dimension::base(-3, 1, 0, 0), "a density"),
+    (Dimension::base(2, 1, 0, 0), "a moment of inertia"),
+    (Dimension::base(0, 0, 0, 1), "a current"),
+    (Dimension::base(0, 0, 1, 1), "a charge"),
+    (Dimension::base(2, 1, -3, -1), "a voltage"),
+    (Dimension::base(1, 1, -3, -1), "an electric field"),
+    (Dimension::base(-2, -1, 4, 2), "a capacitance"),
+    (Dimension::base(2, 1, -3, -2), "a resistance"),
+];
+
+/// A unit with a symbol of its own.
+#[derive(Debug)]
+pub(super) struct Symbol {
+    /// As written.
+    pub(super) name: &'static str,
+    pub(super) dimension: Dimension,
+    /// Power of ten to SI: exact, applied to the text of the number.
+    pub(super) shift: i32,
+    /// The factor to SI that remains after `shift`: 1 for decimal units.
+    pub(super) factor: f64,
+    /// True if it takes prefixes.
+    prefixes: bool,
+    /// The forms people use, the SI one first: for messages.
+    usual: &'static [&'static str],
+}
+
+/// Powers of ten before a unit.
+const PREFIXES: &[(&str, i32)] = &[
+    ("T", 12),
+    ("G", 9),
+    ("M", 6),
+    ("k", 3),
+    ("d", -1),
+    ("c", -2),
+    ("m", -3),
+    ("u", -6),
+    ("\u{b5}", -6),  // µ, the micro sign
+    ("\u{3bc}", -6), // μ, the Greek letter
+    ("n", -9),
+    ("p", -12),
+    ("f", -15),
+];
+
+const fn prefixed(name: &'static str, dimension: Dimension, usual: &'static [&'static str]) -> Symbol {
+    Symbol { name, dimension, shift: 0, factor: 1.0, prefixes: true, usual }
+}
+
+const fn alone(
+    name: &'static str,
+    dimension: Dimension,
+    factor: f64,
+    usual: &'static [&'static str],
+) -> Symbol {
+    Symbol { name, dimension, shift: 0, factor, prefixes: false, usual }
+}
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+const OHM: Dimension = Dimension::base(2, 1, -3, -2);
+const OHMS: &[&str] = &["Ohm", "kOhm", "MOhm"];
+const ANGLES: &[&str] = &["rad", "mrad", "deg"];
+
+/// Every unit. No symbol may be another one with a prefix.
+pub(super) const SYMBOLS: &[Symbol] = &[
+    prefixed("m", Dimension::base(1, 0, 0, 0), &["m", "mm", "um"]),
+    // The SI unit is the kilogram.
+    Symbol { shift: -3, ..prefixed("g", Dimension::base(0, 1, 0, 0), &["kg", "g", "mg"]) },
+    prefixed("s", Dimension::base(0, 0, 1, 0), &["s", "ms", "us"]),
+    alone("min", Dimension::base(0, 0, 1, 0), 60.0, &["min"]),
+    prefixed("A", Dimension::base(0, 0, 0, 1), &["A", "mA", "uA"]),
+    prefixed("Hz", Dimension::FREQUENCY, &["Hz", "kHz"]),
+    prefixed("N", Dimension::base(1, 1, -2, 0), &["N", "mN", "uN"]),
+    // Standard gravity times a gram.
+    Symbol { factor: 9.806_65e-3, ..prefixed("gf", Dimension::base(1, 1, -2, 0), &["gf", "mgf"]) },
+    prefixed("J", Dimension::base(2, 1, -2, 0), &["J", "mJ", "uJ"]),
+    prefixed("W", Dimension::base(2, 1, -3, 0), &["W", "mW", "uW"]),
+    prefixed("Pa", Dimension::base(-1, 1, -2, 0), &["Pa", "MPa", "GPa"]),
+    prefixed("C", Dimension::base(0, 0, 1, 1), &["C", "uC", "nC"]),
+    prefixed("V", Dimension::base(2, 1, -3, -1), &["V", "mV", "kV"]),
+    prefixed("F", Dimension::base(-2, -1, 4, 2), &["F", "nF", "pF"]),
+    prefixed("H", Dimension::base(2, 1, -2, -2), &["H", "mH", "uH"]),
+    prefixed("Ohm", OHM, OHMS),
+    prefixed("ohm", OHM, OHMS),
+    prefixed("\u{3a9}", OHM, OHMS),  // Ω, the Greek letter
+    prefixed("\u{2126}", OHM, OHMS), // Ω, the ohm sign
+    prefixed("rad", Dimension::ANGLE, ANGLES),
+    alone("deg", Dimension::ANGLE, DEGREE, ANGLES),
+    alone("\u{b0}", Dimension::ANGLE, DEGREE, ANGLES),
+    Symbol { shift: -2, ..alone("%", Dimension::base(0, 0, 0, 0), 1.0, &["%"]) },
+];
+
+/// The unit written `name`, with the power of ten of its prefix.
+pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
+    if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
+        return Some((symbol, 0));
+    }
+    PREFIXES.iter().find_map(|(prefix, power)| {
+        let rest = name.strip_prefix(prefix)?;
+        let symbol = SYMBOLS.iter().find(|symbol| symbol.prefixes && symbol.name == rest)?;
+        Some((symbol, *power))
+    })
+}
+
+/// Ways to write a quantity in the SI unit `unit`, itself first. None for a pure number.
+pub(super) fn usual(unit: &str) -> Vec<String> {
+    if unit.is_empty() {
+        return Vec::new();
+    }
+    let end = unit.find(|c: char| !c.is_alphabetic()).unwrap_or(unit.len());
+    let (first, rest) = unit.split_at(end);
+    let mut ways = vec![unit.to_owned()];
+    if let Some((symbol, _)) = find(first) {
+        ways.extend(
+            symbol.usual.iter().filter(|other| **other != first).map(|other| format!("{other}{rest}")),
+        );
+    }
+    ways
+}
+
+/// Units that the unknown unit `name` may have meant, best guess first.
+pub(super) fn suggestions(name: &str) -> Vec<String> {
+    let mut names: Vec<String> =
+        SYMBOLS.iter().flat_map(|symbol| symbol.usual.iter().map(|usual| (*usual).to_owned())).collect();
+    for symbol in SYMBOLS {
+        names.push(symbol.name.to_owned());
+        if symbol.prefixes {
+            names.extend(PREFIXES.iter().map(|(prefix, _)| format!("{prefix}{}", symbol.name)));
+        }
+    }
+
+    let lower = name.to_lowercase();
+    let other_case = names.iter().filter(|candidate| candidate.to_lowercase() == lower);
+    let products = name.char_indices().skip(1).filter_map(|(at, _)| {
+        let (left, right) = name.split_at(at);
+        (find(left).is_some() && find(right).is_some()).then(|| format!("{left}*{right}"))
+    });
+    let mut similar: Vec<(f64, &String)> = names
+        .iter()
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(likeness, _)| *likeness > 0.8)
+        .collect();
+    similar.sort_by(|a, b| b.0.total_cmp(&a.0));
+
+    other_case.cloned().chain(products).chain(similar.into_iter().map(|(_, name)| name.clone())).collect()
 }
 
 #[cfg(test)]
@@ -239,14 +471,14 @@ mod tests {
             ("V?", 1..2, "`*` or `/`"),
         ];
         for (text, span, expected) in cases {
-            let error = UnitError { span, problem: Problem::BadUnit(expected) };
+            let error = UnitError { span, problem: UnitProblem::BadUnit(expected) };
             assert_eq!(parse(text), Err(error), "{text}");
         }
     }
 
     #[test]
     fn digits_after_a_symbol_are_not_a_power() {
-        let problem = Problem::UnknownUnit {
+        let problem = UnitProblem::UnknownUnit {
             unit: "mm2".to_owned(),
             nearest: Some("mm^2".to_owned()),
             usual: Vec::new(),
@@ -258,5 +490,44 @@ mod tests {
     fn absurd_powers_do_not_overflow() {
         let text = vec!["Tm^9"; 1000].join("*");
         assert_eq!(unit(&text).shift, 12 * 9 * 1000);
+    }
+
+    #[test]
+    fn no_symbol_reads_two_ways() {
+        for symbol in SYMBOLS {
+            let readings = PREFIXES
+                .iter()
+                .filter_map(|(prefix, _)| symbol.name.strip_prefix(prefix))
+                .filter(|rest| SYMBOLS.iter().any(|other| other.prefixes && other.name == *rest));
+            assert_eq!(readings.count(), 0, "{} is also a prefix and a unit", symbol.name);
+        }
+    }
+
+    #[test]
+    fn usual_forms_exist_and_measure_the_same() {
+        for symbol in SYMBOLS {
+            for usual in symbol.usual {
+                let (found, _) = find(usual).expect(usual);
+                assert_eq!(found.dimension, symbol.dimension, "{usual}");
+            }
+        }
+    }
+
+    #[test]
+    fn ways_to_write_a_unit() {
+        assert_eq!(usual("V"), ["V", "mV", "kV"]);
+        assert_eq!(usual("N*m/rad"), ["N*m/rad", "mN*m/rad", "uN*m/rad"]);
+        assert_eq!(usual("kg*m^2"), ["kg*m^2", "g*m^2", "mg*m^2"]);
+        assert_eq!(usual("1/m"), ["1/m"]);
+        assert!(usual("").is_empty());
+        assert_eq!(usual("m^2"), ["m^2", "mm^2", "um^2"]);
+    }
+
+    #[test]
+    fn guesses() {
+        assert_eq!(suggestions("hz")[0], "Hz");
+        assert_eq!(suggestions("uNm")[0], "uN*m");
+        assert_eq!(suggestions("volt"), Vec::<String>::new());
+        assert!(suggestions("umm").contains(&"um".to_owned()));
     }
 }

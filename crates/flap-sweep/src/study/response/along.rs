@@ -3,7 +3,7 @@
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
 
-use crate::plan::axis::Values;
+use crate::plan::axes::Values;
 use crate::plan::{Along, Plan, Verdict};
 
 /// The most values that a parameter takes on the way up.

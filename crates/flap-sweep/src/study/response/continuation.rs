@@ -9,8 +9,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
 use nalgebra::{DMatrix, DVector};
 
-use super::compare::{Comparison, compare};
-use super::curve::{Curve, Step, component_sizes};
+use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan};
 
 /// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.

@@ -6,10 +6,9 @@
 
 use flap_core::simulate::{Point, Row, Status};
 
-use super::compare::{Comparison, compare, is_steep};
-use super::curve::{Curve, Step, component_sizes};
+use super::curve::{Comparison, Curve, Step, compare, component_sizes, is_steep};
 use crate::plan::{Along, Plan};
-use crate::resonance::study::Study;
+use crate::resonance::sequence::PointSequence;
 
 /// A curve that is being followed.
 pub(super) struct Follow<'a> {
@@ -127,7 +126,7 @@ impl Interval {
     }
 }
 
-impl Study for Follow<'_> {
+impl PointSequence for Follow<'_> {
     fn probes(&mut self) -> Vec<Point> {
         match &self.stage {
             Stage::Steps => {

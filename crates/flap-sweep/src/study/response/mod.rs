@@ -4,15 +4,13 @@
 //! branch's end. At values where the way up and the way down differ, the design has two motions at the same drive.
 //!
 //! - `along`: the values that the parameter takes
-//! - `curve`: the response of one design, and its rows
-//! - `compare`: the comparison of motions at the same drive
+//! - `curve`: the response of one design, its rows, and the comparison of its motions at the same drive
 //! - `follow`: one curve, up and down, with the ends of its bistable bands
 //! - `continuation`: the unstable orbits that join the branches of a bistable band
 //! - `verdict`: the verdict on a curve, in a line
 //! - `run`: the curves of all designs of a plan, in order
 
 mod along;
-mod compare;
 mod continuation;
 mod curve;
 mod follow;

@@ -9,7 +9,7 @@ use super::continuation;
 use super::curve::{Curve, Step};
 use super::follow::Follow;
 use crate::plan::{Along, Plan, Verdict};
-use crate::resonance::study::{self, Desk};
+use crate::resonance::sequence::{self, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
 /// Fewest and most curves per thread that are run ahead of the last one pulled: enough to keep lanes full, few enough for
@@ -36,7 +36,7 @@ impl<'a> Responses<'a> {
         Run::new(first..self.plan.selected(), &RunOptions { window, ..*options }, move |worker| {
             let Some(responses) = Responses::of(&plan) else { return };
             let mut designs = Designs { responses, backend, worker };
-            study::run_all(plan.simulator(), backend, plan.solver(), &mut designs);
+            sequence::run_all(plan.simulator(), backend, plan.solver(), &mut designs);
         })
     }
 
@@ -50,7 +50,7 @@ impl<'a> Responses<'a> {
     pub fn curve(self, design: Point) -> Curve {
         let backend = Backend::best();
         let mut follow = Follow::new(self.plan, self.along, design);
-        study::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
+        sequence::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
         self.complete(follow.finish(), backend, &never)
     }
 
@@ -92,8 +92,8 @@ struct Designs<'a, 'w, 'q> {
     worker: &'w mut Worker<'q, Outcome<Curve>>,
 }
 
-impl<'a> Desk for Designs<'a, '_, '_> {
-    type Study = Follow<'a>;
+impl<'a> SequenceSource for Designs<'a, '_, '_> {
+    type Sequence = Follow<'a>;
 
     fn next(&mut self, idle: bool) -> Option<Follow<'a>> {
         let Responses { plan, along } = self.responses;

@@ -5,8 +5,7 @@ use std::fmt;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Row, Status};
 
-use super::compare::{Comparison, compare};
-use super::curve::{Curve, component_sizes};
+use super::curve::{Comparison, Curve, compare, component_sizes};
 use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 

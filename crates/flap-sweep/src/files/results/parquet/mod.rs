@@ -1,12 +1,195 @@
 //! Rows as typed columns in Parquet files.
 
-mod cells;
-mod error;
-mod guard;
-mod limited;
-mod pages;
+use std::fs::File;
+use std::io;
+use std::sync::Arc;
+
+use csv::StringRecord;
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{ColumnPath, Type};
+
+use crate::files::results::checksum::{Checksums, TextDigest};
+use crate::files::results::provenance::Provenance;
+use crate::files::results::text::Hashed;
+use crate::table::layout::{Cell, Column, Kind};
+use crate::table::lines;
+
 mod read;
-mod write;
 
 pub(super) use read::{ParquetReader, sum_up};
-pub(super) use write::ParquetRows;
+
+/// Rows in one row group: a few megabytes in memory, and long enough to be read fast.
+const GROUP_ROWS: usize = 1 << 15;
+
+/// Writes rows in row groups; an empty cell is null.
+pub(crate) struct ParquetRows {
+    writer: SerializedFileWriter<Hashed>,
+    columns: Vec<Cells>,
+    rows: usize,
+    text: TextDigest,
+    /// The row as text; kept for its memory.
+    line: String,
+}
+
+impl ParquetRows {
+    /// Begins an empty file.
+    pub(crate) fn new(file: File, provenance: &Provenance) -> io::Result<ParquetRows> {
+        let columns = &provenance.columns;
+        let fields = columns.iter().map(|column| field(column).map(Arc::new)).collect::<Result<_, _>>();
+        let schema = Type::group_type_builder("flap").with_fields(fields.map_err(io_error)?).build();
+        let entries = provenance.entries.iter();
+        let metadata = entries.map(|(key, text)| KeyValue::new(key.clone(), text.clone())).collect();
+        // Digits seldom repeat, words always do.
+        let mut properties = WriterProperties::builder()
+            .set_compression(Compression::ZSTD(ZstdLevel::default()))
+            .set_dictionary_enabled(false)
+            .set_key_value_metadata(Some(metadata));
+        for column in columns.iter().filter(|column| column.kind == Kind::Text) {
+            let path = ColumnPath::from(column.name.as_str());
+            properties = properties.set_column_dictionary_enabled(path, true);
+        }
+        let schema = Arc::new(schema.map_err(io_error)?);
+        let writer = SerializedFileWriter::new(Hashed::new(file), schema, Arc::new(properties.build()));
+        let (mut text, mut line) = (TextDigest::new(), String::new());
+        lines::set_line(&mut line, columns.iter().map(|column| &column.name));
+        text.update(line.as_bytes());
+        let columns = columns.iter().map(Cells::new).collect();
+        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0, text, line })
+    }
+
+    /// Writes a row.
+    pub(crate) fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
+        if cells.len() != self.columns.len() {
+            let message = format!("a row has {} cells, not {}", cells.len(), self.columns.len());
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        for (column, cell) in self.columns.iter_mut().zip(cells) {
+            column.push(cell)?;
+        }
+        lines::set_line(&mut self.line, cells);
+        self.text.update(self.line.as_bytes());
+        self.rows += 1;
+        if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
+    }
+
+    /// Completes the file, makes it durable, and gives its checksums.
+    pub(crate) fn finish(mut self) -> io::Result<Checksums> {
+        if self.rows > 0 {
+            self.write_group()?;
+        }
+        let written = self.writer.into_inner().map_err(io_error)?;
+        written.file.sync_all()?;
+        Ok(self.text.checksums(Some(written.sum())))
+    }
+
+    fn write_group(&mut self) -> io::Result<()> {
+        let mut group = self.writer.next_row_group().map_err(io_error)?;
+        for column in &mut self.columns {
+            let writer = group.next_column().map_err(io_error)?;
+            column.write(writer.ok_or_else(|| io::Error::other("the schema has fewer columns"))?)?;
+        }
+        group.close().map_err(io_error)?;
+        self.rows = 0;
+        Ok(())
+    }
+}
+
+/// The cells of one column in the row group that is being filled.
+struct Cells {
+    column: Column,
+    values: Values,
+    /// One per row: 1 for a value, 0 for null.
+    levels: Vec<i16>,
+}
+
+enum Values {
+    Whole(Vec<i64>),
+    Number(Vec<f64>),
+    Flag(Vec<bool>),
+    Text(Vec<ByteArray>),
+}
+
+/// The column in the schema of a file.
+fn field(column: &Column) -> Result<Type, ParquetError> {
+    let (physical, logical) = match column.kind {
+        Kind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
+        Kind::Number => (Physical::DOUBLE, None),
+        Kind::Flag => (Physical::BOOLEAN, None),
+        Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+    };
+    Type::primitive_type_builder(&column.name, physical)
+        .with_logical_type(logical)
+        .with_repetition(Repetition::OPTIONAL)
+        .build()
+}
+
+impl Cells {
+    /// No cells of `column`.
+    fn new(column: &Column) -> Cells {
+        let values = match column.kind {
+            Kind::Whole => Values::Whole(Vec::new()),
+            Kind::Number => Values::Number(Vec::new()),
+            Kind::Flag => Values::Flag(Vec::new()),
+            Kind::Text => Values::Text(Vec::new()),
+        };
+        Cells { column: column.clone(), values, levels: Vec::new() }
+    }
+
+    /// Adds a cell; an empty one is null.
+    fn push(&mut self, cell: &str) -> io::Result<()> {
+        self.levels.push(i16::from(!cell.is_empty()));
+        if cell.is_empty() {
+            return Ok(());
+        }
+        match (Cell::parse(self.column.kind, cell), &mut self.values) {
+            // Parquet keeps the bits of an unsigned number in a signed one.
+            (Some(Cell::Whole(value)), Values::Whole(values)) => values.push(value.cast_signed()),
+            (Some(Cell::Number(value)), Values::Number(values)) => values.push(value),
+            (Some(Cell::Flag(Some(value))), Values::Flag(values)) => values.push(value),
+            (Some(Cell::Text(value)), Values::Text(values)) => values.push(ByteArray::from(value)),
+            _ => {
+                let message = format!("`{cell}` does not fit column {}", self.column.name);
+                return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the cells as the next column, and forgets them.
+    fn write(&mut self, mut writer: SerializedColumnWriter<'_>) -> io::Result<()> {
+        fn write<T: DataType>(
+            writer: &mut SerializedColumnWriter<'_>,
+            values: &mut Vec<T::T>,
+            levels: &[i16],
+        ) -> Result<(), ParquetError> {
+            writer.typed::<T>().write_batch(values, Some(levels), None)?;
+            values.clear();
+            Ok(())
+        }
+        let levels = &self.levels;
+        let written = match &mut self.values {
+            Values::Whole(values) => write::<Int64Type>(&mut writer, values, levels),
+            Values::Number(values) => write::<DoubleType>(&mut writer, values, levels),
+            Values::Flag(values) => write::<BoolType>(&mut writer, values, levels),
+            Values::Text(values) => write::<ByteArrayType>(&mut writer, values, levels),
+        };
+        self.levels.clear();
+        written.and_then(|()| writer.close()).map_err(io_error)
+    }
+}
+
+/// The error of the operating system, or [`io::ErrorKind::InvalidData`] with the mistake in the file.
+fn io_error(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+            Ok(cause) => *cause,
+            Err(cause) => io::Error::other(cause),
+        },
+        other => io::Error::new(io::ErrorKind::InvalidData, other),
+    }
+}

@@ -1,18 +1,21 @@
-//! Rows out of a Parquet file.
+//! Rows out of a Parquet file, which may be damaged or made by another program.
 
+use std::cell::Cell;
 use std::fs::File;
-use std::io;
+use std::io::{self, BufRead, BufReader};
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
 
+use bytes::Bytes;
 use csv::StringRecord;
 use parquet::basic::Compression;
+use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
 use parquet::record::Field;
 use parquet::record::reader::RowIter;
 
-use super::error::io_error;
-use super::guard::guarded;
-use super::limited::Limited;
+use super::io_error;
 use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
 use crate::table::lines;
@@ -98,4 +101,143 @@ pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
         Ok(())
     });
     (digest, summed)
+}
+
+thread_local! {
+    static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs `decode` on a file that may be damaged. A panic becomes an error and is not printed. After one, the reader that `decode`
+/// used must not be used again.
+fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
+    static QUIET: Once = Once::new();
+    QUIET.call_once(|| {
+        let print = panic::take_hook();
+        panic::set_hook(Box::new(move |panicked| {
+            if !IS_GUARDED.get() {
+                print(panicked);
+            }
+        }));
+    });
+    IS_GUARDED.set(true);
+    let decoded = panic::catch_unwind(AssertUnwindSafe(decode));
+    IS_GUARDED.set(false);
+    decoded.unwrap_or_else(|_| {
+        Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "it cannot be decoded: it is damaged, or not a file of this format",
+        ))
+    })
+}
+
+/// Largest size of a decompressed page: 256 MiB. Other programs write pages of about 1 MiB, and those of flap are smaller.
+const LARGEST_PAGE: u64 = 256 << 20;
+
+/// First byte of a field that is a whole number and follows the one before, in Thrift's compact protocol.
+const NEXT_NUMBER: u8 = 0x15;
+
+/// A file whose pages are refused if they declare too many bytes: a few compressed bytes can stand for any number of others.
+struct Limited(File);
+
+impl Length for Limited {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+}
+
+impl ChunkReader for Limited {
+    type T = BufReader<File>;
+
+    // The parquet crate calls this at the header of a page, or at the end of the file, which does not look like a header.
+    fn get_read(&self, start: u64) -> Result<BufReader<File>, ParquetError> {
+        let mut source = self.0.get_read(start)?;
+        match declared(source.fill_buf()?) {
+            Some(size) if size > LARGEST_PAGE => Err(ParquetError::General(format!(
+                "one of its pages would take {} MiB of memory: flap reads pages of up to {} MiB",
+                size >> 20,
+                LARGEST_PAGE >> 20
+            ))),
+            _ => Ok(source),
+        }
+    }
+
+    fn get_bytes(&self, start: u64, length: usize) -> Result<Bytes, ParquetError> {
+        self.0.get_bytes(start, length)
+    }
+}
+
+/// The size of a page when it is decompressed: the second field of its header. `None` if the bytes are no header; the parquet
+/// crate then reports the mistake.
+fn declared(header: &[u8]) -> Option<u64> {
+    let (_, rest) = number(header)?;
+    let (size, _) = number(rest)?;
+    // The lowest bit is the sign.
+    (size & 1 == 0).then_some(size >> 1)
+}
+
+/// A field that is a whole number, and the bytes behind it.
+fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
+    let (&kind, bytes) = bytes.split_first()?;
+    let length = bytes.iter().take(5).position(|byte| byte & 0x80 == 0)? + 1;
+    let (digits, rest) = bytes.split_at(length);
+    let value = digits.iter().rev().fold(0, |value, digit| value << 7 | u64::from(digit & 0x7f));
+    (kind == NEXT_NUMBER).then_some((value, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_error() {
+        assert_eq!(guarded(|| Ok(7)).unwrap(), 7);
+        let none: [u8; 0] = [];
+        let error = guarded(|| Ok(none[std::hint::black_box(3)])).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::InvalidData);
+        assert!(panic::catch_unwind(|| panic!("printed again")).is_err());
+    }
+
+    /// The header of a page of dictionary values of this size, in Thrift's compact protocol.
+    fn header(size: usize) -> Vec<u8> {
+        let number = |mut rest: usize| {
+            let mut bytes = vec![NEXT_NUMBER];
+            loop {
+                let low = u8::try_from(rest & 0x7f).unwrap();
+                rest >>= 7;
+                if rest == 0 {
+                    bytes.push(low);
+                    return bytes;
+                }
+                bytes.push(low | 0x80);
+            }
+        };
+        // The lowest bit of a number is its sign.
+        [number(2 << 1), number(size << 1)].concat()
+    }
+
+    #[test]
+    fn the_size_of_a_page_is_found_in_its_header() {
+        for size in [0, 1, 63, 64, 8191, 1 << 20, 2_147_483_647] {
+            assert_eq!(declared(&header(size)), Some(size as u64));
+        }
+        assert_eq!(declared(b"\x15\x80"), None);
+        assert_eq!(declared(b"\x12\x34\0\0PAR1"), None);
+    }
+
+    #[test]
+    fn a_huge_page_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pages");
+        let largest = usize::try_from(LARGEST_PAGE).unwrap();
+        for (size, is_read) in [(largest, true), (largest + 1, false)] {
+            fs::write(&path, header(size)).unwrap();
+            let read = Limited(File::open(&path).unwrap()).get_read(0);
+            assert_eq!(read.is_ok(), is_read);
+            if let Err(error) = read {
+                assert!(error.to_string().contains("pages of up to 256 MiB"), "{error}");
+            }
+        }
+    }
 }

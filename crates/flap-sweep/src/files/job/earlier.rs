@@ -5,11 +5,10 @@ use std::path::Path;
 use super::{Begun, Job, JobError, Target, Writing, write_sidecar};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
-use crate::files::journal;
 use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
-use crate::files::sidecar::{ReadError, Sidecar, State};
-use crate::files::{companions, disk, output, replacement};
+use crate::files::sidecar::{Sidecar, SidecarError, State};
+use crate::files::{disk, journal, output, replacement};
 use crate::run::Summary;
 use crate::run::identity::Identity;
 
@@ -36,7 +35,7 @@ impl<'a> Job<'a> {
     /// Begins behind the points that are done of the results at `place`.
     fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
-            companions::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
+            replacement::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
         let sidecar = Sidecar::read(&sidecar_of(place));
         // Rows that were moved away leave a sidecar in the way of others.
         let is_alone = place == self.out && !place.exists();
@@ -49,7 +48,7 @@ impl<'a> Job<'a> {
         if !has_journal {
             return match sidecar {
                 _ if disk::is_empty(place) => self.start(),
-                Err(error @ ReadError::Damaged { .. }) => Err(JobError::Open(error.into())),
+                Err(error @ SidecarError::Damaged { .. }) => Err(JobError::Open(error.into())),
                 Err(_) => self.existing(),
                 _ => Err(self.cannot_resume(place, ResumeError::NoJournal(place.to_owned()))),
             };

@@ -1,14 +1,13 @@
-//! One mistake in a grid file.
-//!
-//! A diagnostic carries the text that it is about, so that a function that shows it needs nothing else.
+//! Mistakes in a grid file: their places, their causes and their remedies.
 
 use std::fmt;
-use std::ops::Range;
+use std::ops::{Deref, Range};
 use std::sync::Arc;
 
+use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
+
 use crate::notation::nearest;
-use crate::notation::position::position;
-use crate::notation::text::shortened;
+use crate::notation::text::{position, shortened};
 use crate::plan::Source;
 
 /// One mistake in a grid file.
@@ -113,3 +112,72 @@ impl fmt::Display for Diagnostic {
 }
 
 impl std::error::Error for Diagnostic {}
+
+/// The mistakes in a grid file: the first [`Mistakes::MOST_SHOWN`] in the order of the file, and the number of the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mistakes {
+    shown: Vec<Diagnostic>,
+    more: usize,
+}
+
+impl Mistakes {
+    /// The most mistakes that are shown. A file with more usually has one mistake many times.
+    pub const MOST_SHOWN: usize = 20;
+
+    /// The first ones of `found`, which is in the order of the file; `more` others were found, too.
+    pub(crate) fn new(mut found: Vec<Diagnostic>, more: usize) -> Mistakes {
+        let more = more + found.len().saturating_sub(Mistakes::MOST_SHOWN);
+        found.truncate(Mistakes::MOST_SHOWN);
+        Mistakes { shown: found, more }
+    }
+
+    /// Mistakes that are not shown.
+    pub fn more(&self) -> usize {
+        self.more
+    }
+
+    /// All mistakes, shown or not.
+    pub fn count(&self) -> usize {
+        self.shown.len() + self.more
+    }
+}
+
+/// The mistakes that are shown.
+impl Deref for Mistakes {
+    type Target = [Diagnostic];
+
+    fn deref(&self) -> &[Diagnostic] {
+        &self.shown
+    }
+}
+
+/// The text of the `mistakes` that are shown, with the lines of the grid file that they are about, and the number of the
+/// others; with colours if `styled`.
+pub fn render(mistakes: &Mistakes, styled: bool) -> String {
+    let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
+    let text: String =
+        mistakes.iter().map(|diagnostic| renderer.render(&[group(diagnostic)]) + "\n\n").collect();
+    let name = mistakes.first().map_or("", |diagnostic| diagnostic.source.name.as_str());
+    let more = if mistakes.more() > 0 { format!("and {} more\n\n", mistakes.more()) } else { String::new() };
+    let count = match mistakes.count() {
+        1 => "1 mistake".to_owned(),
+        many => format!("{many} mistakes"),
+    };
+    format!("{text}{more}{name}: {count}, nothing was run")
+}
+
+fn group(diagnostic: &Diagnostic) -> Group<'_> {
+    let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty());
+    let primary = AnnotationKind::Primary.span(diagnostic.span.clone()).label(label);
+    let related = diagnostic
+        .related
+        .iter()
+        .map(|related| AnnotationKind::Context.span(related.span.clone()).label(related.label.as_str()));
+    let snippet = Snippet::source(diagnostic.source.text.as_str())
+        .path(diagnostic.source.name.as_str())
+        .annotation(primary)
+        .annotations(related);
+    let notes = diagnostic.notes.iter().map(|note| Element::from(Level::NOTE.message(note.as_str())));
+    let help = diagnostic.help.iter().map(|help| Element::from(Level::HELP.message(help.as_str())));
+    Level::ERROR.primary_title(diagnostic.message.as_str()).element(snippet).elements(notes.chain(help))
+}

@@ -1,0 +1,461 @@
+//! Checks that results are unchanged since they were written.
+//!
+//! A sidecar has checksums of complete results: of the file's bytes, which are fast to compare, and of the rows in blocks,
+//! which locate damage. For unfinished results, the journal records the safe rows and the identity of the sweep: only these
+//! rows are read, and only with a sidecar of the same identity.
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use memchr::memrchr;
+
+use super::beside::{journal_of, rows_of, sidecar_of};
+use super::journal::{self, JournalContents, last_intact};
+use super::results::{BLOCK_ROWS, Checksums, FileSum, Format, FormatError, Reader, TextDigest, sum_up};
+use super::sidecar::{Sidecar, SidecarError, State};
+use crate::notation::text::count;
+
+/// The treatment of damage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnDamage {
+    /// Damaged results are not read.
+    Refuse,
+    /// Rows that can be read are read, and a [`Note`] tells of the damage.
+    Tolerate,
+}
+
+/// Most ranges that a message lists; it counts the others.
+const MOST_LISTED: usize = 5;
+
+/// The differences of a file from the one that was written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
+pub struct Damage {
+    /// The checksums themselves cannot be read.
+    pub checksums: bool,
+    /// The header has changed.
+    pub header: bool,
+    /// Ranges of rows, counted from 1, in blocks that have changed: at least one row in each, and all rows behind a missing or
+    /// an added one.
+    pub rows: Vec<RangeInclusive<u64>>,
+    /// Number of rows in the file and number of rows that were written, if they differ.
+    pub count: Option<(u64, u64)>,
+    /// Reason why the rest of the file cannot be read.
+    pub unreadable: Option<String>,
+    /// Bytes have changed, perhaps only some that rows do not depend on.
+    pub bytes: bool,
+    /// Unfinished rows are not those that the journal records.
+    pub altered: bool,
+    /// Number of rows that the journal records and the file lacks.
+    pub lost: u64,
+    /// Differences between the rows that the sidecar describes and those that the journal records, in words.
+    pub foreign_sidecar: Vec<String>,
+}
+
+impl Damage {
+    /// The damage of the text that was found, compared with the `checksums` of the `rows` that were written.
+    fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
+        let mut damage = Damage::default();
+        if found.text() == checksums.text {
+            return damage;
+        }
+        let Some(written) = checksums.parts().filter(|_| checksums.block_rows == BLOCK_ROWS) else {
+            return Damage { checksums: true, ..damage };
+        };
+        let found_parts = found.parts();
+        damage.header = found_parts.first() != written.first();
+        let last = rows.unwrap_or(0).max(found.rows());
+        let blocks = written.len().max(found_parts.len());
+        for block in (1..blocks).filter(|&block| found_parts.get(block) != written.get(block)) {
+            let begin = (block as u64 - 1) * u64::from(BLOCK_ROWS) + 1;
+            let end = last.min(begin + u64::from(BLOCK_ROWS) - 1).max(begin);
+            match damage.rows.last_mut() {
+                Some(range) if range.end() + 1 == begin => *range = *range.start()..=end,
+                _ => damage.rows.push(begin..=end),
+            }
+        }
+        damage.count = rows.filter(|&rows| rows != found.rows()).map(|rows| (found.rows(), rows));
+        damage
+    }
+
+    /// True if there is no damage.
+    pub fn is_none(&self) -> bool {
+        *self == Damage::default()
+    }
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut told = Vec::new();
+        if self.checksums {
+            told.push("its checksums cannot be read".to_owned());
+        }
+        if self.header {
+            told.push("its header has changed".to_owned());
+        }
+        if !self.rows.is_empty() {
+            told.push(format!("rows {} have changed since they were written", listed(&self.rows)));
+        }
+        if let Some((found, written)) = self.count {
+            told.push(format!("it holds {found} rows, but {written} were written"));
+        }
+        if let Some(reason) = &self.unreadable {
+            told.push(format!("the rest cannot be read ({reason})"));
+        }
+        if self.altered {
+            told.push("it has changed since the sweep wrote it".to_owned());
+        }
+        if self.lost > 0 {
+            told.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
+        }
+        if !self.foreign_sidecar.is_empty() {
+            told.push(format!("its sidecar is of another sweep: {}", self.foreign_sidecar.join("; ")));
+        }
+        if self.bytes && told.is_empty() {
+            told.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
+        }
+        f.write_str(&told.join("; "))
+    }
+}
+
+fn listed(ranges: &[RangeInclusive<u64>]) -> String {
+    let range = |range: &RangeInclusive<u64>| format!("{} to {}", range.start(), range.end());
+    let shown: Vec<String> = ranges.iter().take(MOST_LISTED).map(range).collect();
+    let more = match ranges.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more ranges"),
+    };
+    shown.join(", ") + &more
+}
+
+/// Results that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The name stands for no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The operating system refuses, or the file is not of its format.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// Their sidecar cannot be read, or is damaged.
+    #[error(transparent)]
+    Sidecar(#[from] SidecarError),
+    /// They have changed since they were written.
+    #[error("{} is damaged: {damage}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The damage.
+        damage: Box<Damage>,
+    },
+}
+
+/// A note on results for the user.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Note {
+    /// They have changed since they were written.
+    #[error("{} is damaged: {damage}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The damage.
+        damage: Damage,
+    },
+    /// Their sidecar is damaged, or of an unknown format.
+    #[error("{0}")]
+    Sidecar(String),
+    /// They are not complete.
+    #[error("{} is unfinished: {}", path.display(), so_far(*done))]
+    Unfinished {
+        /// The file.
+        path: PathBuf,
+        /// Number of points that have rows or are excluded, if it is known.
+        done: Option<u64>,
+    },
+    /// They cannot be checked.
+    #[error("{} could not be verified: {why}", path.display())]
+    Unverified {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        why: Unverified,
+    },
+}
+
+/// Reason why results cannot be checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unverified {
+    /// They have no sidecar.
+    #[error("there is no sidecar beside it")]
+    NoSidecar,
+    /// Their sidecar has no checksums.
+    #[error("its sidecar has no checksums")]
+    NoChecksums,
+}
+
+fn so_far(done: Option<u64>) -> String {
+    match done {
+        Some(done) => format!("{} done so far, `flap results resume` continues it", count(done, "point")),
+        None => "there are fewer rows than points to be run".to_owned(),
+    }
+}
+
+/// The damage of the complete results at `path`; `None` if there is none, or their sidecar has no checksums. Reads the file
+/// once, and a second time if its bytes have changed.
+///
+/// # Errors
+/// - [`OpenError::Read`] if the file cannot be read
+/// - [`OpenError::Damaged`] if it is damaged and that is not tolerated
+pub fn check(
+    path: &Path,
+    format: Format,
+    sidecar: &Sidecar,
+    on_damage: OnDamage,
+) -> Result<Option<Damage>, OpenError> {
+    match find(path, format, sidecar) {
+        Ok(Some(damage)) if on_damage == OnDamage::Refuse => {
+            Err(OpenError::Damaged { path: path.to_owned(), damage: Box::new(damage) })
+        }
+        Ok(damage) => Ok(damage),
+        Err(source) => Err(OpenError::Read { path: path.to_owned(), source }),
+    }
+}
+
+fn find(path: &Path, format: Format, sidecar: &Sidecar) -> io::Result<Option<Damage>> {
+    let Some(checksums) = sidecar.checksums.as_ref() else { return Ok(None) };
+    let bytes = match &checksums.file {
+        Some(sum) if FileSum::of(File::open(path)?)? == *sum => return Ok(None),
+        sum => sum.is_some(),
+    };
+    let damage = Damage { bytes, ..locate(path, format, sidecar, checksums)? };
+    Ok(Some(damage).filter(|damage| !damage.is_none()))
+}
+
+/// The damage of the rows as they are read from the file, with its place.
+fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums) -> io::Result<Damage> {
+    let (found, read) = sum_up(File::open(path)?, format);
+    let rows = sidecar.rows();
+    let mut damage = Damage::of_text(&found, checksums, rows);
+    if let Err(error) = read {
+        if error.raw_os_error().is_some() {
+            return Err(error);
+        }
+        // Rows that cannot be read are not counted.
+        damage.count = None;
+        damage.unreadable = Some(error.to_string());
+    }
+    Ok(damage)
+}
+
+/// Longest row of a result file (bytes).
+const LONGEST_ROW: u64 = 1 << 20;
+
+/// Format of the rows of a Parquet file that is not complete.
+const WAITING: Format = Format::CsvZstd;
+
+/// Results that can be read.
+pub struct Opened {
+    /// Their rows.
+    pub reader: Reader,
+    /// Their sidecar, if there is one and it is theirs.
+    pub sidecar: Option<Sidecar>,
+    /// Notes for the user.
+    pub notes: Vec<Note>,
+}
+
+/// The column names of the results at `path`, complete or not. Reads the beginning of the file, or the end of a Parquet file,
+/// and checks nothing.
+///
+/// # Errors
+/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Read`] if the file cannot be read
+pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
+    let format = Format::of(path)?;
+    let waiting = rows_of(path, format);
+    let reader = if format.is_columnar() && waiting.exists() {
+        File::open(waiting).and_then(|rows| Reader::new(rows, WAITING))
+    } else {
+        File::open(path).and_then(|file| Reader::new(file, format))
+    };
+    let reader = reader.map_err(|source| OpenError::Read { path: path.to_owned(), source })?;
+    Ok(reader.names().to_vec())
+}
+
+/// Opens the results at `path`. Unfinished results end at their last checkpoint.
+///
+/// # Errors
+/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Read`] if the file cannot be read
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and that is not tolerated
+/// - [`OpenError::Damaged`] if the results are damaged and that is not tolerated
+pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
+    let format = Format::of(path)?;
+    let mut notes = Vec::new();
+    let mut sidecar = beside(path, on_damage, &mut notes)?;
+    let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
+    let is_complete = sidecar.as_ref().is_some_and(|sidecar| sidecar.state == State::Complete);
+    let recorded = if is_complete { None } else { journal::read(&journal_of(path)).map_err(unreadable)? };
+    let mut reader = if let Some(recorded) = recorded {
+        unfinished(path, format, &recorded, &mut sidecar, (on_damage, &mut notes))?
+    } else if let Some(sidecar) = &sidecar {
+        notes.extend(match &sidecar.checksums {
+            None => Some(Note::Unverified { path: path.to_owned(), why: Unverified::NoChecksums }),
+            Some(_) => check(path, format, sidecar, on_damage)?
+                .map(|damage| Note::Damaged { path: path.to_owned(), damage }),
+        });
+        let file = File::open(path).map_err(unreadable)?;
+        if is_complete {
+            Reader::new(file, format).map_err(unreadable)?
+        } else {
+            notes.push(Note::Unfinished { path: path.to_owned(), done: None });
+            whole_rows(file, format).map_err(unreadable)?
+        }
+    } else {
+        if notes.is_empty() {
+            notes.push(Note::Unverified { path: path.to_owned(), why: Unverified::NoSidecar });
+        }
+        Reader::new(File::open(path).map_err(unreadable)?, format).map_err(unreadable)?
+    };
+    if on_damage == OnDamage::Tolerate {
+        reader.tolerate();
+    }
+    Ok(Opened { reader, sidecar, notes })
+}
+
+/// The sidecar of the results at `path`; `None` if there is none, or it cannot be used.
+fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Option<Sidecar>, OpenError> {
+    let beside = sidecar_of(path);
+    match Sidecar::read(&beside) {
+        Ok(sidecar) => Ok(Some(sidecar)),
+        Err(SidecarError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error @ SidecarError::Damaged { .. }) if on_damage == OnDamage::Tolerate => {
+            notes.push(Note::Sidecar(error.to_string()));
+            Ok(Sidecar::read_damaged(&beside).ok())
+        }
+        // The file may be one of another version, or of another program.
+        Err(error @ SidecarError::Format { .. }) => {
+            notes.push(Note::Sidecar(error.to_string()));
+            Ok(None)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+/// The whole rows of unfinished results that no journal limits: the last line may be half a row.
+fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
+    let bytes = file.metadata()?.len();
+    if format != Format::Csv && bytes > 0 {
+        let mut reader = Reader::new(file, format)?;
+        reader.tolerate();
+        return Ok(reader);
+    }
+    let begin = bytes.saturating_sub(LONGEST_ROW);
+    file.seek(SeekFrom::Start(begin))?;
+    let mut end = Vec::new();
+    file.read_to_end(&mut end)?;
+    let last = memrchr(b'\n', &end).map_or(0, |last| last as u64 + 1);
+    file.seek(SeekFrom::Start(0))?;
+    Reader::of_text(file.take(begin + last), format)
+}
+
+/// The rows of unfinished results up to the last checkpoint, all of which must be those that the journal records. If damage is
+/// tolerated, all whole rows in the file, and `sidecar` becomes `None` if it describes other rows.
+fn unfinished(
+    path: &Path,
+    format: Format,
+    recorded: &JournalContents,
+    sidecar: &mut Option<Sidecar>,
+    (on_damage, notes): (OnDamage, &mut Vec<Note>),
+) -> Result<Reader, OpenError> {
+    let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
+    let rows = rows_of(path, format);
+    let file = File::open(&rows).map_err(unreadable)?;
+    let intact = last_intact(&file, recorded).map_err(unreadable)?;
+    let done = intact.as_ref().map(|intact| intact.checkpoint.summary.done());
+    notes.push(Note::Unfinished { path: path.to_owned(), done });
+    let own = &recorded.header.identity;
+    let damage = Damage {
+        altered: intact.is_none(),
+        lost: intact.as_ref().map_or(0, |intact| intact.lost),
+        foreign_sidecar: sidecar.as_ref().map_or(Vec::new(), |sidecar| own.differences(&sidecar.identity)),
+        ..Damage::default()
+    };
+    let is_foreign = !damage.foreign_sidecar.is_empty();
+    let are_sound = !damage.altered && damage.lost == 0;
+    if !damage.is_none() {
+        if on_damage == OnDamage::Refuse {
+            return Err(OpenError::Damaged { path: path.to_owned(), damage: Box::new(damage) });
+        }
+        notes.push(Note::Damaged { path: path.to_owned(), damage });
+    }
+    if is_foreign {
+        *sidecar = None;
+    }
+    let text = if format.is_columnar() { WAITING } else { format };
+    let file = File::open(&rows).map_err(unreadable)?;
+    match intact {
+        Some(intact) if are_sound => Reader::of_text(file.take(intact.checkpoint.file.bytes), text),
+        _ => whole_rows(file, text),
+    }
+    .map_err(unreadable)
+}
+
+/// The result of a check.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The results are unchanged since they were written.
+    Sound {
+        /// Number of rows.
+        rows: u64,
+    },
+    /// They are not complete; their rows are unchanged since they were written.
+    Unfinished {
+        /// Number of points that are done, if it is known.
+        done: Option<u64>,
+    },
+    /// They cannot be checked.
+    Unverified(Unverified),
+    /// They have changed since they were written.
+    Damaged(Damage),
+}
+
+/// Checks the results at `path` completely: every byte of the file, and every row as it is read.
+///
+/// # Errors
+/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Read`] if the results cannot be read
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged
+pub fn verify(path: &Path) -> Result<Verdict, OpenError> {
+    match Sidecar::read(&sidecar_of(path)) {
+        Err(SidecarError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => {}
+        read => drop(read?),
+    }
+    let opened = match open(path, OnDamage::Refuse) {
+        Err(OpenError::Damaged { damage, .. }) => return Ok(Verdict::Damaged(*damage)),
+        opened => opened?,
+    };
+    for note in &opened.notes {
+        match note {
+            Note::Unfinished { done, .. } => return Ok(Verdict::Unfinished { done: *done }),
+            Note::Unverified { why, .. } => return Ok(Verdict::Unverified(*why)),
+            Note::Damaged { .. } | Note::Sidecar(_) => {}
+        }
+    }
+    let Some(sidecar) = opened.sidecar else { return Ok(Verdict::Unverified(Unverified::NoSidecar)) };
+    let Some(checksums) = &sidecar.checksums else { return Ok(Verdict::Unverified(Unverified::NoChecksums)) };
+    let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
+    // The file's bytes are those that were written. This checks that they are read as the rows that were computed.
+    let damage = locate(path, Format::of(path)?, &sidecar, checksums).map_err(unreadable)?;
+    if damage.is_none() {
+        return Ok(Verdict::Sound { rows: sidecar.rows().unwrap_or_default() });
+    }
+    Ok(Verdict::Damaged(damage))
+}
