@@ -1,7 +1,7 @@
 """A sweep spread over the processes of a cluster, with the same result as on one machine.
 
 Starts a small Dask cluster on this machine, sweeps on it into one file, and compares that with a sweep without a
-cluster: the same bytes. If a worker dies, others run its points again. ``resume=True`` continues an interrupted sweep,
+cluster: the same bytes. If a worker dies, others run its points again. The same call continues an interrupted sweep,
 on the cluster or without it.
 
     python dask_cluster.py

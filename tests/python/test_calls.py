@@ -103,10 +103,10 @@ def test_sweeps_take_parameters_and_settings(tmp_path):
 def test_files_of_such_sweeps_can_be_resumed_and_read(tmp_path):
     out = tmp_path / "rows.csv"
     flapwing.sweep(THREE, out=out, drive_voltage_pp="80 V")
-    again = flapwing.sweep(THREE, out=out, drive_voltage_pp="80 V", resume=True)
+    again = flapwing.sweep(THREE, out=out, drive_voltage_pp="80 V")
     assert len(again) == 3 and 'drive_voltage_pp = "80 V"' in flapwing.read(out).meta["grid"]
-    with pytest.raises(FileExistsError, match="overwrite=True"):
-        flapwing.sweep(THREE, out=out, drive_voltage_pp="81 V", resume=True)
+    with pytest.raises(FileExistsError, match="restart=True"):
+        flapwing.sweep(THREE, out=out, drive_voltage_pp="81 V")
 
 
 def test_order_of_axes_is_kept_or_told():
@@ -209,7 +209,7 @@ def test_progress_of_responses_is_told():
         (lambda: flapwing.sweep({"preset": PRESET, "axes": {"drive_frequency": object()}}), "object"),
         (lambda: flapwing.sweep(THREE, client="me"), "str"),
         (lambda: flapwing.sweep(THREE, progress="yes"), "str"),
-        (lambda: flapwing.sweep(THREE, out="rows.csv", resume=1), "int"),
+        (lambda: flapwing.sweep(THREE, out="rows.csv", restart=1), "int"),
         (lambda: flapwing.evaluate(PRESET, [1.0]), "list"),
         (lambda: flapwing.evaluate(PRESET, "drive_frequency"), "str"),
         (lambda: flapwing.evaluate(PRESET, {"drive_frequency": {1.0, 2.0}, "wing_length": [0.03]}), "set"),

@@ -90,7 +90,7 @@ def test_an_interrupted_run_goes_on(client, tmp_path):
     out = tmp_path / "rows.parquet"
     with pytest.raises(Enough):
         flapwing.sweep(LONG, client=client, out=out, progress=stop)
-    flapwing.sweep(LONG, client=client, out=out, resume=True)
+    flapwing.sweep(LONG, client=client, out=out)
     flapwing.sweep(LONG, out=tmp_path / "local.parquet")
     assert out.read_bytes() == (tmp_path / "local.parquet").read_bytes()
 

@@ -68,12 +68,12 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     assert [list(dim) for dim in table.axes] == [list(dim) for dim in in_memory.axes]
     assert table.meta["grid"] == in_memory.meta["grid"] == GRID
     # Rows of another grid are not overwritten unasked; those of the same grid are there already.
-    with pytest.raises(FileExistsError, match="the grid file differs; line .*: name another file, or .*overwrite=True"):
+    with pytest.raises(FileExistsError, match="the grid file differs; line .*: name another file, or .*restart=True"):
         flapwing.sweep(GRID + "\n", out=tmp_path / name)
     assert len(flapwing.sweep(grid, out=tmp_path / name)) == len(table)
-    flapwing.sweep(grid, out=tmp_path / name, overwrite=True)
+    flapwing.sweep(grid, out=tmp_path / name, restart=True)
     # Nothing is left to run.
-    assert len(flapwing.sweep(grid, out=tmp_path / name, resume=True)) == len(table)
+    assert len(flapwing.sweep(grid, out=tmp_path / name)) == len(table)
 
 
 def test_rows_in_a_file_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
@@ -113,11 +113,8 @@ def test_meta_tells_what_the_rows_are():
 def test_where_grids_go_wrong():
     with pytest.raises(flapwing.GridError):
         flapwing.sweep({"preset": "ozaki"})
-    for arguments in [{"resume": True}, {"overwrite": True}]:
-        with pytest.raises(ValueError, match="give out"):
-            flapwing.sweep(QUICK, **arguments)
-    with pytest.raises(ValueError, match="choose one"):
-        flapwing.sweep(QUICK, out="x.csv", resume=True, overwrite=True)
+    with pytest.raises(ValueError, match="give out"):
+        flapwing.sweep(QUICK, restart=True)
     with pytest.raises(ValueError, match="`threads` must be from 1"):
         flapwing.sweep(QUICK, threads=0)
     with pytest.raises(TypeError, match="`threads` must be a whole number, not str"):
@@ -130,11 +127,11 @@ def test_where_files_go_wrong(tmp_path):
     with pytest.raises(ValueError, match="the file name must end in .csv, .csv.zst or .parquet"):
         flapwing.sweep(QUICK, out=tmp_path / "rows.xlsx")
     (tmp_path / "other.csv").write_text("something else\n")
-    with pytest.raises(ValueError, match="not the result of an interrupted sweep"):
-        flapwing.sweep(QUICK, out=tmp_path / "other.csv", resume=True)
+    with pytest.raises(FileExistsError, match="other.csv exists already"):
+        flapwing.sweep(QUICK, out=tmp_path / "other.csv")
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv")
     with pytest.raises(FileExistsError, match="the grid file differs; line 3 of the grid was"):
-        flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv", resume=True)
+        flapwing.sweep(QUICK.replace("26", "27"), out=tmp_path / "rows.csv")
 
 
 def test_inputs_are_not_overwritten(tmp_path):
@@ -145,7 +142,7 @@ def test_inputs_are_not_overwritten(tmp_path):
     (tmp_path / "link.csv").hardlink_to(grid)
     for out, what in [(points, "the file of points"), (tmp_path / "link.csv", "the grid file")]:
         with pytest.raises(ValueError, match=f"would overwrite {what}"):
-            flapwing.sweep(grid, out=out, overwrite=True)
+            flapwing.sweep(grid, out=out, restart=True)
     assert points.read_text() == "drive_frequency\n60\n70\n"
 
 
@@ -169,7 +166,7 @@ def test_progress_ends_with_all_points(tmp_path):
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv", progress=tell)
     assert told[-1] == (26, 26)
     told.clear()
-    flapwing.sweep(QUICK, out=tmp_path / "rows.csv", resume=True, progress=tell)
+    flapwing.sweep(QUICK, out=tmp_path / "rows.csv", progress=tell)
     assert told == [(26, 26)]
     told.clear()
     flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0, 105.0]}, progress=tell)
@@ -218,9 +215,7 @@ def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
     out = tmp_path / "rows.csv"
     with pytest.raises(RuntimeError):
         flapwing.sweep(grid, out=out, progress=stop)
-    with pytest.raises(FileExistsError, match="resume=True continues"):
-        flapwing.sweep(grid, out=out)
-    assert len(flapwing.sweep(grid, out=out, resume=True)) == 40000
+    assert len(flapwing.sweep(grid, out=out)) == 40000
     flapwing.sweep(grid, out=tmp_path / "whole.csv")
     assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
 
@@ -261,8 +256,8 @@ def test_damaged_results_are_refused(tmp_path, ending):
         flapwing.read(path)
     with pytest.raises(ValueError, match="is damaged"):
         table["lift_mean_mn"]
-    with pytest.raises(ValueError, match="is damaged: .*overwrite=True"):
-        flapwing.sweep(QUICK, out=path, resume=True)
+    with pytest.raises(ValueError, match="is damaged: .*restart=True"):
+        flapwing.sweep(QUICK, out=path)
     path.write_bytes(sound)
     assert len(table["lift_mean_mn"]) == 26
 

@@ -127,8 +127,8 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             fs::create_dir(&folder).unwrap();
             folder.join(name)
         });
-        assert!(matches!(run(&plan, &whole, Begin::New, u64::MAX), Ok(Some(_))));
-        let Ok(Some(first)) = run(&plan, &out, Begin::New, 300) else { panic!("{name}") };
+        assert!(matches!(run(&plan, &whole, Begin::Continue, u64::MAX), Ok(Some(_))));
+        let Ok(Some(first)) = run(&plan, &out, Begin::Continue, 300) else { panic!("{name}") };
         let Done { summary, .. } = first;
         assert!(
             summary.is_interrupted() && summary.ran > 300 && summary.ran < 2000,
@@ -136,17 +136,12 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             summary.ran
         );
         assert!(matches!(integrity::verify(&out), Ok(Verdict::Unfinished { done: Some(_) })), "{name}");
-        assert!(
-            matches!(run(&plan, &out, Begin::New, 0), Err(JobError::Unfinished { .. })),
-            "{name}: protected"
-        );
-
-        let Ok(Some(second)) = run(&plan, &out, Begin::Resume, u64::MAX) else { panic!("{name}") };
+        let Ok(Some(second)) = run(&plan, &out, Begin::Continue, u64::MAX) else { panic!("{name}") };
         assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);
         assert_eq!((second.summary.ran, second.summary.rows), (2000, 12_000), "{name}");
         assert!(fs::read(&whole).unwrap() == fs::read(&out).unwrap(), "{name}: other bytes");
         assert_eq!(integrity::verify(&out).unwrap(), Verdict::Sound { rows: 12_000 }, "{name}");
-        assert!(matches!(run(&plan, &out, Begin::Resume, 0), Ok(None)), "{name}");
+        assert!(matches!(run(&plan, &out, Begin::Continue, 0), Ok(None)), "{name}");
     }
 }
 
@@ -158,7 +153,7 @@ fn every_format_holds_the_same_rows() {
         .iter()
         .map(|name| {
             let out = folder.path().join(name);
-            assert!(matches!(run(&plan, &out, Begin::New, u64::MAX), Ok(Some(_))));
+            assert!(matches!(run(&plan, &out, Begin::Continue, u64::MAX), Ok(Some(_))));
             let mut reader = Reader::new(fs::File::open(&out).unwrap(), Format::of(&out).unwrap()).unwrap();
             let mut lines = vec![reader.names().join(",")];
             let mut row = csv::StringRecord::new();
@@ -178,9 +173,9 @@ fn a_response_along_other_values_is_another() {
     let plan = curves(model, 2000);
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("rows.csv");
-    assert!(matches!(run(&plan, &out, Begin::New, 10), Ok(Some(_))));
+    assert!(matches!(run(&plan, &out, Begin::Continue, 10), Ok(Some(_))));
     let along = plan.followed().unwrap().clone();
     let plan = plan.following(Along { tolerance: 0.2, ..along });
-    let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Resume, 0) else { panic!("resumed") };
+    let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Continue, 0) else { panic!("resumed") };
     assert!(error.to_string().contains("the followed parameter"), "{error}");
 }

@@ -100,9 +100,6 @@ impl Failure {
                 edited(Failure::usage(error.to_string()), changed.as_ref())
                     .help("--out FILE writes to another file, --restart replaces it")
             }
-            JobError::Unfinished { ref changed, continues, .. } => {
-                unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
-            }
             JobError::Resume { error: error @ ResumeError::Changed { .. }, changed, continues } => {
                 unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
             }

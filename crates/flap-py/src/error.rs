@@ -90,7 +90,7 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// The exception for results that were not written, or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
-        if resumable { noted(py, error, "the same call with resume=True continues the run") } else { error }
+        if resumable { noted(py, error, "the same call continues the run") } else { error }
     };
     Python::attach(|py| match error {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
@@ -98,20 +98,15 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Create(error) => create(error),
         JobError::Exists { changed, .. } => {
             let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
-            let remedy = "name another file, or replace it with overwrite=True";
+            let remedy = "name another file, or replace it with restart=True";
             PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
-        }
-        JobError::Unfinished { changes, changed, .. } => {
-            let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
-            let remedy = if changes.is_empty() { "resume=True continues it" } else { "name another file" };
-            PyFileExistsError::new_err(format!("{error}{changed}: {remedy}, overwrite=True replaces it"))
         }
         JobError::Resume { error, changed, .. } => resume(error, changed.as_deref()),
         JobError::Open(OpenError::Read { path, source }) => {
             io_error(&format!("cannot read {}", path.display()), source)
         }
         JobError::Open(_) => {
-            PyValueError::new_err(format!("{error}: overwrite=True starts over, or name another file"))
+            PyValueError::new_err(format!("{error}: restart=True starts over, or name another file"))
         }
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
@@ -126,10 +121,10 @@ fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
 fn create(error: &CreateError) -> PyErr {
     match error {
         CreateError::Exists { .. } => {
-            PyFileExistsError::new_err(format!("{error}: overwrite=True replaces it, or name another file"))
+            PyFileExistsError::new_err(format!("{error}: restart=True replaces it, or name another file"))
         }
         CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
-            "{error}: resume=True continues it, overwrite=True replaces it"
+            "{error}: the same call continues it, restart=True replaces it"
         )),
         CreateError::InTheWay { .. } => PyFileExistsError::new_err(format!(
             "{error}: rename or remove that file, or choose another name for the results"
@@ -145,7 +140,7 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
         ResumeError::Create(error) => create(error),
         ResumeError::Format(_) => PyValueError::new_err(message),
         ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
-            PyValueError::new_err(format!("{message}: overwrite=True starts over, or name another file"))
+            PyValueError::new_err(format!("{message}: restart=True starts over, or name another file"))
         }
     }
 }

@@ -28,14 +28,13 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 /// Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
 /// it gives the bytes of the next parcel.
 #[pyfunction]
-#[pyo3(signature = (grid, /, *, out=None, resume=false, overwrite=false, threads=None, progress=None, parcels=None))]
+#[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, parcels=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn sweep<'py>(
     py: Python<'py>,
     grid: &Bound<'py, Grid>,
     out: Option<PathBuf>,
-    resume: bool,
-    overwrite: bool,
+    restart: bool,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
     parcels: Option<Bound<'py, PyAny>>,
@@ -43,18 +42,9 @@ pub(crate) fn sweep<'py>(
     let parcels = parcels.map(Bound::unbind);
     let plan = &grid.get().plan;
     let options = options(threads)?;
-    let begin = match (resume, overwrite) {
-        (true, true) => {
-            return Err(PyValueError::new_err("resume keeps what overwrite would drop: choose one of them"));
-        }
-        (true, false) => Begin::Resume,
-        (false, true) => Begin::Overwrite,
-        (false, false) => Begin::New,
-    };
+    let begin = if restart { Begin::Restart } else { Begin::Continue };
     match out {
-        None if begin != Begin::New => {
-            Err(PyValueError::new_err("resume and overwrite are about a file of results: give out"))
-        }
+        None if restart => Err(PyValueError::new_err("restart is about a file of results: give out")),
         None => into_columns(py, plan, &options, progress, parcels.as_ref()),
         Some(out) => {
             let options = SessionOptions { run: options, checkpoint: CHECKPOINT };

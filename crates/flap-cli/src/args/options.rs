@@ -86,7 +86,7 @@ pub(crate) struct BeginArgs {
 impl BeginArgs {
     /// The treatment of results that are there already.
     pub(crate) fn treatment(&self) -> Begin {
-        if self.restart { Begin::Overwrite } else { Begin::Resume }
+        if self.restart { Begin::Restart } else { Begin::Continue }
     }
 }
 

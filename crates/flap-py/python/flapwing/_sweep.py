@@ -25,8 +25,7 @@ def sweep(
     /,
     *,
     out: str | os.PathLike[str] | None = None,
-    resume: bool = False,
-    overwrite: bool = False,
+    restart: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
     client: Client | None = None,
@@ -43,12 +42,10 @@ def sweep(
     out : path, optional
         File for the rows, written as soon as they are computed, with the same bytes as by ``flap sweep --out``:
         ``.csv``, ``.csv.zst`` or ``.parquet``. A sidecar beside it records the origin of the rows. By default rows are
-        kept in memory: about half a kilobyte each.
-    resume : bool, optional
-        Continue the unfinished results in `out`; start the sweep if there are none.
-    overwrite : bool, optional
-        Replace the results in `out`, which stay until the new ones are complete. By default an existing
-        file is an error, unless it is empty or holds the complete rows of the same grid: then nothing is run.
+        kept in memory: about half a kilobyte each. If `out` has unfinished rows of the same grid, the sweep continues
+        them; if it has all of them, nothing is run. Any other file is an error, unless it is empty.
+    restart : bool, optional
+        Start over, and replace the results in `out`, which stay until the new ones are complete.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -79,17 +76,16 @@ def sweep(
         Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
         ValueError.
     FileExistsError
-        `out` holds complete rows of another grid and `overwrite` is not given, or unfinished ones and neither `resume`
-        nor `overwrite` is given.
+        `out` holds complete rows of another grid, or is another file, and `restart` is not given.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be resumed: its unfinished rows are of another grid, or were changed. Unknown preset, parameter,
+        `out` cannot be continued: its unfinished rows are of another grid, or were changed. Unknown preset, parameter,
         option, unit or measure; a keyword that the grid varies or derives.
     TypeError
         A value of the wrong type.
     KeyboardInterrupt
-        Ctrl-C. Rows in `out` are kept, and `resume` continues with them.
+        Ctrl-C. Rows in `out` are kept, and the same call continues them.
 
     Examples
     --------
@@ -103,8 +99,7 @@ def sweep(
     checked = _with_keywords(design, keywords, _arguments.measures(measures))
     given: dict[str, Any] = {
         "out": out,
-        "resume": _arguments.flag("resume", resume),
-        "overwrite": _arguments.flag("overwrite", overwrite),
+        "restart": _arguments.flag("restart", restart),
     }
     with shown(progress) as show:
         if client is None:

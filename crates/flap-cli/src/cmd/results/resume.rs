@@ -23,5 +23,5 @@ pub(super) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     let origin = sidecar.origin().cloned();
-    job::run(&plan, args.results.clone(), Begin::Resume, &args.work, origin)
+    job::run(&plan, args.results.clone(), Begin::Continue, &args.work, origin)
 }

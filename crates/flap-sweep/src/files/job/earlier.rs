@@ -49,7 +49,9 @@ impl<'a> Job<'a> {
             return match sidecar {
                 _ if disk::is_empty(place) => self.start(),
                 Err(error @ SidecarError::Damaged { .. }) => Err(JobError::Open(error.into())),
-                Err(_) => self.existing(),
+                Err(_) => {
+                    Err(JobError::Exists { path: place.to_owned(), changes: Vec::new(), changed: None })
+                }
                 _ => Err(self.cannot_resume(place, ResumeError::NoJournal(place.to_owned()))),
             };
         }
@@ -82,14 +84,6 @@ impl<'a> Job<'a> {
         Ok(outcome)
     }
 
-    /// The end of the job if a file has the name of the results: it holds the rows wanted, or it is in the way.
-    pub(super) fn existing<'b>(&self) -> Result<Begun<'b>, JobError> {
-        match Sidecar::read(&sidecar_of(&self.out)) {
-            Ok(sidecar) if sidecar.state == State::Complete => self.compared(&self.out, &sidecar),
-            _ => Err(JobError::Exists { path: self.out.clone(), changes: Vec::new(), changed: None }),
-        }
-    }
-
     /// The end of the job if complete results at `rows` have this sidecar: they are the rows wanted, and sound, or in the way.
     fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
@@ -98,16 +92,6 @@ impl<'a> Job<'a> {
             return Err(JobError::Exists { path: self.out.clone(), changes, changed });
         }
         sound(rows, sidecar)
-    }
-
-    /// The error if unfinished results, or an unfinished replacement, have the name of the results.
-    pub(super) fn unfinished(&self) -> JobError {
-        let place = replacement::to_resume(&self.out);
-        let past = journal::read(&journal_of(&place)).ok().flatten();
-        let changes = past.map(|past| past.header.identity.differences(&self.identity())).unwrap_or_default();
-        let changed = self.changed_since(&place, !changes.is_empty());
-        let continues = self.continues(&place);
-        JobError::Unfinished { path: self.out.clone(), changes, changed, continues }
     }
 
     /// True if the sweep that began the unfinished results at `place` can be continued from their sidecar, by this build on

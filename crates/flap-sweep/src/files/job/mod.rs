@@ -42,23 +42,10 @@ pub struct Job<'a> {
 /// The treatment of results that are there already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Begin {
-    /// They are an error, unless they are complete and hold the rows of the job: then nothing is left to run.
-    New,
+    /// Unfinished rows of the job are continued, and complete ones leave nothing to run. Other rows are an error.
+    Continue,
     /// They are replaced when the new ones are complete. Until then the new ones have [another name](replacement::unfinished).
-    Overwrite,
-    /// They are continued.
-    Resume,
-}
-
-impl Begin {
-    /// The treatment that the options `resume` and `overwrite` ask for, of which at most one is given.
-    pub fn of(resume: bool, overwrite: bool) -> Begin {
-        match (resume, overwrite) {
-            (true, _) => Begin::Resume,
-            (false, true) => Begin::Overwrite,
-            (false, false) => Begin::New,
-        }
-    }
+    Restart,
 }
 
 /// A job that has begun.
@@ -115,7 +102,6 @@ pub struct Done {
 /// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
 /// - [`JobError::Format`] if the name of the results stands for no format
 /// - [`JobError::Exists`] if a file of that name holds other rows
-/// - [`JobError::Unfinished`] if the results are unfinished
 /// - [`JobError::Create`] if the results cannot be made
 /// - [`JobError::Resume`] if the run cannot be resumed
 /// - [`JobError::Open`] if the results are complete already, but damaged
@@ -123,13 +109,8 @@ pub struct Done {
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
-        Begin::Resume => job.resume(),
-        Begin::Overwrite => job.start(),
-        Begin::New => match job.start() {
-            Err(JobError::Create(CreateError::Exists(_))) => job.existing(),
-            Err(JobError::Create(CreateError::Unfinished(_))) => Err(job.unfinished()),
-            begun => begun,
-        },
+        Begin::Continue => job.resume(),
+        Begin::Restart => job.start(),
     }
 }
 
@@ -137,7 +118,7 @@ impl<'a> Job<'a> {
     /// Begins the job at its first point.
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
-        let overwrite = self.begin == Begin::Overwrite;
+        let overwrite = self.begin == Begin::Restart;
         let Output { file, unlocked } = output::create(&self.out, overwrite)?;
         if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
@@ -289,18 +270,6 @@ pub enum JobError {
         changes: Vec<String>,
         /// The first line of the grid file that differs, in words.
         changed: Option<String>,
-    },
-    /// A file has the name of the results, and is the unfinished result of an interrupted sweep.
-    #[error("{} is the unfinished result of an interrupted sweep{}", path.display(), other_rows(changes))]
-    Unfinished {
-        /// The file.
-        path: PathBuf,
-        /// The differences between its rows and those of the job, in words.
-        changes: Vec<String>,
-        /// The first line of the grid file that has changed, in words.
-        changed: Option<String>,
-        /// True if the sweep that began the rows can be continued from its sidecar.
-        continues: bool,
     },
     /// The run cannot be resumed.
     #[error("{error}")]
