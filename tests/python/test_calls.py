@@ -183,9 +183,8 @@ def test_measures_are_chosen():
         lambda names: flapwing.evaluate(PRESET, {"drive_frequency": [100]}, measures=names),
         lambda names: flapwing.sweep(THREE, measures=names),
     ):
-        with pytest.raises(
-            ValueError, match="no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, "
-        ):
+        told = "no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, .* and [0-9]+ more measures$"
+        with pytest.raises(ValueError, match=told):
             call(["lift_mean"])
         with pytest.raises(ValueError, match="names lift_mean_mn twice\nkeep one"):
             call(["lift_mean_mn", "lift_mean_mn"])

@@ -1,6 +1,7 @@
 //! A batch of points, given as columns of parameters.
 
 use flap_core::parameter::Kind;
+use flap_sweep::notation::text;
 use flap_sweep::plan::gradient::NoShares;
 use flap_sweep::plan::{ChangeError, Plan};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
@@ -114,11 +115,10 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
             PyValueError::new_err(format!("`measures` names {name} twice\nkeep one of them"))
         }
         ChangeError::NoColumn(name) => {
-            let hint = parameters::did_you_mean(&name, &known.iter().map(String::as_str).collect::<Vec<_>>());
-            PyValueError::new_err(format!(
-                "there is no measure `{name}`{hint}\nmeasures: {}",
-                known.join(", ")
-            ))
+            let names: Vec<&str> = known.iter().map(String::as_str).collect();
+            let hint = parameters::did_you_mean(&name, &names);
+            let listed = text::listed(names, "measure");
+            PyValueError::new_err(format!("there is no measure `{name}`{hint}\nmeasures: {listed}"))
         }
         other => refused(&other),
     })
