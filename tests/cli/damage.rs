@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use csv::StringRecord;
 use flap_sweep::files::beside::sidecar_of;
-use flap_sweep::files::integrity::{self, OnDamage, Verdict};
+use flap_sweep::files::integrity::{self, Integrity, OnDamage};
 use flap_sweep::files::job::{self, Begin, Begun, Job};
 use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Provenance, Writer};
@@ -117,7 +117,7 @@ fn written(folder: &Folder, format: Format, text: &str, provenance: &Provenance)
 
 fn is_damaged(path: &Path) -> bool {
     match integrity::verify(path) {
-        Ok(Verdict::Damaged(damage)) => {
+        Ok(Integrity::Damaged(damage)) => {
             assert!(!damage.to_string().is_empty());
             true
         }
@@ -169,7 +169,7 @@ fn no_corruption_goes_unnoticed() {
             assert!(!is_complete(&path), "resume: {what}");
         }
         fs::write(&path, &sound).unwrap();
-        assert_eq!(integrity::verify(&path).unwrap(), Verdict::Sound { rows: ROWS }, "{ending}");
+        assert_eq!(integrity::verify(&path).unwrap(), Integrity::Sound { rows: ROWS }, "{ending}");
         assert!(is_complete(&path));
     }
 }
@@ -449,7 +449,7 @@ fn lost_rows_of_unfinished_results_are_damage() {
             let safe =
                 journal.checkpoints.iter().rfind(|(checkpoint, _)| checkpoint.file.bytes <= bytes as u64);
             let lost = last.summary.rows - safe.map_or(0, |(checkpoint, _)| checkpoint.summary.rows);
-            let Verdict::Damaged(damage) = integrity::verify(&folder.path(&name)).unwrap() else {
+            let Integrity::Damaged(damage) = integrity::verify(&folder.path(&name)).unwrap() else {
                 panic!("{ending}: {bytes} of {recorded} bytes are sound")
             };
             assert_eq!(damage.lost, lost, "{ending}: {bytes} bytes");

@@ -1,8 +1,8 @@
 //! Derived parameters, conditions and measures of one's own.
 
 use flap_core::parameter::Invalid;
-use flap_sweep::plan::Verdict;
-use flap_sweep::table::layout::{Kind, Layout};
+use flap_sweep::plan::Admission;
+use flap_sweep::table::layout::{CellKind, Layout};
 
 use crate::fake::{index, plan};
 
@@ -27,7 +27,7 @@ drive_frequency = 120
     let found =
         ["wing_area", "plate_width", "hinge_position", "stroke_offset"].map(|name| values[index(name)]);
     assert_eq!(found, [1e-4, 0.02, 2.0, 1.0]);
-    assert_eq!(plan.judge(&values), Verdict::Runs);
+    assert_eq!(plan.judge(&values), Admission::Runs);
     // After the varied ones, in the order of the file.
     let names = Layout::of(&plan).names();
     assert_eq!(names[..5], ["point", "wing_area", "stroke_offset", "hinge_position", "plate_width"]);
@@ -51,13 +51,15 @@ fn derived_values_out_of_range_make_a_point_invalid() {
     let plan = plan(
         "preset = \"fly\"\n[axes]\nhinge_position = [1, -1, -2]\n[derived]\nwing_area = \"sqrt(hinge_position + 1)\"\n",
     );
-    let judged: Vec<Verdict> = (0..3).map(|point| plan.judge(&plan.point(point).values)).collect();
+    let judged: Vec<Admission> = (0..3).map(|point| plan.judge(&plan.point(point).values)).collect();
     assert_eq!(
         judged,
         [
-            Verdict::Runs,
-            Verdict::Invalid(Invalid::new("`wing_area` is computed as 0.0 m^2, but must be more than zero")),
-            Verdict::Invalid(Invalid::new("`wing_area` is computed as not a number")),
+            Admission::Runs,
+            Admission::Invalid(Invalid::new(
+                "`wing_area` is computed as 0.0 m^2, but must be more than zero"
+            )),
+            Admission::Invalid(Invalid::new("`wing_area` is computed as not a number")),
         ]
     );
 }
@@ -82,20 +84,20 @@ read = "arms == 'axis' or wing_area > preset.stroke_offset"
     );
     let names: Vec<&str> = plan.conditions().iter().map(|condition| condition.name.as_str()).collect();
     assert_eq!(names, ["small", "root", "positive", "read"]);
-    let judged: Vec<Verdict> = (0..8).map(|point| plan.judge(&plan.point(point).values)).collect();
+    let judged: Vec<Admission> = (0..8).map(|point| plan.judge(&plan.point(point).values)).collect();
     let zero =
-        Verdict::Invalid(Invalid::new("`wing_area` is computed as 0.0 m^2, but must be more than zero"));
+        Admission::Invalid(Invalid::new("`wing_area` is computed as 0.0 m^2, but must be more than zero"));
     assert_eq!(
         judged,
         [
-            Verdict::Excluded(vec![2, 3]),
-            Verdict::Excluded(vec![2]),
-            Verdict::Excluded(vec![3]),
+            Admission::Excluded(vec![2, 3]),
+            Admission::Excluded(vec![2]),
+            Admission::Excluded(vec![3]),
             zero,
-            Verdict::Runs,
-            Verdict::Runs,
-            Verdict::Excluded(vec![0]),
-            Verdict::Excluded(vec![0]),
+            Admission::Runs,
+            Admission::Runs,
+            Admission::Excluded(vec![0]),
+            Admission::Excluded(vec![0]),
         ]
     );
 }
@@ -104,7 +106,7 @@ read = "arms == 'axis' or wing_area > preset.stroke_offset"
 fn a_condition_that_cannot_be_computed_excludes_nothing() {
     let plan = plan("preset = \"fly\"\n[where]\nroot = \"sqrt(stroke_offset - 1) < 5\"\n");
     let reason = "the condition `root` cannot be computed";
-    assert_eq!(plan.judge(&plan.point(0).values), Verdict::Invalid(Invalid::new(reason)));
+    assert_eq!(plan.judge(&plan.point(0).values), Admission::Invalid(Invalid::new(reason)));
 }
 
 #[test]
@@ -136,13 +138,17 @@ both = "feasible and arms == 'printed'"
     assert!(none.is_empty());
 
     let layout = Layout::of(&plan);
-    let kinds: Vec<(&str, Kind)> = layout
+    let kinds: Vec<(&str, CellKind)> = layout
         .measures()
         .skip(3)
         .map(|measure| (measure.column.name.as_str(), measure.column.kind))
         .collect();
-    let expected =
-        [("ratio", Kind::Number), ("feasible", Kind::Flag), ("per_area", Kind::Number), ("both", Kind::Flag)];
+    let expected = [
+        ("ratio", CellKind::Number),
+        ("feasible", CellKind::Flag),
+        ("per_area", CellKind::Number),
+        ("both", CellKind::Flag),
+    ];
     assert_eq!(kinds, expected);
 }
 

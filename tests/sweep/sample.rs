@@ -5,7 +5,7 @@ use std::fs;
 use flap_core::parameter::Invalid;
 use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 
 use crate::fake::{MODELS, index, plan};
 
@@ -119,7 +119,7 @@ fn sampled_values_out_of_range_make_a_point_invalid() {
             "`wing_area` is computed as {} m^2, but must be more than zero",
             flap_sweep::notation::text::float(area)
         );
-        let expected = if area > 0.0 { Verdict::Runs } else { Verdict::Invalid(Invalid::new(reason)) };
+        let expected = if area > 0.0 { Admission::Runs } else { Admission::Invalid(Invalid::new(reason)) };
         assert_eq!(plan.judge(&plan.point(point).values), expected);
     }
 }

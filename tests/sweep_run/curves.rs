@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use flap_sweep::files::csv_sink::CsvSink;
-use flap_sweep::files::integrity::{self, Verdict};
+use flap_sweep::files::integrity::{self, Integrity};
 use flap_sweep::files::job::{self, Begin, Begun, Done, Job, JobError};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::session::SessionOptions;
@@ -135,12 +135,12 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             "{name}: {}",
             summary.ran
         );
-        assert!(matches!(integrity::verify(&out), Ok(Verdict::Unfinished { done: Some(_) })), "{name}");
+        assert!(matches!(integrity::verify(&out), Ok(Integrity::Unfinished { done: Some(_) })), "{name}");
         let Ok(Some(second)) = run(&plan, &out, Begin::Continue, u64::MAX) else { panic!("{name}") };
         assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);
         assert_eq!((second.summary.ran, second.summary.rows), (2000, 12_000), "{name}");
         assert!(fs::read(&whole).unwrap() == fs::read(&out).unwrap(), "{name}: other bytes");
-        assert_eq!(integrity::verify(&out).unwrap(), Verdict::Sound { rows: 12_000 }, "{name}");
+        assert_eq!(integrity::verify(&out).unwrap(), Integrity::Sound { rows: 12_000 }, "{name}");
         assert!(matches!(run(&plan, &out, Begin::Continue, 0), Ok(None)), "{name}");
     }
 }

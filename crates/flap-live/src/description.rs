@@ -242,7 +242,7 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
     let varied: Vec<&str> = plan.differing().map(|index| plan.parameters()[index].name).collect();
     let columns = Layout::of(plan).columns().into_iter();
     let columns = columns.filter(|column| {
-        let is_number = matches!(column.kind, layout::Kind::Number | layout::Kind::Whole);
+        let is_number = matches!(column.kind, layout::CellKind::Number | layout::CellKind::Whole);
         is_number && column.name != "point" && !varied.contains(&column.name.as_str())
     });
     columns

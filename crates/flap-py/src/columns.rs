@@ -3,7 +3,7 @@
 use std::io;
 
 use flap_sweep::run::{Sink, Summary, Unsatisfied};
-use flap_sweep::table::layout::{self, Cell, Column, Kind};
+use flap_sweep::table::layout::{self, Cell, CellKind, Column};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -24,12 +24,12 @@ enum Data {
 }
 
 impl Data {
-    fn new(kind: Kind) -> Data {
+    fn new(kind: CellKind) -> Data {
         match kind {
-            Kind::Whole => Data::Whole(Vec::new()),
-            Kind::Number => Data::Number(Vec::new()),
-            Kind::Flag => Data::Flag(Vec::new()),
-            Kind::Text => Data::Text(Vec::new(), Vec::new()),
+            CellKind::Whole => Data::Whole(Vec::new()),
+            CellKind::Number => Data::Number(Vec::new()),
+            CellKind::Flag => Data::Flag(Vec::new()),
+            CellKind::Text => Data::Text(Vec::new(), Vec::new()),
         }
     }
 
@@ -53,7 +53,7 @@ impl Data {
 }
 
 /// A column of which only the name tells something.
-pub(crate) fn named(name: &str, kind: Kind) -> Column {
+pub(crate) fn named(name: &str, kind: CellKind) -> Column {
     Column { name: name.to_owned(), unit: layout::split_unit(name).1.into(), kind, doc: String::new() }
 }
 

@@ -1,7 +1,7 @@
 //! Motions of single points as columns.
 
 use flap_core::simulate::{Simulator, Trajectory};
-use flap_sweep::table::layout::{Cell, Kind};
+use flap_sweep::table::layout::{Cell, CellKind};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -16,7 +16,7 @@ pub(crate) fn into_python<'py>(
     meta: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let described = motion.columns.iter().map(|name| {
-        let mut column = columns::named(name, Kind::Number);
+        let mut column = columns::named(name, CellKind::Number);
         column.doc = meaning(name);
         column
     });

@@ -3,7 +3,7 @@
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,8 +36,8 @@ impl Chosen {
         let index = index(&plan, point)?;
         let values = plan.point(index).values;
         let invalid = match plan.judge(&values) {
-            Verdict::Invalid(invalid) => Some(invalid.to_string()),
-            Verdict::Runs | Verdict::Excluded(_) => None,
+            Admission::Invalid(invalid) => Some(invalid.to_string()),
+            Admission::Runs | Admission::Excluded(_) => None,
         };
         let mut chosen = Chosen { plan, values, sampled: None, invalid };
         if let Some(wave) = wave {

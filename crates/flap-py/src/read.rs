@@ -11,7 +11,7 @@ use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
 use flap_sweep::run::identity::Identity;
-use flap_sweep::table::layout::{Column, Kind, Layout};
+use flap_sweep::table::layout::{CellKind, Column, Layout};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -124,7 +124,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
 
 /// The columns of a file without an origin: the kind of each is guessed from its cells.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
-    let mut kinds: Vec<Option<Kind>> = vec![None; reader.names().len()];
+    let mut kinds: Vec<Option<CellKind>> = vec![None; reader.names().len()];
     let mut row = StringRecord::new();
     while reader.next(&mut row)? {
         for (kind, cell) in kinds.iter_mut().zip(&row) {
@@ -135,25 +135,25 @@ fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
         }
     }
     let columns = reader.names().iter().zip(kinds);
-    Ok(columns.map(|(name, kind)| columns::named(name, kind.unwrap_or(Kind::Number))).collect())
+    Ok(columns.map(|(name, kind)| columns::named(name, kind.unwrap_or(CellKind::Number))).collect())
 }
 
-fn kind_of(cell: &str) -> Kind {
+fn kind_of(cell: &str) -> CellKind {
     if cell.parse::<u64>().is_ok() {
-        Kind::Whole
+        CellKind::Whole
     } else if cell.parse::<f64>().is_ok() {
-        Kind::Number
+        CellKind::Number
     } else if cell.parse::<bool>().is_ok() {
-        Kind::Flag
+        CellKind::Flag
     } else {
-        Kind::Text
+        CellKind::Text
     }
 }
 
-fn either(a: Kind, b: Kind) -> Kind {
+fn either(a: CellKind, b: CellKind) -> CellKind {
     match (a, b) {
         _ if a == b => a,
-        (Kind::Whole, Kind::Number) | (Kind::Number, Kind::Whole) => Kind::Number,
-        _ => Kind::Text,
+        (CellKind::Whole, CellKind::Number) | (CellKind::Number, CellKind::Whole) => CellKind::Number,
+        _ => CellKind::Text,
     }
 }

@@ -1,7 +1,7 @@
 //! Any text at all: never a panic, and diagnostics that can be shown.
 
 use flap_core::parameter::Kind;
-use flap_sweep::plan::Verdict;
+use flap_sweep::plan::Admission;
 use proptest::prelude::*;
 
 use crate::fake::MODELS;
@@ -91,7 +91,7 @@ proptest! {
                     let mut measures = vec![1.0, 0.0, f64::NAN];
                     plan.add_own_measures(&values, &mut measures);
                     prop_assert_eq!(measures.len(), 3 + plan.measures().len());
-                    if plan.judge(&values) != Verdict::Runs {
+                    if plan.judge(&values) != Admission::Runs {
                         continue;
                     }
                     for (parameter, value) in plan.parameters().iter().zip(values) {

@@ -10,7 +10,7 @@ use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
@@ -244,9 +244,9 @@ fn ends(plan: &Plan) -> String {
         let shown = plan.differing();
         let shown = shown.map(|index| table::assignment(&plan.parameters()[index], point.values[index]));
         let verdict = match plan.judge(&point.values) {
-            Verdict::Runs => String::new(),
-            Verdict::Excluded(_) => " (excluded)".to_owned(),
-            Verdict::Invalid(invalid) => format!(" (invalid: {invalid})"),
+            Admission::Runs => String::new(),
+            Admission::Excluded(_) => " (excluded)".to_owned(),
+            Admission::Invalid(invalid) => format!(" (invalid: {invalid})"),
         };
         let line = format!("{which} point, {index}: {}{verdict}", shown.collect::<Vec<_>>().join(", "));
         let _ = writeln!(text, "{}", wrapped(&line, 2));

@@ -9,7 +9,7 @@ use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 
 use crate::args::{PointArgs, SolverArgs};
@@ -51,8 +51,8 @@ impl Chosen {
         }
         plan.derived().fill(&mut values, &set);
         match plan.judge(&values) {
-            Verdict::Runs => {}
-            Verdict::Excluded(unsatisfied) => {
+            Admission::Runs => {}
+            Admission::Excluded(unsatisfied) => {
                 let names: Vec<&str> =
                     unsatisfied.iter().map(|&condition| plan.conditions()[condition].name.as_str()).collect();
                 console::say(&format!(
@@ -60,7 +60,7 @@ impl Chosen {
                     names.join(", ")
                 ));
             }
-            Verdict::Invalid(invalid) => return Err(invalid.into()),
+            Admission::Invalid(invalid) => return Err(invalid.into()),
         }
         let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set, set_with_unit };
         chosen.find_resonance()?;

@@ -7,7 +7,7 @@ use flap_core::vehicle::Vehicle;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::study::control::{
-    COMPONENTS, ControlError, Effectiveness, Flight, Input, InputError, Target, TrimError, trim,
+    COMPONENTS, ControlError, ControlInputError, Effectiveness, Flight, Input, Target, TrimError, trim,
 };
 
 use super::point::Chosen;
@@ -86,7 +86,7 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
         let input = Input::of(vehicle, name).map_err(|error| {
             let failure = Failure::usage(format!("--inputs: {error}"));
             match error {
-                InputError::Unknown(_) => {
+                ControlInputError::Unknown(_) => {
                     if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
                         return failure.help(reason);
                     }
@@ -94,7 +94,7 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
                     let known = known.iter().map(String::as_str);
                     failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
                 }
-                InputError::Choice(_) => failure,
+                ControlInputError::Choice(_) => failure,
             }
         })?;
         if inputs.iter().any(|other| other.parameter == input.parameter) {

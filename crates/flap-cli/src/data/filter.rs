@@ -6,7 +6,9 @@ use std::sync::LazyLock;
 
 use csv::StringRecord;
 use flap_core::simulate::Status;
-use flap_sweep::notation::expression::{Expression, ExpressionError, Kind, Meaning, Problem, Scope};
+use flap_sweep::notation::expression::{
+    Expression, ExpressionError, ExpressionProblem, Kind, Meaning, Scope,
+};
 use flap_sweep::notation::units;
 
 #[cfg(feature = "plots")]
@@ -259,13 +261,15 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message()));
         match &error.problem {
-            Problem::Expected("the name of an option in quotes") => failure.help("write COLUMN=WORD"),
-            Problem::Expected("an operator") | Problem::BadNumber(_) => failure
+            ExpressionProblem::Expected("the name of an option in quotes") => {
+                failure.help("write COLUMN=WORD")
+            }
+            ExpressionProblem::Expected("an operator") | ExpressionProblem::BadNumber(_) => failure
                 .help("a number stands beside a column, with its unit or without: drive_frequency > 95 Hz"),
-            Problem::UnknownName { nearest: None, .. } => {
+            ExpressionProblem::UnknownName { nearest: None, .. } => {
                 failure.help(columns::listed(names.iter().map(String::as_str)))
             }
-            Problem::Mismatch(_) => {
+            ExpressionProblem::Mismatch(_) => {
                 failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1")
             }
             _ => error.help().into_iter().fold(failure, Failure::help),
@@ -277,7 +281,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
     match expression.kind() {
         Kind::Condition => Ok(expression),
         Kind::Number => {
-            let problem = Problem::Mismatch(Kind::Condition);
+            let problem = ExpressionProblem::Mismatch(Kind::Condition);
             Err(refused(ExpressionError { span: 0..plain.len(), problem }))
         }
     }

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use flap_sweep::files::disk;
-use flap_sweep::files::output::{self, Output};
+use flap_sweep::files::output::{self, LockedFile};
 use flap_sweep::files::sidecar::Sidecar;
 
 use crate::console;
@@ -28,7 +28,7 @@ pub(crate) fn make<E: From<io::Error>>(
     write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,
 ) -> Result<Result<(), E>, Failure> {
     // Holds the name while the rows are written beside it.
-    let Output { file: locked, unlocked } = output::create(results, overwrite)?;
+    let LockedFile { file: locked, unlocked } = output::create(results, overwrite)?;
     // A device or a pipe is written directly.
     if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
         return Ok(write(locked).map(drop));

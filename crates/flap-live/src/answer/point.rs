@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Point, PointRun, Row, Status};
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::study::deviation::{self, Deviation};
 use flap_sweep::study::strongest;
 use flap_sweep::table::layout::Layout;
@@ -57,9 +57,9 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
     let run = PointRun::new(Backend::best(), plan.solver(), &values).until(&interrupted);
     let mut reason = None;
     let row = match plan.judge(&values) {
-        Verdict::Invalid(invalid) => Row::invalid(invalid),
+        Admission::Invalid(invalid) => Row::invalid(invalid),
         verdict => {
-            if let Verdict::Excluded(unsatisfied) = verdict {
+            if let Admission::Excluded(unsatisfied) = verdict {
                 let names = unsatisfied.iter().map(|&number| plan.conditions()[number].name.as_str());
                 let names: Vec<&str> = names.collect();
                 reason = Some(format!("a sweep leaves this design out: {} does not hold", names.join(", ")));

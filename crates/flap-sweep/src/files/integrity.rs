@@ -410,7 +410,7 @@ fn unfinished(
 
 /// The result of a check.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Integrity {
     /// The results are unchanged since they were written.
     Sound {
         /// Number of rows.
@@ -433,29 +433,31 @@ pub enum Verdict {
 /// - [`OpenError::Format`] if the name stands for no format
 /// - [`OpenError::Read`] if the results cannot be read
 /// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged
-pub fn verify(path: &Path) -> Result<Verdict, OpenError> {
+pub fn verify(path: &Path) -> Result<Integrity, OpenError> {
     match Sidecar::read(&sidecar_of(path)) {
         Err(SidecarError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => {}
         read => drop(read?),
     }
     let opened = match open(path, OnDamage::Refuse) {
-        Err(OpenError::Damaged { damage, .. }) => return Ok(Verdict::Damaged(*damage)),
+        Err(OpenError::Damaged { damage, .. }) => return Ok(Integrity::Damaged(*damage)),
         opened => opened?,
     };
     for note in &opened.notes {
         match note {
-            Note::Unfinished { done, .. } => return Ok(Verdict::Unfinished { done: *done }),
-            Note::Unverified { why, .. } => return Ok(Verdict::Unverified(*why)),
+            Note::Unfinished { done, .. } => return Ok(Integrity::Unfinished { done: *done }),
+            Note::Unverified { why, .. } => return Ok(Integrity::Unverified(*why)),
             Note::Damaged { .. } | Note::Sidecar(_) => {}
         }
     }
-    let Some(sidecar) = opened.sidecar else { return Ok(Verdict::Unverified(Unverified::NoSidecar)) };
-    let Some(checksums) = &sidecar.checksums else { return Ok(Verdict::Unverified(Unverified::NoChecksums)) };
+    let Some(sidecar) = opened.sidecar else { return Ok(Integrity::Unverified(Unverified::NoSidecar)) };
+    let Some(checksums) = &sidecar.checksums else {
+        return Ok(Integrity::Unverified(Unverified::NoChecksums));
+    };
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     // The file's bytes are those that were written. This checks that they are read as the rows that were computed.
     let damage = locate(path, Format::of(path)?, &sidecar, checksums).map_err(unreadable)?;
     if damage.is_none() {
-        return Ok(Verdict::Sound { rows: sidecar.rows().unwrap_or_default() });
+        return Ok(Integrity::Sound { rows: sidecar.rows().unwrap_or_default() });
     }
-    Ok(Verdict::Damaged(damage))
+    Ok(Integrity::Damaged(damage))
 }

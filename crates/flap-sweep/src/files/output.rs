@@ -51,7 +51,7 @@ impl CreateError {
 
 /// A result file that is open.
 #[derive(Debug)]
-pub struct Output {
+pub struct LockedFile {
     /// The file, locked for as long as it is open.
     pub file: File,
     /// Reason why the file could not be locked: its file system offers no locks. Another run that writes to it would not be
@@ -70,14 +70,14 @@ pub struct Output {
 /// - [`CreateError::InTheWay`] if there is a sidecar without rows; with `overwrite`, if a file that is no sidecar has its name
 /// - [`CreateError::Busy`] if another run has locked it
 /// - [`CreateError::Io`] if it cannot be opened
-pub fn create(path: &Path, overwrite: bool) -> Result<Output, CreateError> {
+pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     let refused = CreateError::io(path);
     let is_new = !path.exists();
     let opened = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     let file = opened.map_err(&refused)?;
     let metadata = file.metadata().map_err(&refused)?;
     if !metadata.is_file() {
-        return Ok(Output { file, unlocked: None });
+        return Ok(LockedFile { file, unlocked: None });
     }
     let unlocked = lock(&file, path)?;
     let allowed = if overwrite {
@@ -95,7 +95,7 @@ pub fn create(path: &Path, overwrite: bool) -> Result<Output, CreateError> {
         // The first error is the one to report.
         let _ = fs::remove_file(disk::target(path));
     }
-    allowed.map(|()| Output { file, unlocked })
+    allowed.map(|()| LockedFile { file, unlocked })
 }
 
 /// Checks that there is no sidecar, or one that `may` be replaced.
@@ -124,18 +124,18 @@ pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateE
 /// # Errors
 /// - [`CreateError::Busy`] if another run has locked the file
 /// - [`CreateError::Io`] if it cannot be opened
-pub fn reopen(path: &Path) -> Result<Output, CreateError> {
+pub fn reopen(path: &Path) -> Result<LockedFile, CreateError> {
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
     let file = opened.map_err(CreateError::io(path))?;
     let unlocked = lock(&file, path)?;
-    Ok(Output { file, unlocked })
+    Ok(LockedFile { file, unlocked })
 }
 
 /// Locks a result file as [`create`] does, if there is one.
 ///
 /// # Errors
 /// Those of [`reopen`].
-pub(crate) fn hold(path: &Path) -> Result<Option<Output>, CreateError> {
+pub(crate) fn hold(path: &Path) -> Result<Option<LockedFile>, CreateError> {
     if path.exists() { reopen(path).map(Some) } else { Ok(None) }
 }
 

@@ -17,7 +17,7 @@ use csv::StringRecord;
 use crate::files::beside::{journal_of, rows_of};
 use crate::files::disk;
 use crate::files::journal::{self, Checkpoint, Header, IntactRows, Journal, last_intact};
-use crate::files::output::{self, CreateError, Output};
+use crate::files::output::{self, CreateError, LockedFile};
 use crate::files::results::{
     Checksums, FileSum, Format, FormatError, Provenance, Reader, TextRows, Writer, text_sum,
 };
@@ -132,7 +132,7 @@ impl Session {
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
         let format = Format::of(path)?;
-        let Output { file: results, unlocked } = output::reopen(path)?;
+        let LockedFile { file: results, unlocked } = output::reopen(path)?;
         let journal_path = journal_of(path);
         let past = journal::read(&journal_path).map_err(refused)?;
         let past = past.ok_or_else(|| ResumeError::NoJournal(path.to_owned()))?;

@@ -12,7 +12,9 @@ use super::lookup::Lookup;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::notation::expression::{self, Expression, ExpressionError, Kind, Meaning, Problem, Scope};
+use crate::notation::expression::{
+    self, Expression, ExpressionError, ExpressionProblem, Kind, Meaning, Scope,
+};
 use crate::plan::Value;
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::table::layout::is_fixed;
@@ -138,14 +140,14 @@ pub(super) fn read(
     let errors = match check(entry, names, problems) {
         Ok(Some(expression)) if expression.kind() != wanted => {
             let length = entry.value.get_ref().as_str().map_or(0, str::len);
-            vec![ExpressionError { span: 0..length, problem: Problem::Mismatch(wanted) }]
+            vec![ExpressionError { span: 0..length, problem: ExpressionProblem::Mismatch(wanted) }]
         }
         Ok(expression) => return expression,
         Err(errors) => errors,
     };
     for error in &errors {
         let diagnostic = report(entry, error, problems);
-        if let Problem::UnknownName { name, .. } = &error.problem
+        if let ExpressionProblem::UnknownName { name, .. } = &error.problem
             && names.columns.iter().any(|column| column.name == *name)
         {
             diagnostic.help.clear();
@@ -344,7 +346,7 @@ pub(super) fn read_measures(
             Err(errors) => {
                 for error in errors {
                     let unknown = match &error.problem {
-                        Problem::UnknownName { name, .. } => {
+                        ExpressionProblem::UnknownName { name, .. } => {
                             entries.iter().position(|entry| entry.key == name)
                         }
                         _ => None,

@@ -11,7 +11,6 @@ mod formula;
 mod gradient;
 mod lookup;
 mod output;
-mod params;
 mod parse;
 mod problems;
 mod range;

@@ -14,7 +14,7 @@ mod scope;
 #[cfg(test)]
 mod tests;
 
-pub use error::{ExpressionError, Problem};
+pub use error::{ExpressionError, ExpressionProblem};
 use evaluate::Operation;
 pub use scope::{Kind, Meaning, Scope};
 

@@ -8,25 +8,21 @@
 //! - [`uncertainty`]: standard errors of parameters
 //! - [`selection`]: the points that are run
 
+mod admission;
 pub mod axes;
 mod change;
-mod files;
 pub mod formula;
 pub mod gradient;
-mod robot;
 pub mod sample;
 pub mod selection;
 mod space;
 pub mod uncertainty;
 mod value;
-mod verdict;
 
+pub use admission::Admission;
 pub use axes::Along;
 pub use change::ChangeError;
-pub use files::{Output, PointsFile, Source};
-pub use robot::Robot;
-pub use space::Plan;
 pub(crate) use space::Space;
+pub use space::{Output, Plan, PointsFile, Robot, Source};
 pub use value::Value;
 pub(crate) use value::WithUnits;
-pub use verdict::Verdict;

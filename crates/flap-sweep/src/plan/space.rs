@@ -1,16 +1,19 @@
-//! A checked design space.
+//! A checked design space, the model or vehicle of its points, and the files that it comes from and goes to.
 //!
 //! A plan is never materialised: [`Plan::point`] computes any point in constant time.
+
+use std::ops::Deref;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
 use flap_core::vehicle::Vehicle;
+use serde::{Deserialize, Serialize};
 
 use super::axes::{Along, Axes};
-use super::files::{Output, PointsFile, Source};
 use super::formula::{Condition, Derived, OwnMeasure};
 use super::gradient::Gradient;
-use super::robot::Robot;
 use super::selection::Selection;
 use super::uncertainty::Uncertainty;
 use super::value::{Value, WithUnits};
@@ -267,4 +270,77 @@ impl Plan {
         }
         measures.extend_from_slice(&known[values.len() + measures.len()..]);
     }
+}
+
+/// The simulator of a plan's points: a model of one wing, or a vehicle.
+#[derive(Clone)]
+pub enum Robot {
+    /// A model.
+    Wing(&'static dyn Simulator),
+    /// Several wings of a model.
+    Vehicle(Arc<Vehicle>),
+}
+
+impl Robot {
+    /// The model of the wings.
+    pub fn model(&self) -> &'static dyn Simulator {
+        match self {
+            Robot::Wing(model) => *model,
+            Robot::Vehicle(vehicle) => vehicle.model(),
+        }
+    }
+
+    /// The vehicle, if it is one.
+    pub fn vehicle(&self) -> Option<&Vehicle> {
+        match self {
+            Robot::Wing(_) => None,
+            Robot::Vehicle(vehicle) => Some(vehicle),
+        }
+    }
+}
+
+impl Deref for Robot {
+    type Target = dyn Simulator;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Robot::Wing(model) => *model,
+            Robot::Vehicle(vehicle) => &**vehicle,
+        }
+    }
+}
+
+/// The file that rows go to, and its columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Output {
+    /// Path as written in the grid file, relative to the working directory; `None` if it names none.
+    pub path: Option<PathBuf>,
+    /// Indices into the model's columns, followed by the plan's own measures and the columns on the course of a run, in the
+    /// order wanted; `None` for all.
+    pub columns: Option<Vec<usize>>,
+}
+
+/// A file that lists the points of a sample.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PointsFile {
+    /// Its path, from the working directory.
+    pub path: PathBuf,
+    /// The hash of its text: XXH3 of 64 bits.
+    pub xxh3: u64,
+}
+
+impl PointsFile {
+    /// The hash in hexadecimal digits.
+    pub fn hash(&self) -> String {
+        format!("{:016x}", self.xxh3)
+    }
+}
+
+/// A grid file or a device as read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// Name for messages, usually the path.
+    pub name: String,
+    /// The text.
+    pub text: String,
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Run, RunError, RunOptions, Worker};
 use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
-use crate::plan::{Plan, Verdict};
+use crate::plan::{Admission, Plan};
 
 /// The outcome of a point, or of a design with a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,9 +67,9 @@ fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     let point = plan.selected_point(position);
     match plan.judge(&point.values) {
         // The model hands the index back and has no other use for it: rows are put in order by position.
-        Verdict::Runs => Ok(Point { index: position, ..point }),
-        Verdict::Excluded(unsatisfied) => Err(Outcome::Excluded(unsatisfied)),
-        Verdict::Invalid(invalid) => Err(Outcome::Ran(Row::invalid(invalid))),
+        Admission::Runs => Ok(Point { index: position, ..point }),
+        Admission::Excluded(unsatisfied) => Err(Outcome::Excluded(unsatisfied)),
+        Admission::Invalid(invalid) => Err(Outcome::Ran(Row::invalid(invalid))),
     }
 }
 

@@ -38,7 +38,7 @@ pub struct Input {
 
 /// The reason why there is no such input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum InputError {
+pub enum ControlInputError {
     /// The vehicle has no such parameter.
     #[error("the vehicle has no input `{0}`")]
     Unknown(String),
@@ -53,16 +53,16 @@ impl Input {
     ///
     /// # Errors
     /// If there is none.
-    pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, InputError> {
+    pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
         let parameters = parameters(vehicle);
-        let unknown = || InputError::Unknown(name.to_owned());
+        let unknown = || ControlInputError::Unknown(name.to_owned());
         let index = names(vehicle, name)
             .iter()
             .find_map(|name| Parameter::index(parameters, name))
             .ok_or_else(unknown)?;
         let parameter = &parameters[index];
         if let Kind::Choice(_) = parameter.kind {
-            return Err(InputError::Choice(name.to_owned()));
+            return Err(ControlInputError::Choice(name.to_owned()));
         }
         let (unit, factor) = match parameter.unit {
             "rad" => ("deg", 1.0_f64.to_radians()),

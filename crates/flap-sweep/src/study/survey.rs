@@ -1,6 +1,6 @@
 //! A survey of a plan without running it: points that its conditions exclude, and points spread over it.
 
-use crate::plan::{Plan, Verdict};
+use crate::plan::{Admission, Plan};
 use crate::run::Unsatisfied;
 
 /// The points that the conditions of a plan exclude, counted.
@@ -23,7 +23,7 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let mut found = Exclusions { looked_at: plan.len().min(most), excluded: 0, unsatisfied };
     for number in 0..found.looked_at {
         let index = if plan.len() > most { spread(number, plan.len()) } else { number };
-        if let Verdict::Excluded(unsatisfied) = plan.judge(&plan.point(index).values) {
+        if let Admission::Excluded(unsatisfied) = plan.judge(&plan.point(index).values) {
             found.excluded += 1;
             for condition in unsatisfied {
                 found.unsatisfied[condition].points += 1;

@@ -70,10 +70,11 @@ impl<'p> Layout<'p> {
         let parameters = plan.parameters();
         let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
-        let models =
-            columns.iter().map(|column| Column::new(&column.name, column.unit, Kind::Number, &column.doc));
+        let models = columns
+            .iter()
+            .map(|column| Column::new(&column.name, column.unit, CellKind::Number, &column.doc));
         let own = plan.measures().iter().map(|own| {
-            let kind = if own.kind() == expression::Kind::Number { Kind::Number } else { Kind::Flag };
+            let kind = if own.kind() == expression::Kind::Number { CellKind::Number } else { CellKind::Flag };
             Column::new(&own.name, "", kind, "[measure] in the grid file")
         });
         let measures = models.chain(own).enumerate();
@@ -162,7 +163,7 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
         let ((of, unit), by) = (name(of), &plan.parameters()[by]);
         let doc = meaning(of, unit, by.name, gradient.per);
         let per = gradient::unit(unit, by.unit, gradient.per);
-        Column::new(&column_name(of, by.name, gradient.per), per, Kind::Number, &doc)
+        Column::new(&column_name(of, by.name, gradient.per), per, CellKind::Number, &doc)
     });
     let columns = columns.chain([gradient_gap()]).enumerate();
     columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()
@@ -171,7 +172,7 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
 /// The column with the reason why derivatives of a row are missing.
 fn gradient_gap() -> Column {
     let doc = "reasons why derivatives of the row are not known, such as edge;zero; empty if all are known";
-    Column::new("gradient_gap", "", Kind::Text, doc)
+    Column::new("gradient_gap", "", CellKind::Text, doc)
 }
 
 /// The column with the branch of a curve.
@@ -179,7 +180,7 @@ fn branch() -> Column {
     Column::new(
         "branch",
         "",
-        Kind::Text,
+        CellKind::Text,
         "the way that the motion is on: up, down, or unstable between the two",
     )
 }
@@ -187,7 +188,7 @@ fn branch() -> Column {
 /// The column that tells where a curve is bistable.
 fn bistable() -> Column {
     let doc = "true if the ways up and down have different motions at this value of the parameter; empty if neither is periodic";
-    Column::new(BISTABLE, "", Kind::Flag, doc)
+    Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
 /// The reasons in a set, as the last measure of a row has it, a bit for each place in [`NoSlope::ALL`]: `edge;zero`.
@@ -241,7 +242,7 @@ impl Entry<'_> {
             Entry::Measure(measure) => measure.column.clone(),
             Entry::State(_, name) => {
                 let doc = "state at the beginning of a drive period of the motion";
-                Column::new(name, split_unit(name).1, Kind::Number, doc)
+                Column::new(name, split_unit(name).1, CellKind::Number, doc)
             }
         }
     }
@@ -257,9 +258,9 @@ impl Entry<'_> {
             Entry::Measure(measure) => {
                 let value = measure.value(&row.measures);
                 match measure.column.kind {
-                    Kind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
-                    Kind::Text => Cell::Text(gap(value)),
-                    Kind::Number | Kind::Whole => Cell::Number(value),
+                    CellKind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
+                    CellKind::Text => Cell::Text(gap(value)),
+                    CellKind::Number | CellKind::Whole => Cell::Number(value),
                 }
             }
         }
@@ -319,14 +320,14 @@ pub struct Column {
     /// The unit in words; empty for what has none.
     pub unit: Cow<'static, str>,
     /// The type of its cells. Any cell may be empty.
-    pub kind: Kind,
+    pub kind: CellKind,
     /// One line of meaning.
     pub doc: String,
 }
 
 /// The type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CellKind {
     /// Whole numbers from 0.
     Whole,
     /// Numbers.
@@ -338,14 +339,14 @@ pub enum Kind {
 }
 
 impl Column {
-    pub(crate) fn new(name: &str, unit: impl Into<Cow<'static, str>>, kind: Kind, doc: &str) -> Column {
+    pub(crate) fn new(name: &str, unit: impl Into<Cow<'static, str>>, kind: CellKind, doc: &str) -> Column {
         Column { name: name.to_owned(), unit: unit.into(), kind, doc: doc.to_owned() }
     }
 
     pub(crate) fn of_parameter(parameter: &Parameter) -> Column {
         let kind = match parameter.kind {
-            parameter::Kind::Choice(_) => Kind::Text,
-            parameter::Kind::Number(_) | parameter::Kind::Following(..) => Kind::Number,
+            parameter::Kind::Choice(_) => CellKind::Text,
+            parameter::Kind::Number(_) | parameter::Kind::Following(..) => CellKind::Number,
         };
         Column::new(parameter.name, parameter.unit, kind, parameter.doc)
     }
@@ -370,13 +371,13 @@ impl<'t> Cell<'t> {
     }
 
     /// The cell of a column of this `kind` from its text in a result file; `None` if that does not belong there.
-    pub fn parse(kind: Kind, text: &'t str) -> Option<Cell<'t>> {
+    pub fn parse(kind: CellKind, text: &'t str) -> Option<Cell<'t>> {
         let is_unknown = text.is_empty();
         Some(match kind {
-            Kind::Whole => Cell::Whole(text.parse().ok()?),
-            Kind::Number => Cell::Number(if is_unknown { f64::NAN } else { text.parse().ok()? }),
-            Kind::Flag => Cell::Flag(if is_unknown { None } else { Some(text.parse().ok()?) }),
-            Kind::Text => Cell::Text(text),
+            CellKind::Whole => Cell::Whole(text.parse().ok()?),
+            CellKind::Number => Cell::Number(if is_unknown { f64::NAN } else { text.parse().ok()? }),
+            CellKind::Flag => Cell::Flag(if is_unknown { None } else { Some(text.parse().ok()?) }),
+            CellKind::Text => Cell::Text(text),
         })
     }
 }
@@ -386,7 +387,7 @@ impl<'t> Cell<'t> {
 pub(crate) struct Fixed {
     /// Its name.
     pub(crate) name: &'static str,
-    pub(super) kind: Kind,
+    pub(super) kind: CellKind,
     pub(crate) doc: &'static str,
     pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
 }
@@ -394,7 +395,7 @@ pub(crate) struct Fixed {
 /// The first column.
 pub(crate) const POINT: Fixed = Fixed {
     name: "point",
-    kind: Kind::Whole,
+    kind: CellKind::Whole,
     doc: "index of the point in the grid, from 0",
     cell: |point, _| Cell::Whole(point.index),
 };
@@ -402,7 +403,7 @@ pub(crate) const POINT: Fixed = Fixed {
 /// The column before the measures.
 pub(crate) const STATUS: Fixed = Fixed {
     name: "status",
-    kind: Kind::Text,
+    kind: CellKind::Text,
     doc: "result of the search for an orbit, such as periodic or unsettled",
     cell: |_, row| Cell::Text(row.status.name()),
 };
@@ -419,44 +420,44 @@ pub(crate) fn is_fixed(name: &str) -> bool {
 pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",
-        kind: Kind::Whole,
+        kind: CellKind::Whole,
         doc: "drive periods integrated, those of the measurement included",
         cell: |_, row| Cell::Whole(row.cycles.into()),
     },
     Fixed {
         name: "residual",
-        kind: Kind::Number,
+        kind: CellKind::Number,
         doc: "change of the state over the last period of the motion, in units of settle_tol",
         cell: |_, row| Cell::Number(row.residual),
     },
     Fixed {
         name: "period",
-        kind: Kind::Whole,
+        kind: CellKind::Whole,
         doc: "drive periods until the motion repeats; 0 if no orbit was found",
         cell: |_, row| Cell::Whole(row.period.into()),
     },
     Fixed {
         name: "floquet_max",
-        kind: Kind::Number,
+        kind: CellKind::Number,
         doc: "factor by which a change of the motion grows or decays per orbit in the end: below 1 the motion is stable, near 1 it \
               settles slowly",
         cell: |_, row| Cell::Number(row.floquet_max),
     },
     Fixed {
         name: "stable",
-        kind: Kind::Flag,
+        kind: CellKind::Flag,
         doc: "true if motions near the orbit approach it",
         cell: |_, row| Cell::Flag(row.stable()),
     },
     Fixed {
         name: "error_estimate",
-        kind: Kind::Number,
+        kind: CellKind::Number,
         doc: "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
         cell: |_, row| Cell::Number(row.error_estimate),
     },
     Fixed {
         name: "rhs_evals",
-        kind: Kind::Whole,
+        kind: CellKind::Whole,
         doc: "evaluations of the equations of motion",
         cell: |_, row| Cell::Whole(row.rhs_evals),
     },
@@ -465,7 +466,7 @@ pub(crate) const RUN: [Fixed; 7] = [
 /// The first column of curves, in place of `point`.
 pub(crate) const CURVE: Fixed = Fixed {
     name: "curve",
-    kind: Kind::Whole,
+    kind: CellKind::Whole,
     doc: "index of the design in the grid, from 0",
     cell: |point, _| Cell::Whole(point.index),
 };

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 use flap_sweep::notation::text::count;
-use flap_sweep::plan::{Plan, Verdict};
+use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::survey::spread;
 
@@ -180,7 +180,7 @@ impl Trial<'_> {
             self.looked_at += 1;
             let in_sample = !self.closed;
             match self.plan.judge(&point.values) {
-                Verdict::Runs => {
+                Admission::Runs => {
                     self.begun += 1;
                     if in_sample {
                         self.running.insert(number);
@@ -188,11 +188,11 @@ impl Trial<'_> {
                     self.close();
                     return Some(point);
                 }
-                Verdict::Invalid(invalid) if in_sample => {
+                Admission::Invalid(invalid) if in_sample => {
                     self.works.push(0.0);
                     self.note_invalid(number, invalid.to_string());
                 }
-                Verdict::Invalid(_) | Verdict::Excluded(_) => {}
+                Admission::Invalid(_) | Admission::Excluded(_) => {}
             }
             self.close();
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use flap_sweep::files::integrity::{self, Verdict};
+use flap_sweep::files::integrity::{self, Integrity};
 use flap_sweep::notation::text::count;
 
 use crate::args::{OutputFormat, VerifyArgs};
@@ -35,15 +35,15 @@ pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
 /// The verdict on a file in a word, its detail, and its exit code.
 fn verdict(results: &Path) -> (&'static str, String, Exit) {
     match integrity::verify(results) {
-        Ok(Verdict::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),
-        Ok(Verdict::Unfinished { done: Some(done) }) => {
+        Ok(Integrity::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),
+        Ok(Integrity::Unfinished { done: Some(done) }) => {
             ("unfinished", format!("sound so far ({} done)", count(done, "point")), Exit::Done)
         }
-        Ok(Verdict::Unfinished { done: None }) => {
+        Ok(Integrity::Unfinished { done: None }) => {
             ("unfinished", "it has no journal, so nothing could be verified".to_owned(), Exit::NotAll)
         }
-        Ok(Verdict::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
-        Ok(Verdict::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
+        Ok(Integrity::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
+        Ok(Integrity::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
         Err(error @ integrity::OpenError::Format(_)) => ("unreadable", error.to_string(), Exit::Usage),
         Err(error) => ("unreadable", error.to_string(), Exit::System),
     }

@@ -12,7 +12,7 @@ use super::beside::sidecar_of;
 use super::csv_sink::CsvSink;
 use super::inputs::{Inputs, Overlap};
 use super::integrity::OpenError;
-use super::output::{self, CreateError, Output};
+use super::output::{self, CreateError, LockedFile};
 pub use super::replacement::{to_resume, unfinished};
 use super::results::{Format, FormatError};
 use super::session::{ResumeError, Session, SessionOptions};
@@ -119,7 +119,7 @@ impl<'a> Job<'a> {
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let overwrite = self.begin == Begin::Restart;
-        let Output { file, unlocked } = output::create(&self.out, overwrite)?;
+        let LockedFile { file, unlocked } = output::create(&self.out, overwrite)?;
         if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
             return Ok(self.writing(Target::Stream(sink), Summary::default()).into());

@@ -13,7 +13,7 @@ pub struct ExpressionError {
     /// Bytes of the text at fault. May be empty where something is missing.
     pub span: Range<usize>,
     /// The mistake.
-    pub problem: Problem,
+    pub problem: ExpressionProblem,
 }
 
 const IS_CONDITION: &str = "this is a condition, not a number";
@@ -21,7 +21,7 @@ const IS_NUMBER: &str = "this is a number, not a condition";
 
 /// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Problem {
+pub enum ExpressionProblem {
     /// There is nothing.
     #[error("the expression is empty")]
     Empty,
@@ -117,39 +117,39 @@ impl ExpressionError {
     pub fn help(&self) -> Option<String> {
         let did_you_mean = |name: &str| format!("did you mean `{name}`?");
         match &self.problem {
-            Problem::BadNumber(_) => {
+            ExpressionProblem::BadNumber(_) => {
                 Some("numbers look like 12, 0.5 or 1.5e-6; products need a `*`".to_owned())
             }
-            Problem::Expected("an operator") => {
+            ExpressionProblem::Expected("an operator") => {
                 Some("values are in SI units and written without them; products need a `*`".to_owned())
             }
-            Problem::Foreign(_, right) => Some(format!("write {right}")),
-            Problem::Chain => Some("join two comparisons: 1 < x and x < 2".to_owned()),
-            Problem::Mismatch(Kind::Condition) => {
+            ExpressionProblem::Foreign(_, right) => Some(format!("write {right}")),
+            ExpressionProblem::Chain => Some("join two comparisons: 1 < x and x < 2".to_owned()),
+            ExpressionProblem::Mismatch(Kind::Condition) => {
                 Some("conditions compare numbers with < <= > >= == or !=".to_owned())
             }
-            Problem::UnknownName { nearest, .. } => nearest.as_deref().map(did_you_mean),
-            Problem::UnknownFunction(name) if name == "log" => {
+            ExpressionProblem::UnknownName { nearest, .. } => nearest.as_deref().map(did_you_mean),
+            ExpressionProblem::UnknownFunction(name) if name == "log" => {
                 Some("write ln for the natural logarithm, or log10".to_owned())
             }
-            Problem::UnknownFunction(name) => {
+            ExpressionProblem::UnknownFunction(name) => {
                 let known: Vec<&str> = evaluate::names().collect();
                 let listed = || format!("functions: {}", known.join(", "));
                 Some(nearest(name, known.iter().copied()).map_or_else(listed, did_you_mean))
             }
-            Problem::BareFunction(name) => Some(format!("write {name}(…)")),
-            Problem::ChoiceAsNumber { name, options } => {
+            ExpressionProblem::BareFunction(name) => Some(format!("write {name}(…)")),
+            ExpressionProblem::ChoiceAsNumber { name, options } => {
                 let first = options.first().copied().unwrap_or_default();
                 Some(format!("compare it with an option: {name} == '{first}'"))
             }
-            Problem::UnknownOption { option, options, .. } => Some(
+            ExpressionProblem::UnknownOption { option, options, .. } => Some(
                 nearest(option, options.iter().copied())
                     .map_or_else(|| format!("options: {}", options.join(", ")), did_you_mean),
             ),
-            Problem::Unset { name, follows } if name.contains('.') => {
+            ExpressionProblem::Unset { name, follows } if name.contains('.') => {
                 Some(format!("{}, so that there is no number to use", why_unset(follows)))
             }
-            Problem::Unset { name, follows } => {
+            ExpressionProblem::Unset { name, follows } => {
                 Some(format!("{}: set `{name}` under [params] to use it here", why_unset(follows)))
             }
             _ => None,

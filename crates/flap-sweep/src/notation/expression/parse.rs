@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::error::{ExpressionError, Problem};
+use super::error::{ExpressionError, ExpressionProblem};
 use super::evaluate::{self, Binary, Function, Operation, Unary};
 use super::scope::{Kind, Meaning, Scope};
 use crate::notation::nearest;
@@ -28,7 +28,7 @@ mod power {
 /// Checks `text`. See [`super::Expression::parse`].
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operation>), Vec<ExpressionError>> {
     if text.trim().is_empty() {
-        return Err(vec![ExpressionError { span: 0..text.len(), problem: Problem::Empty }]);
+        return Err(vec![ExpressionError { span: 0..text.len(), problem: ExpressionProblem::Empty }]);
     }
     let mut parser = Parser {
         tokens: Tokens::new(text),
@@ -100,17 +100,17 @@ impl<'a> Parser<'a> {
 
     /// An error at the next word.
     fn expected(&self, what: &'static str) -> ExpressionError {
-        ExpressionError { span: self.next.1.clone(), problem: Problem::Expected(what) }
+        ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::Expected(what) }
     }
 
-    fn note(&mut self, span: Range<usize>, problem: Problem) {
+    fn note(&mut self, span: Range<usize>, problem: ExpressionProblem) {
         self.errors.push(ExpressionError { span, problem });
     }
 
     /// Notes if `operand` is not of the kind wanted.
     fn want(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
-            self.note(operand.span.clone(), Problem::Mismatch(wanted));
+            self.note(operand.span.clone(), ExpressionProblem::Mismatch(wanted));
         }
     }
 
@@ -118,7 +118,7 @@ impl<'a> Parser<'a> {
     fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
         self.nested += 1;
         if self.nested > MOST_NESTED {
-            return Err(ExpressionError { span: self.next.1.clone(), problem: Problem::TooDeep });
+            return Err(ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::TooDeep });
         }
         let mut left = self.prefix()?;
         let mut is_comparison = false;
@@ -126,7 +126,7 @@ impl<'a> Parser<'a> {
             && binds >= least
         {
             if binds == power::COMPARISON && is_comparison {
-                return Err(ExpressionError { span: self.next.1.clone(), problem: Problem::Chain });
+                return Err(ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::Chain });
             }
             is_comparison = binds == power::COMPARISON;
             self.advance()?;
@@ -202,7 +202,7 @@ impl<'a> Parser<'a> {
             Some(Meaning::Constant(value)) => (Kind::Number, Operation::Push(value)),
             Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
             Some(Meaning::Unset(follows)) => {
-                self.note(span.clone(), Problem::Unset { name: name.to_owned(), follows });
+                self.note(span.clone(), ExpressionProblem::Unset { name: name.to_owned(), follows });
                 return Ok(Operand { kind: None, span });
             }
             None => {
@@ -215,14 +215,14 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(kind), span })
     }
 
-    fn unknown(&self, name: &str) -> Problem {
+    fn unknown(&self, name: &str) -> ExpressionProblem {
         if evaluate::find(name).is_some() {
-            return Problem::BareFunction(name.to_owned());
+            return ExpressionProblem::BareFunction(name.to_owned());
         }
         let mut known = self.scope.names();
         known.extend(evaluate::constants().map(str::to_owned));
         let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-        Problem::UnknownName { name: name.to_owned(), nearest }
+        ExpressionProblem::UnknownName { name: name.to_owned(), nearest }
     }
 
     /// A choice compared with one of its options, which is all that can be done with it.
@@ -234,7 +234,7 @@ impl<'a> Parser<'a> {
         options: &'static [&'static str],
     ) -> Result<Operand, ExpressionError> {
         let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
-            self.note(span.clone(), Problem::ChoiceAsNumber { name: name.to_owned(), options });
+            self.note(span.clone(), ExpressionProblem::ChoiceAsNumber { name: name.to_owned(), options });
             return Ok(Operand { kind: None, span });
         };
         self.advance()?;
@@ -242,13 +242,13 @@ impl<'a> Parser<'a> {
         let Token::Text(text) = token else {
             return Err(ExpressionError {
                 span: text_span,
-                problem: Problem::Expected("the name of an option in quotes"),
+                problem: ExpressionProblem::Expected("the name of an option in quotes"),
             });
         };
         let span = span.start..text_span.end;
         let Some(index) = options.iter().position(|option| *option == text) else {
             let (name, option) = (name.to_owned(), text.to_owned());
-            self.note(text_span, Problem::UnknownOption { name, option, options });
+            self.note(text_span, ExpressionProblem::UnknownOption { name, option, options });
             return Ok(Operand { kind: None, span });
         };
         self.operations.push(Operation::Read(place));
@@ -260,7 +260,7 @@ impl<'a> Parser<'a> {
     /// The function `name` of the arguments that follow in parentheses.
     fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let Some(function) = evaluate::find(name) else {
-            let problem = Problem::UnknownFunction(name.to_owned());
+            let problem = ExpressionProblem::UnknownFunction(name.to_owned());
             return Err(ExpressionError { span, problem });
         };
         self.advance()?;
@@ -290,7 +290,7 @@ impl<'a> Parser<'a> {
             Function::Many(_) => (count < 2).then_some("two arguments or more"),
         };
         if let Some(takes) = takes {
-            self.note(span.clone(), Problem::Arguments { name: name.to_owned(), takes });
+            self.note(span.clone(), ExpressionProblem::Arguments { name: name.to_owned(), takes });
         }
         Ok(Operand { kind: Some(Kind::Number), span })
     }
@@ -366,13 +366,13 @@ impl<'t> Tokens<'t> {
     }
 
     /// Moves an error at the front of the rest to its place in the text.
-    fn place(&self, (length, problem): (usize, Problem)) -> ExpressionError {
+    fn place(&self, (length, problem): (usize, ExpressionProblem)) -> ExpressionError {
         ExpressionError { span: self.at..self.at + length, problem }
     }
 }
 
 /// A word and its length, or the length of the mistake.
-type Found<'t> = Result<(Token<'t>, usize), (usize, Problem)>;
+type Found<'t> = Result<(Token<'t>, usize), (usize, ExpressionProblem)>;
 
 fn is_name(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
@@ -396,8 +396,8 @@ fn number(rest: &str) -> Found<'_> {
     let run = end + rest[end..].find(|c: char| !is_name(c) && c != '.').unwrap_or(rest.len() - end);
     match rest[..end].parse::<f64>() {
         Ok(value) if run == end && value.is_finite() => Ok((Token::Number(value), end)),
-        Ok(_) if run == end => Err((end, Problem::TooLarge)),
-        _ => Err((run, Problem::BadNumber(rest[..run].to_owned()))),
+        Ok(_) if run == end => Err((end, ExpressionProblem::TooLarge)),
+        _ => Err((run, ExpressionProblem::BadNumber(rest[..run].to_owned()))),
     }
 }
 
@@ -409,7 +409,7 @@ fn name(rest: &str) -> (Token<'_>, usize) {
 fn text(rest: &str, quote: char) -> Found<'_> {
     match rest[1..].find(quote) {
         Some(length) => Ok((Token::Text(&rest[1..=length]), length + 2)),
-        None => Err((rest.len(), Problem::OpenQuote)),
+        None => Err((rest.len(), ExpressionProblem::OpenQuote)),
     }
 }
 
@@ -419,10 +419,10 @@ fn sign(rest: &str, first: char) -> Found<'_> {
     match (known, foreign) {
         // `**` begins with `*`, and `!=` with `!`.
         (Some(known), Some((foreign, right))) if foreign.len() > known.len() => {
-            Err((foreign.len(), Problem::Foreign(foreign, right)))
+            Err((foreign.len(), ExpressionProblem::Foreign(foreign, right)))
         }
         (Some(known), _) => Ok((Token::Sign(known), known.len())),
-        (None, Some((foreign, right))) => Err((foreign.len(), Problem::Foreign(foreign, right))),
-        (None, None) => Err((first.len_utf8(), Problem::Character(first))),
+        (None, Some((foreign, right))) => Err((foreign.len(), ExpressionProblem::Foreign(foreign, right))),
+        (None, None) => Err((first.len_utf8(), ExpressionProblem::Character(first))),
     }
 }

@@ -4,7 +4,7 @@ use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
 
 use crate::plan::axes::Values;
-use crate::plan::{Along, Plan, Verdict};
+use crate::plan::{Admission, Along, Plan};
 
 /// The most values that a parameter takes on the way up.
 const MOST_VALUES: f64 = 1e6;
@@ -80,11 +80,11 @@ impl Along {
     }
 
     /// The verdict on a design: it is followed if it runs anywhere on its curve.
-    pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Verdict {
+    pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Admission {
         let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
-        let first = verdicts.next().unwrap_or(Verdict::Runs);
-        if first == Verdict::Runs || verdicts.any(|verdict| verdict == Verdict::Runs) {
-            Verdict::Runs
+        let first = verdicts.next().unwrap_or(Admission::Runs);
+        if first == Admission::Runs || verdicts.any(|verdict| verdict == Admission::Runs) {
+            Admission::Runs
         } else {
             first
         }

@@ -8,7 +8,7 @@ use flap_core::simulate::{Interrupt, Point, Row, Status, never};
 use super::continuation;
 use super::curve::{Curve, Step};
 use super::follow::Follow;
-use crate::plan::{Along, Plan, Verdict};
+use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
@@ -101,9 +101,11 @@ impl<'a> SequenceSource for Designs<'a, '_, '_> {
             let position = self.worker.next(idle)?;
             let design = plan.selected_point(position);
             match along.judge(plan, &design) {
-                Verdict::Runs => return Some(Follow::new(plan, along, design)),
-                Verdict::Excluded(unsatisfied) => self.worker.done(position, Outcome::Excluded(unsatisfied)),
-                Verdict::Invalid(reason) => {
+                Admission::Runs => return Some(Follow::new(plan, along, design)),
+                Admission::Excluded(unsatisfied) => {
+                    self.worker.done(position, Outcome::Excluded(unsatisfied));
+                }
+                Admission::Invalid(reason) => {
                     let curve = Curve::impossible(along, design, &reason);
                     self.worker.done(position, Outcome::Ran(curve));
                 }

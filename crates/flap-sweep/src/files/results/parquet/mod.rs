@@ -16,7 +16,7 @@ use parquet::schema::types::{ColumnPath, Type};
 use crate::files::results::checksum::{Checksums, TextDigest};
 use crate::files::results::provenance::Provenance;
 use crate::files::results::text::Hashed;
-use crate::table::layout::{Cell, Column, Kind};
+use crate::table::layout::{Cell, CellKind, Column};
 use crate::table::lines;
 
 mod read;
@@ -49,7 +49,7 @@ impl ParquetRows {
             .set_compression(Compression::ZSTD(ZstdLevel::default()))
             .set_dictionary_enabled(false)
             .set_key_value_metadata(Some(metadata));
-        for column in columns.iter().filter(|column| column.kind == Kind::Text) {
+        for column in columns.iter().filter(|column| column.kind == CellKind::Text) {
             let path = ColumnPath::from(column.name.as_str());
             properties = properties.set_column_dictionary_enabled(path, true);
         }
@@ -117,10 +117,10 @@ enum Values {
 /// The column in the schema of a file.
 fn field(column: &Column) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.kind {
-        Kind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
-        Kind::Number => (Physical::DOUBLE, None),
-        Kind::Flag => (Physical::BOOLEAN, None),
-        Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        CellKind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
+        CellKind::Number => (Physical::DOUBLE, None),
+        CellKind::Flag => (Physical::BOOLEAN, None),
+        CellKind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
     };
     Type::primitive_type_builder(&column.name, physical)
         .with_logical_type(logical)
@@ -132,10 +132,10 @@ impl Cells {
     /// No cells of `column`.
     fn new(column: &Column) -> Cells {
         let values = match column.kind {
-            Kind::Whole => Values::Whole(Vec::new()),
-            Kind::Number => Values::Number(Vec::new()),
-            Kind::Flag => Values::Flag(Vec::new()),
-            Kind::Text => Values::Text(Vec::new()),
+            CellKind::Whole => Values::Whole(Vec::new()),
+            CellKind::Number => Values::Number(Vec::new()),
+            CellKind::Flag => Values::Flag(Vec::new()),
+            CellKind::Text => Values::Text(Vec::new()),
         };
         Cells { column: column.clone(), values, levels: Vec::new() }
     }

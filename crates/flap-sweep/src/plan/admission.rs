@@ -8,7 +8,7 @@ use crate::notation::text;
 
 /// The decision whether a point is run.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Admission {
     /// It is run.
     Runs,
     /// It does not satisfy the conditions with these numbers. It has no row.
@@ -19,27 +19,27 @@ pub enum Verdict {
 
 impl Plan {
     /// The decision whether the point with these values is run.
-    pub fn judge(&self, values: &[f64]) -> Verdict {
+    pub fn judge(&self, values: &[f64]) -> Admission {
         let held: Vec<Option<bool>> =
             self.conditions().iter().map(|condition| condition.holds(values)).collect();
         let unsatisfied: Vec<usize> = (0..held.len()).filter(|&number| held[number] == Some(false)).collect();
         if !unsatisfied.is_empty() {
-            return Verdict::Excluded(unsatisfied);
+            return Admission::Excluded(unsatisfied);
         }
         let parameters = self.parameters();
         let mut computed = computed(self).map(|parameter| (&parameters[parameter], values[parameter]));
         if let Some((parameter, value)) =
             computed.find(|(parameter, value)| !range(parameter).contains(*value))
         {
-            return Verdict::Invalid(not_allowed(parameter, value));
+            return Admission::Invalid(not_allowed(parameter, value));
         }
         let unknown = self.conditions().iter().zip(held).find(|(_, holds)| holds.is_none());
         match unknown {
-            Some((condition, _)) => Verdict::Invalid(Invalid::new(format!(
+            Some((condition, _)) => Admission::Invalid(Invalid::new(format!(
                 "the condition `{}` cannot be computed",
                 condition.name
             ))),
-            None => Verdict::Runs,
+            None => Admission::Runs,
         }
     }
 }
