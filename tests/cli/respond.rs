@@ -147,6 +147,16 @@ fn a_band_between_two_steps_is_found() {
         [within.iter().copied().fold(f64::INFINITY, f64::min), within.iter().copied().fold(0.0, f64::max)];
     // The line has six digits.
     assert!((ends[0] - from).abs() < 1e-3 && (ends[1] - to).abs() < 1e-3, "{ends:?}: {}", ended.stdout);
+    // Programs read the band as a row, with all digits.
+    let steps = ["--from", "110 Hz", "--to", "130 Hz", "--step", "0.5 Hz", "--format", "json"];
+    let json = folder.ends_with(0, &[&["respond", "jafferis2016"], &soft[..], &steps[..]].concat()).stdout;
+    let bands: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(
+        (&bands[0]["kind"], &bands[0]["unit"], bands.as_array().unwrap().len()),
+        (&"bistable".into(), &"Hz".into(), 1)
+    );
+    assert_eq!([&bands[0]["from"], &bands[0]["to"]].map(|end| end.as_f64().unwrap()), ends);
+    assert_eq!(bands[0]["resolution"], 0.03125);
     folder.ends(0, "plot narrow.csv --out narrow.svg");
     assert!(folder.read("narrow.svg").contains(&format!("shaded: bistable, {from} to {to} Hz")));
 }

@@ -21,6 +21,7 @@ mod job;
 mod models;
 #[cfg(feature = "plots")]
 mod plot;
+mod print;
 mod progress;
 mod signals;
 mod statuses;

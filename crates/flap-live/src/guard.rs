@@ -18,11 +18,11 @@ pub(crate) struct Guard {
 
 /// The reason why a request is refused.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Intruder {
+pub(crate) enum Rejection {
     /// The token is missing or wrong.
-    Token,
+    WrongToken,
     /// The request was sent to another host name, or comes from another page.
-    Stranger,
+    ForeignOrigin,
 }
 
 impl Guard {
@@ -46,7 +46,7 @@ impl Guard {
     }
 
     /// Checks host, origin and token. The token is in a header, or in the query of the address where `in_address`.
-    pub(crate) fn check(&self, uri: &Uri, headers: &HeaderMap, in_address: bool) -> Result<(), Intruder> {
+    pub(crate) fn check(&self, uri: &Uri, headers: &HeaderMap, in_address: bool) -> Result<(), Rejection> {
         let is_own = |host: &[u8]| self.hosts.iter().any(|known| known.as_bytes() == host);
         let mut hosts = headers.get_all(HOST).iter();
         let has_own_host = hosts.next().is_some_and(|host| is_own(host.as_bytes())) && hosts.next().is_none();
@@ -56,7 +56,7 @@ impl Guard {
         let has_own_origin =
             origins.all(|origin| origin.as_bytes().strip_prefix(b"http://").is_some_and(is_own));
         if !(has_own_host && has_own_address && has_own_origin) {
-            return Err(Intruder::Stranger);
+            return Err(Rejection::ForeignOrigin);
         }
         let given = if in_address {
             let query = uri.query().unwrap_or_default();
@@ -64,7 +64,11 @@ impl Guard {
         } else {
             headers.get(TOKEN_HEADER).and_then(|token| token.to_str().ok())
         };
-        if given.is_some_and(|given| is_same(given, &self.token)) { Ok(()) } else { Err(Intruder::Token) }
+        if given.is_some_and(|given| is_same(given, &self.token)) {
+            Ok(())
+        } else {
+            Err(Rejection::WrongToken)
+        }
     }
 }
 
@@ -99,30 +103,34 @@ mod tests {
         let origin = ("origin", "http://localhost:8000");
         assert_eq!(asks(&api, &[local, origin, ("x-flap-token", token)], false), Ok(()));
 
-        assert_eq!(asks(&page, &[host], false), Err(Intruder::Token), "the address is no header");
-        assert_eq!(asks(&api, &[host, ("x-flap-token", &other.token)], false), Err(Intruder::Token));
-        assert_eq!(asks(&api, &[host], false), Err(Intruder::Token));
-        assert_eq!(asks(&page, &[], true), Err(Intruder::Stranger));
+        assert_eq!(asks(&page, &[host], false), Err(Rejection::WrongToken), "the address is no header");
+        assert_eq!(asks(&api, &[host, ("x-flap-token", &other.token)], false), Err(Rejection::WrongToken));
+        assert_eq!(asks(&api, &[host], false), Err(Rejection::WrongToken));
+        assert_eq!(asks(&page, &[], true), Err(Rejection::ForeignOrigin));
         let twice = [host, ("host", "evil.example:8000")];
         for hosts in [twice, [twice[1], twice[0]], [host, host]] {
             let mut all = HeaderMap::new();
             for (name, value) in hosts {
                 all.append(name, value.parse().unwrap());
             }
-            assert_eq!(guard.check(&page, &all, true), Err(Intruder::Stranger), "{hosts:?}");
+            assert_eq!(guard.check(&page, &all, true), Err(Rejection::ForeignOrigin), "{hosts:?}");
         }
         let foreign: Uri = guard.address().replace("127.0.0.1", "evil.example").parse().unwrap();
-        assert_eq!(asks(&foreign, &[host], true), Err(Intruder::Stranger), "the first line of the request");
+        assert_eq!(
+            asks(&foreign, &[host], true),
+            Err(Rejection::ForeignOrigin),
+            "the first line of the request"
+        );
         let query = |token: &str| format!("http://127.0.0.1:8000/?token={token}").parse::<Uri>().unwrap();
         for wrong in [&token[..31], &format!("{token}0"), "", &format!("{}x", &token[..31])] {
-            assert_eq!(asks(&query(wrong), &[host], true), Err(Intruder::Token), "{wrong}");
+            assert_eq!(asks(&query(wrong), &[host], true), Err(Rejection::WrongToken), "{wrong}");
         }
         for stranger in ["127.0.0.1:8001", "evil.example:8000", "127.0.0.1", "127.0.0.1:8000.evil.example"] {
-            assert_eq!(asks(&page, &[("host", stranger)], true), Err(Intruder::Stranger), "{stranger}");
+            assert_eq!(asks(&page, &[("host", stranger)], true), Err(Rejection::ForeignOrigin), "{stranger}");
         }
         for origin in ["http://evil.example", "null", "https://127.0.0.1:8000", "http://127.0.0.1:8001"] {
             let pairs = [host, ("origin", origin), ("x-flap-token", token)];
-            assert_eq!(asks(&api, &pairs, false), Err(Intruder::Stranger), "{origin}");
+            assert_eq!(asks(&api, &pairs, false), Err(Rejection::ForeignOrigin), "{origin}");
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct By {
 
 /// The place of a request among those of its page: a newer one cancels it.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Turn {
+pub(crate) struct RequestOrder {
     /// The page that asks, by a text of its own.
     pub(crate) page: String,
     pub(crate) number: u64,

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::options::{BeginArgs, SolverArgs};
+use super::options::{BeginArgs, OutputFormat, SolverArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -45,6 +45,11 @@ pub(crate) struct RespondArgs {
     /// .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+
+    /// Output format of the summary: csv and json have one row per band in which a design is bistable, or its motions are
+    /// not periodic
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
 
     #[command(flatten)]
     pub(crate) begin: BeginArgs,

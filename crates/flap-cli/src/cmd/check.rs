@@ -15,11 +15,12 @@ use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
 use flap_sweep::study::survey;
 
-use super::{far, grid, print};
+use super::{far, grid};
 use crate::args::{CheckArgs, OutputFormat};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::exclusion;
+use crate::print;
 use crate::table::{self, Table, wrapped};
 
 pub(super) fn run(args: &CheckArgs) -> Result<Exit, Failure> {

@@ -7,10 +7,10 @@ use flap_sweep::notation::text;
 use flap_sweep::study::strongest::{self, Slopes};
 
 use super::point::Chosen;
-use super::print;
 use crate::args::OutputFormat;
 use crate::console;
 use crate::failure::Failure;
+use crate::print;
 use crate::table::{Table, six_digits, wrapped};
 
 /// Parameters that are listed.

@@ -14,7 +14,6 @@ mod models;
 mod motion;
 pub(crate) mod outputs;
 mod point;
-mod print;
 mod respond;
 mod results;
 mod run;

@@ -9,11 +9,13 @@ use flap_sweep::run::{RunOptions, Sink, Summary};
 use flap_sweep::study::response::AlongError;
 use flap_sweep::table::layout::Cell;
 
+use super::outputs::is_stdout;
 use super::point;
-use crate::args::RespondArgs;
+use crate::args::{OutputFormat, RespondArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Lines, Verdicts};
+use crate::print;
 
 pub(super) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
@@ -31,20 +33,29 @@ pub(super) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         plan = set(plan, &along, name, value)?;
     }
     let plan = plan.following(along);
-    if Verdicts::of(&plan).is_none() {
+    let Some(verdicts) = Verdicts::of(&plan, args.format, Lines::Stdout) else {
         return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator().name())));
-    }
+    };
     match &args.out {
-        Some(out) => job::run(&plan, out.clone(), args.begin.treatment(), &args.begin.work, None),
-        None => lines_alone(&plan, args),
+        Some(out) if args.format != OutputFormat::Table && is_stdout(out) => {
+            Err(Failure::usage("stdout has the rows, so that --format has no place for the summary"))
+        }
+        Some(out) => {
+            let begin = args.begin.treatment();
+            job::run_and_summarize(&plan, out.clone(), begin, &args.begin.work, None, args.format)
+        }
+        None => without_rows(&plan, args, verdicts),
     }
 }
 
-/// Prints the line of each curve, and writes no rows.
-fn lines_alone(plan: &Plan, args: &RespondArgs) -> Result<Exit, Failure> {
+/// Prints the summary of each curve, and writes no rows.
+fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
     let default = RunOptions::default();
     let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
-    let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Lines::Stdout)?;
+    let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Some(&mut verdicts))?;
+    if args.format != OutputFormat::Table {
+        print::table(args.format, &verdicts.names(), &verdicts.rows, String::new)?;
+    }
     if summary.is_interrupted() {
         let (done, designs) = (summary.done(), summary.points);
         console::say(&format!("interrupted: {done} of {designs} designs are done"));

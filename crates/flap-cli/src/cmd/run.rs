@@ -11,12 +11,14 @@ use flap_sweep::study::deviation;
 use flap_sweep::table::layout::fixed_columns;
 
 use super::gradient::{self, Gradient};
-use super::motion::{write_csv, write_file};
+use super::motion::write_file;
 use super::point::{Chosen, check_one_wing};
-use super::{far, outputs, print, samples};
+use super::{far, outputs, samples};
 use crate::args::{OutputFormat, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
+use crate::print;
+use crate::print::write_csv;
 use crate::table::{Table, six_digits, wrapped};
 
 pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {

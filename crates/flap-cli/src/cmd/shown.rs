@@ -2,7 +2,6 @@
 
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::split_unit;
-use serde_json::Value;
 
 use crate::table::six_digits;
 
@@ -60,20 +59,6 @@ impl Shown {
     }
 }
 
-/// A cell as JSON: null if it is empty or infinite.
-pub(super) fn json(cell: &str) -> Value {
-    match cell {
-        "" => Value::Null,
-        "true" => Value::Bool(true),
-        "false" => Value::Bool(false),
-        _ => {
-            let whole = || cell.parse::<u64>().ok().map(Value::from);
-            let number = || cell.parse::<f64>().ok().map(Value::from);
-            whole().or_else(number).unwrap_or_else(|| Value::from(cell))
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,10 +80,5 @@ mod tests {
         assert_eq!(shown.cell("8.64e-5"), "86.4");
         let plain = Shown::new("", []);
         assert_eq!(["12", "", "up", "inf"].map(|cell| plain.cell(cell)), ["12", "", "up", "inf"]);
-        assert_eq!(
-            ["12", "", "up", "inf"].map(json),
-            [Value::from(12), Value::Null, Value::from("up"), Value::Null]
-        );
-        assert_eq!(["true", "0.5"].map(json), [Value::from(true), Value::from(0.5)]);
     }
 }

@@ -6,13 +6,13 @@ use csv::StringRecord;
 use flap_core::simulate::Status;
 use flap_sweep::notation::text::count;
 
-use super::print;
 use super::shown::Shown;
 use crate::args::{Aim, LookArgs, TopArgs};
 use crate::console;
 use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
+use crate::print;
 use crate::table::Table;
 
 pub(super) fn run(args: &TopArgs) -> Result<Exit, Failure> {

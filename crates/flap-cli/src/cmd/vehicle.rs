@@ -11,10 +11,10 @@ use flap_sweep::study::control::{
 };
 
 use super::point::Chosen;
-use super::print;
 use crate::args::VehicleArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::print;
 use crate::table::{Table, six_digits};
 
 /// Headings of the components.

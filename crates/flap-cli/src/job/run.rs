@@ -16,10 +16,11 @@ use flap_sweep::table::layout::Layout;
 
 use super::make::warn_unlocked;
 use super::report::{report, report_curves};
-use super::verdicts::Verdicts;
-use crate::args::WorkArgs;
+use super::verdicts::{Lines, Verdicts};
+use crate::args::{OutputFormat, WorkArgs};
 use crate::console;
 use crate::failure::{Exit, Failure, still_kept};
+use crate::print;
 use crate::progress::Bar;
 use crate::signals;
 
@@ -32,6 +33,18 @@ pub(crate) fn run(
     work: &WorkArgs,
     origin: Option<Origin>,
 ) -> Result<Exit, Failure> {
+    run_and_summarize(plan, out, begin, work, origin, OutputFormat::Table)
+}
+
+/// Runs `plan` as [`run`] does. Summaries of curves are printed in this format.
+pub(crate) fn run_and_summarize(
+    plan: &Plan,
+    out: PathBuf,
+    begin: Begin,
+    work: &WorkArgs,
+    origin: Option<Origin>,
+    format: OutputFormat,
+) -> Result<Exit, Failure> {
     let mut options = RunOptions::default();
     if let Some(threads) = work.threads {
         options.threads = threads;
@@ -39,7 +52,8 @@ pub(crate) fn run(
     if out.as_os_str() == "-" {
         let begun = Instant::now();
         let mut sink = CsvSink::new(Layout::of(plan).names(), io::stdout());
-        let summary = self::work(plan, &options, Summary::default(), &mut sink, Lines::Stderr)?;
+        let mut verdicts = Verdicts::of(plan, OutputFormat::Table, Lines::Stderr);
+        let summary = self::work(plan, &options, Summary::default(), &mut sink, verdicts.as_mut())?;
         let done = Done { summary, rows_before: 0, seconds: begun.elapsed().as_secs_f64(), place: None };
         return Ok(ended(plan, &done, None, work));
     }
@@ -68,8 +82,12 @@ pub(crate) fn run(
         }
         console::say(&format!("{} of {} points of {place} are done", before.done(), plan.selected()));
     }
-    let ran = self::work(plan, &job.options.run, before, writing.sink(), Lines::Stdout);
+    let mut verdicts = Verdicts::of(plan, format, Lines::Stdout);
+    let ran = self::work(plan, &job.options.run, before, writing.sink(), verdicts.as_mut());
     let done = writing.finish(ran).map_err(failed)?;
+    if let Some(verdicts) = verdicts.filter(|_| format != OutputFormat::Table) {
+        print::table(format, &verdicts.names(), &verdicts.rows, String::new)?;
+    }
     Ok(ended(plan, &done, Some(&job.out), work))
 }
 
@@ -101,23 +119,14 @@ fn exit(all_periodic: bool, work: &WorkArgs) -> Exit {
     if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
 }
 
-/// The stream for the lines of curves.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Lines {
-    /// They are results.
-    Stdout,
-    /// Rows are on stdout.
-    Stderr,
-}
-
-/// Runs the plan with a progress bar, until a signal ends it. Where a parameter is followed, a line for each curve goes
-/// to `lines`.
+/// Runs the plan with a progress bar, until a signal ends it. Where a parameter is followed, `verdicts`
+/// summarizes each curve.
 pub(crate) fn work(
     plan: &Plan,
     options: &RunOptions,
     before: Summary,
     sink: &mut dyn Sink,
-    lines: Lines,
+    verdicts: Option<&mut Verdicts<'_>>,
 ) -> Result<Summary, RunError> {
     let stop = signals::stop();
     let mut output = RowWriter::begin(plan, before, sink)?;
@@ -130,7 +139,7 @@ pub(crate) fn work(
         Some(responses) => {
             let mut bar = Bar::new("curves");
             let run = responses.curves(options, output.done());
-            (write_curves(run, &mut output, &mut bar, &stop, (plan, lines)), bar)
+            (write_curves(run, &mut output, &mut bar, &stop, verdicts), bar)
         }
     };
     let summary = output.finish(ended);
@@ -158,20 +167,12 @@ fn write_curves(
     output: &mut RowWriter<'_>,
     bar: &mut Bar,
     stop: &AtomicBool,
-    (plan, lines): (&Plan, Lines),
+    mut verdicts: Option<&mut Verdicts<'_>>,
 ) -> Result<(), RunError> {
-    let verdicts = Verdicts::of(plan);
     while let Some(curves) = next_batch(&mut run, bar, stop)? {
         for curve in &curves {
-            if let (Outcome::Ran(curve), Some(verdicts)) = (curve, &verdicts) {
-                let line = verdicts.line(curve);
-                bar.aside(|| match lines {
-                    Lines::Stdout => console::results(&(line + "\n")),
-                    Lines::Stderr => {
-                        console::say(&line);
-                        Ok(())
-                    }
-                })?;
+            if let (Outcome::Ran(curve), Some(verdicts)) = (curve, &mut verdicts) {
+                bar.aside(|| verdicts.add(curve))?;
             }
             output.write_curve(curve)?;
         }

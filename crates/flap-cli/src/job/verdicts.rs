@@ -1,14 +1,32 @@
-//! The lines of curves.
+//! Summaries of curves: a line for each, or rows for programs.
+
+use std::io;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Point;
+use flap_sweep::notation::text;
 use flap_sweep::plan::{Along, Plan};
-use flap_sweep::study::response::{Curve, Verdict};
+use flap_sweep::study::response::{BandKind, Curve, Verdict};
 
+use crate::args::OutputFormat;
+use crate::console;
 use crate::table::assignment;
 
-/// The lines of curves.
+/// The stream for the lines of curves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lines {
+    /// They are results.
+    Stdout,
+    /// Rows are on stdout.
+    Stderr,
+}
+
+/// Summaries of curves.
 pub(crate) struct Verdicts<'a> {
+    format: OutputFormat,
+    stream: Lines,
+    /// For programs, below [`Verdicts::names`].
+    pub(crate) rows: Vec<Vec<String>>,
     plan: &'a Plan,
     along: &'a Along,
     parameter: &'a Parameter<'a>,
@@ -18,19 +36,70 @@ pub(crate) struct Verdicts<'a> {
 
 impl<'a> Verdicts<'a> {
     /// For a plan that follows a parameter, of a model that measures its stroke; `None` of any other.
-    pub(crate) fn of(plan: &'a Plan) -> Option<Verdicts<'a>> {
+    pub(crate) fn of(plan: &'a Plan, format: OutputFormat, stream: Lines) -> Option<Verdicts<'a>> {
         let along = plan.followed()?;
         let parameter = along.parameter(plan);
         let mut columns = plan.rows().columns().iter();
         let stroke = columns.position(|column| column.name == "stroke_amplitude_deg")?;
-        Some(Verdicts { plan, along, parameter, stroke })
+        Some(Verdicts { format, stream, rows: Vec::new(), plan, along, parameter, stroke })
     }
 
-    /// The line of a curve.
-    pub(crate) fn line(&self, curve: &Curve) -> String {
+    /// Prints the line of a curve, or keeps its rows for programs.
+    pub(crate) fn add(&mut self, curve: &Curve) -> io::Result<()> {
         let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
+        if self.format != OutputFormat::Table {
+            self.rows.extend(self.cells(&curve.design, &verdict));
+            return Ok(());
+        }
         let design = self.design(&curve.design);
-        if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") }
+        let line = if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") };
+        match self.stream {
+            Lines::Stdout => console::results(&(line + "\n")),
+            Lines::Stderr => {
+                console::say(&line);
+                Ok(())
+            }
+        }
+    }
+
+    /// The columns for programs: the varied parameters, then a band of the followed parameter.
+    pub(crate) fn names(&self) -> Vec<&str> {
+        let varied = self.plan.axes().varied().map(|index| self.plan.parameters()[index].name);
+        varied.chain(["kind", "from", "to", "unit", "resolution", "jump_deg", "motions"]).collect()
+    }
+
+    /// A row for each band of a curve; for a curve without bands, one for its whole range.
+    fn cells(&self, design: &Point, verdict: &Verdict) -> Vec<Vec<String>> {
+        let row = |kind: &str, [from, to]: [f64; 2], jump: Option<f64>, motions: String| {
+            let values = self.plan.axes().varied();
+            let values =
+                values.map(|index| text::value(&self.plan.parameters()[index], design.values[index]));
+            let number = |value: f64| if value.is_nan() { String::new() } else { text::float(value) };
+            let band = [
+                kind.to_owned(),
+                number(from),
+                number(to),
+                verdict.unit.to_owned(),
+                number(verdict.steep_step),
+                jump.map_or_else(String::new, text::float),
+                motions,
+            ];
+            values.chain(band).collect()
+        };
+        if let Some(reason) = &verdict.invalid {
+            return vec![row("invalid", verdict.range, None, reason.clone())];
+        }
+        if verdict.bands.is_empty() {
+            return vec![row("none", verdict.range, None, String::new())];
+        }
+        let bands = verdict.bands.iter().map(|band| match &band.kind {
+            BandKind::Bistable { jump } => row("bistable", band.range, *jump, String::new()),
+            BandKind::Irregular { what } => {
+                let motions = what.iter().map(|(status, period)| format!("{} {period}", status.name()));
+                row("irregular", band.range, None, motions.collect::<Vec<_>>().join(", "))
+            }
+        });
+        bands.collect()
     }
 
     /// The parameters that tell a design from others.

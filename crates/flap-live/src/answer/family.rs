@@ -5,7 +5,7 @@ use std::time::Instant;
 use flap_sweep::run::{self, RowWriter, Summary};
 use serde::Serialize;
 
-use super::desk::{Desk, failed};
+use super::context::{AnswerContext, failed};
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
@@ -18,16 +18,16 @@ pub(crate) struct Family {
 }
 
 /// The rows of a family.
-pub(crate) fn family(desk: &Desk<'_>, request: &FamilyRequest) -> Result<Family, Refused> {
+pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Family, Refused> {
     let begun = Instant::now();
     let FamilyRequest { design, x, by } = request;
-    let plan = desk.opened.plan_of(&desk.opened.grid(design, Some(x), by.as_ref())?)?;
+    let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), by.as_ref())?)?;
     let mut rows = Rows::of(&plan);
     let mut output =
         RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
-    let mut run = run::rows(&plan, &desk.options, 0);
+    let mut run = run::rows(&plan, &context.options, 0);
     while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
-        desk.go_on()?;
+        context.check_current()?;
         for row in &batch {
             output.write(row).map_err(|error| failed(&error))?;
         }

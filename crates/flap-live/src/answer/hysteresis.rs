@@ -5,18 +5,18 @@ use flap_sweep::plan::Along;
 use flap_sweep::run::{RowWriter, Summary};
 use flap_sweep::study::response::Responses;
 
-use super::desk::{Desk, failed};
+use super::context::{AnswerContext, failed};
 use crate::request::{HysteresisRequest, MOST_ROWS, Refused};
 use crate::rows::Rows;
 
 /// The rows of `flap respond`: up, then down.
-pub(crate) fn hysteresis(desk: &Desk<'_>, request: &HysteresisRequest) -> Result<Rows, Refused> {
+pub(crate) fn hysteresis(context: &AnswerContext<'_>, request: &HysteresisRequest) -> Result<Rows, Refused> {
     let HysteresisRequest { design, x } = request;
     if x.n < 2 || 2 * x.n as usize > MOST_ROWS {
         let error = format!("a response has 2 to {} values, not {}", MOST_ROWS / 2, x.n);
         return Err(Refused::impossible(error));
     }
-    let plan = desk.opened.plan_of(&desk.opened.grid(design, Some(x), None)?)?;
+    let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), None)?)?;
     let Some(index) = Parameter::index(plan.parameters(), &x.name) else {
         return Err(Refused::impossible(format!("there is no parameter `{}`", x.name)));
     };
@@ -30,9 +30,9 @@ pub(crate) fn hysteresis(desk: &Desk<'_>, request: &HysteresisRequest) -> Result
     let mut rows = Rows::of(&plan);
     let mut output =
         RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
-    let mut run = responses.curves(&desk.options, 0);
+    let mut run = responses.curves(&context.options, 0);
     while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
-        desk.go_on()?;
+        context.check_current()?;
         for curve in &batch {
             output.write_curve(curve).map_err(|error| failed(&error))?;
         }

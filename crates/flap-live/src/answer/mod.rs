@@ -1,6 +1,6 @@
 //! Answers to requests, one file for each kind.
 
-mod desk;
+mod context;
 mod family;
 mod hysteresis;
 mod motion;
@@ -8,7 +8,7 @@ mod point;
 mod python;
 mod save;
 
-pub(crate) use desk::Desk;
+pub(crate) use context::AnswerContext;
 pub(crate) use family::family;
 pub(crate) use hysteresis::hysteresis;
 pub(crate) use motion::motion;

@@ -6,7 +6,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, TrajectoryRequest};
 use serde::Serialize;
 
-use super::desk::{Desk, unfinished};
+use super::context::{AnswerContext, unfinished};
 use crate::request::{MOST_ROWS, MotionRequest, Refused};
 
 /// A motion: samples in rows, and the meaning of each column.
@@ -19,14 +19,14 @@ pub(crate) struct Motion {
 }
 
 /// The motion of a design.
-pub(crate) fn motion(desk: &Desk<'_>, request: &MotionRequest) -> Result<Motion, Refused> {
+pub(crate) fn motion(context: &AnswerContext<'_>, request: &MotionRequest) -> Result<Motion, Refused> {
     let MotionRequest { design, samples } = request;
     if *samples < 2 || *samples as usize > MOST_ROWS {
         return Err(Refused::impossible(format!("a motion has 2 to {MOST_ROWS} samples, not {samples}")));
     }
-    let plan = desk.opened.design(design)?;
+    let plan = context.opened.design(design)?;
     let values = plan.point(0).values;
-    let interrupted = || desk.stop.load(Ordering::Relaxed);
+    let interrupted = || context.stop.load(Ordering::Relaxed);
     let run = PointRun::new(Backend::best(), plan.solver(), &values).until(&interrupted);
     let motions = plan.simulator().motions().map_err(unfinished)?;
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: *samples, settled: true };

@@ -11,7 +11,7 @@ use flap_sweep::table::layout::Layout;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::desk::Desk;
+use super::context::AnswerContext;
 use crate::request::{PointRequest, Refused};
 use crate::rows;
 
@@ -50,10 +50,10 @@ struct Slope {
 }
 
 /// The numbers of a design.
-pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, Refused> {
-    let plan = desk.opened.design(&request.design)?;
+pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Result<Numbers, Refused> {
+    let plan = context.opened.design(&request.design)?;
     let values = plan.point(0).values;
-    let interrupted = || desk.stop.load(Ordering::Relaxed);
+    let interrupted = || context.stop.load(Ordering::Relaxed);
     let run = PointRun::new(Backend::best(), plan.solver(), &values).until(&interrupted);
     let mut reason = None;
     let row = match plan.judge(&values) {
@@ -69,20 +69,20 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
             row
         }
     };
-    desk.go_on()?;
+    context.check_current()?;
     let (mut gradient, mut gradient_reason) = (None, None);
     if let Some(measure) = &request.gradient {
         match slopes(&plan, &run, &row, measure) {
             Ok(slopes) => gradient = Some(slopes),
             Err(reason) => gradient_reason = Some(reason),
         }
-        desk.go_on()?;
+        context.check_current()?;
     }
     let layout = Layout::of(&plan);
     let cells = |row: &Row, values: Vec<f64>| -> Vec<Value> {
         layout.cells(&Point::at_rest(0, values), row).into_iter().map(rows::value).collect()
     };
-    let published = desk.opened.published();
+    let published = context.opened.published();
     let deviations = deviation::of_point(&plan, &values, |parameter| plan.has_unit(parameter));
     let changed = deviations.iter().filter(|deviation| request.design.contains_key(deviation.parameter.name));
     Ok(Numbers {
@@ -91,7 +91,7 @@ pub(crate) fn point(desk: &Desk<'_>, request: &PointRequest) -> Result<Numbers, 
         reason: row.reason.clone().or(reason),
         modes: modes(&plan, &values),
         published_modes: modes(&plan, &published),
-        published: cells(desk.opened.published_row(), published),
+        published: cells(context.opened.published_row(), published),
         row: cells(&row, values),
         gradient,
         gradient_reason,

@@ -3,7 +3,7 @@
 use flap_sweep::grid;
 use serde::Serialize;
 
-use super::desk::Desk;
+use super::context::AnswerContext;
 use super::python;
 use crate::request::{Along, Refused, SaveKind, SaveRequest};
 
@@ -15,12 +15,12 @@ pub(crate) struct Saved {
 }
 
 /// The text that was asked for, checked as every grid file is.
-pub(crate) fn save(desk: &Desk<'_>, request: &SaveRequest) -> Result<Saved, Refused> {
+pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result<Saved, Refused> {
     let SaveRequest { kind, design, x, by, updown } = request;
     let followed = x.as_ref().filter(|_| *updown);
     let by = by.as_ref().filter(|_| followed.is_none());
-    let text = desk.opened.grid(design, x.as_ref(), by)?;
-    let plan = desk.opened.plan_of(&text)?;
+    let text = context.opened.grid(design, x.as_ref(), by)?;
+    let plan = context.opened.plan_of(&text)?;
     Ok(match (kind, followed) {
         (SaveKind::Grid, None) => {
             Saved { name: "family.toml", text: format!("# flap sweep family.toml --out family.csv\n{text}") }

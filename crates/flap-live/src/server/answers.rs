@@ -8,7 +8,7 @@ use axum::http::{HeaderName, StatusCode};
 use axum::response::{Html, IntoResponse, Response};
 use serde_json::json;
 
-use crate::guard::Intruder;
+use crate::guard::Rejection;
 use crate::request::Refused;
 
 /// The page runs the code in itself, asks this server alone, and may stand in a notebook of this machine.
@@ -49,13 +49,13 @@ pub(super) fn refused(refused: Refused) -> Response {
 }
 
 /// The answer to somebody else than the page, which ends the connection: others may wait for its place.
-pub(super) fn turned_away(intruder: &Intruder) -> Response {
-    let answer = match intruder {
-        Intruder::Token => {
+pub(super) fn rejected(rejection: &Rejection) -> Response {
+    let answer = match rejection {
+        Rejection::WrongToken => {
             let error = "the token is missing or wrong: open the address that `flap live` printed";
             refusal(StatusCode::UNAUTHORIZED, error)
         }
-        Intruder::Stranger => {
+        Rejection::ForeignOrigin => {
             let error = "this server answers its own page alone, at 127.0.0.1 or localhost and its own port";
             refusal(StatusCode::FORBIDDEN, error)
         }

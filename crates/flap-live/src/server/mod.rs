@@ -2,8 +2,8 @@
 
 mod answers;
 mod connections;
-mod office;
 mod routes;
+mod state;
 
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
@@ -20,7 +20,7 @@ use tokio::sync::oneshot::{self, Sender};
 
 use crate::guard::Guard;
 use crate::opened::Opened;
-use office::Office;
+use state::ServerState;
 
 /// Threads that wait for requests or compute; rows have workers besides.
 const MOST_BLOCKING: usize = 16;
@@ -88,7 +88,7 @@ impl Server {
         let guard = Guard::new(bound.port()).map_err(|error| system(&error))?;
         let address = guard.address();
         let run = RunOptions { grace: Duration::ZERO, ..options.run };
-        let office = Arc::new(Office::new(opened, guard, run));
+        let state = Arc::new(ServerState::new(opened, guard, run));
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_all()
             .max_blocking_threads(MOST_BLOCKING)
@@ -99,11 +99,11 @@ impl Server {
             runtime.block_on(async {
                 // A listener that the operating system has opened is refused by nothing here.
                 let Ok(listener) = Listener::from_std(listener) else { return };
-                tokio::spawn(connections::serve(listener, routes::routes(Arc::clone(&office))));
+                tokio::spawn(connections::serve(listener, routes::routes(Arc::clone(&state))));
                 // Sent by `stop`; an error says that the server has been dropped.
                 let _ = stopped.await;
             });
-            office.stop();
+            state.stop();
             runtime.shutdown_timeout(Duration::from_secs(1));
         };
         let thread = std::thread::Builder::new().name("flap-live".to_owned()).spawn(serve);

@@ -13,35 +13,40 @@ use tokio::time::timeout;
 
 use super::answers;
 use super::connections::PATIENCE;
-use super::office::{Kind, Office};
+use super::state::{Kind, ServerState};
 use crate::request::Refused;
 
 /// Most bytes of a request.
 const MOST_BYTES: usize = 64 * 1024;
 
 /// The addresses: the page, and its requests.
-pub(super) fn routes(office: Arc<Office>) -> Router {
+pub(super) fn routes(state: Arc<ServerState>) -> Router {
     Router::new()
         .route("/", any(page))
         .route("/api/{kind}", any(api))
         .fallback(async || answers::refusal(StatusCode::NOT_FOUND, "there is nothing at this address"))
-        .with_state(office)
+        .with_state(state)
 }
 
-async fn page(State(office): State<Arc<Office>>, method: Method, uri: Uri, headers: HeaderMap) -> Response {
-    if let Err(intruder) = office.guard.check(&uri, &headers, true) {
-        return answers::turned_away(&intruder);
+async fn page(
+    State(state): State<Arc<ServerState>>,
+    method: Method,
+    uri: Uri,
+    headers: HeaderMap,
+) -> Response {
+    if let Err(rejection) = state.guard.check(&uri, &headers, true) {
+        return answers::rejected(&rejection);
     }
     if method != Method::GET && method != Method::HEAD {
         return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "the page is there for GET alone");
     }
-    office.page().map_or_else(answers::refused, answers::page)
+    state.page().map_or_else(answers::refused, answers::page)
 }
 
-async fn api(State(office): State<Arc<Office>>, Path(kind): Path<String>, request: Request) -> Response {
+async fn api(State(state): State<Arc<ServerState>>, Path(kind): Path<String>, request: Request) -> Response {
     let (head, body) = request.into_parts();
-    if let Err(intruder) = office.guard.check(&head.uri, &head.headers, false) {
-        return answers::turned_away(&intruder);
+    if let Err(rejection) = state.guard.check(&head.uri, &head.headers, false) {
+        return answers::rejected(&rejection);
     }
     let Some(kind) = Kind::named(&kind) else {
         return answers::refusal(StatusCode::NOT_FOUND, "there is no such request");
@@ -50,7 +55,7 @@ async fn api(State(office): State<Arc<Office>>, Path(kind): Path<String>, reques
         return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "requests are there for POST alone");
     }
     match read(&head.headers, body).await {
-        Ok(body) => answer(office, kind, body).await,
+        Ok(body) => answer(state, kind, body).await,
         Err(refusal) => refusal,
     }
 }
@@ -70,16 +75,16 @@ async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
 }
 
 /// The answer to a request, which another thread computes.
-async fn answer(office: Arc<Office>, kind: Kind, body: Vec<u8>) -> Response {
+async fn answer(state: Arc<ServerState>, kind: Kind, body: Vec<u8>) -> Response {
     // Dropped with this future if the page gives up.
-    let wanted = match office.begin(kind, &body) {
-        Ok(wanted) => wanted,
+    let cancel = match state.begin(kind, &body) {
+        Ok(cancel) => cancel,
         Err(refused) => return answers::refused(refused),
     };
-    let Ok(_seat) = office.seats.acquire().await else {
+    let Ok(_permit) = state.permits.acquire().await else {
         return answers::refusal(StatusCode::SERVICE_UNAVAILABLE, "the server ends");
     };
-    let (worker, stop) = (Arc::clone(&office), wanted.flag());
+    let (worker, stop) = (Arc::clone(&state), cancel.flag());
     let worked = tokio::task::spawn_blocking(move || worker.answer(kind, &body, &stop)).await;
     let answered = worked.unwrap_or_else(|error| Err(Refused::Fault(error.to_string())));
     answered.map_or_else(answers::refused, answers::json)

@@ -12,9 +12,9 @@ use flap_core::simulate::Simulator;
 
 use super::parameters::of_name;
 use crate::args::ModelsArgs;
-use crate::cmd::print;
 use crate::failure::Failure;
 use crate::models;
+use crate::print;
 use crate::table::wrapped;
 
 /// Columns of explanations for programs.

@@ -4,10 +4,10 @@ mod explain;
 mod parameters;
 
 use crate::args::{ModelsArgs, OutputFormat};
-use crate::cmd::print;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::models;
+use crate::print;
 use crate::table::Table;
 
 pub(super) fn run(args: &ModelsArgs) -> Result<Exit, Failure> {

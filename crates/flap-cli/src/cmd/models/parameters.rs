@@ -12,10 +12,11 @@ use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
 
 use crate::args::ModelsArgs;
-use crate::cmd::{point, print};
+use crate::cmd::point;
 use crate::console;
 use crate::failure::Failure;
 use crate::models;
+use crate::print;
 use crate::table::{Table, wrapped};
 
 /// True if the word names a model or a preset, or a device or grid file, whose parameters can be listed.

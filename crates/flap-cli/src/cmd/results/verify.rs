@@ -6,9 +6,9 @@ use flap_sweep::files::integrity::{self, Integrity};
 use flap_sweep::notation::text::count;
 
 use crate::args::{OutputFormat, VerifyArgs};
-use crate::cmd::print;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::print;
 
 /// Columns of the table for programs.
 const NAMES: [&str; 3] = ["file", "verdict", "detail"];

@@ -7,11 +7,12 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::study::experiment;
 
 use crate::args::ChirpArgs;
-use crate::cmd::motion::{write_csv, write_file};
+use crate::cmd::motion::write_file;
 use crate::cmd::outputs::{self, is_stdout};
 use crate::cmd::point::{Chosen, check_one_wing};
-use crate::cmd::print;
 use crate::failure::{Exit, Failure};
+use crate::print;
+use crate::print::write_csv;
 
 pub(super) fn run(args: &ChirpArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;

@@ -9,12 +9,13 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::text;
 
 use crate::args::ImpulseArgs;
-use crate::cmd::motion::{write_csv, write_file};
+use crate::cmd::motion::write_file;
 use crate::cmd::outputs::{self, is_stdout};
 use crate::cmd::point::{Chosen, check_one_wing};
-use crate::cmd::print;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::print;
+use crate::print::write_csv;
 use crate::table::{Table, six_digits};
 
 /// Default duration, in periods of the first mode.

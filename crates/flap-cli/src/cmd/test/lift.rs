@@ -11,12 +11,13 @@ use flap_sweep::plan::Plan;
 use flap_sweep::study::experiment;
 
 use crate::args::{LiftArgs, SolverArgs};
-use crate::cmd::motion::{write_csv, write_file};
+use crate::cmd::motion::write_file;
 use crate::cmd::outputs;
 use crate::cmd::point::Chosen;
-use crate::cmd::print;
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
+use crate::print;
+use crate::print::write_csv;
 use crate::table::{Table, six_digits};
 
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {

@@ -7,9 +7,9 @@ use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
 
 use crate::args::ResonanceArgs;
 use crate::cmd::point::{Chosen, check_one_wing};
-use crate::cmd::print;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::print;
 use crate::table::{Table, six_digits};
 
 /// Samples of a free motion per period of the first mode.

@@ -7,9 +7,10 @@ use flap_sweep::files::record::{self, Record};
 
 use crate::args::TrackArgs;
 use crate::cmd::motion::write_file;
-use crate::cmd::{outputs, print};
+use crate::cmd::outputs;
 use crate::console;
 use crate::failure::{Exit, Failure};
+use crate::print;
 use crate::table::six_digits;
 
 pub(super) fn run(args: &TrackArgs) -> Result<Exit, Failure> {

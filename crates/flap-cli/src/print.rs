@@ -1,20 +1,20 @@
 //! Tables in the format that the user chose: for people, as comma-separated values, or as JSON.
 
-use std::io;
+use std::io::{self, Write};
 
 use flap_core::simulate::Trajectory;
+use flap_sweep::files::csv_sink;
 use flap_sweep::notation::text;
 use serde::Serializer as _;
+use serde_json::Value;
 
-use super::motion::write_csv;
-use super::shown::json;
 use crate::args::OutputFormat;
 use crate::console;
 use crate::failure::Failure;
 use crate::table::{Table, six_digits};
 
 /// Prints `page`, or the rows with all digits below their names.
-pub(super) fn table(
+pub(crate) fn table(
     format: OutputFormat,
     names: &[impl AsRef<str>],
     rows: &[Vec<String>],
@@ -29,7 +29,7 @@ pub(super) fn table(
 }
 
 /// Prints a motion over time.
-pub(super) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Failure> {
+pub(crate) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Failure> {
     let cells = |number: fn(f64) -> String| {
         motion.rows.iter().map(move |row| row.iter().map(|value| number(*value)).collect())
     };
@@ -70,4 +70,43 @@ fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Fa
     let objects: Result<Vec<String>, serde_json::Error> = rows.iter().map(object).collect();
     let objects = objects.map_err(|error| Failure::Bug(error.to_string()))?;
     Ok(format!("[\n{}\n]\n", objects.join(",\n")))
+}
+
+/// A cell as JSON: null if it is empty or infinite.
+fn json(cell: &str) -> Value {
+    match cell {
+        "" => Value::Null,
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        _ => {
+            let whole = || cell.parse::<u64>().ok().map(Value::from);
+            let number = || cell.parse::<f64>().ok().map(Value::from);
+            whole().or_else(number).unwrap_or_else(|| Value::from(cell))
+        }
+    }
+}
+
+/// Writes a CSV table with one line per row.
+pub(crate) fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(target);
+    writer.write_record(&motion.columns).map_err(csv_sink::cause)?;
+    for row in &motion.rows {
+        let cells = row.iter().map(|&value| text::float(value));
+        writer.write_record(cells).map_err(csv_sink::cause)?;
+    }
+    writer.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_become_json() {
+        assert_eq!(
+            ["12", "", "up", "inf"].map(json),
+            [Value::from(12), Value::Null, Value::from("up"), Value::Null]
+        );
+        assert_eq!(["true", "0.5"].map(json), [Value::from(true), Value::from(0.5)]);
+    }
 }

@@ -1,4 +1,4 @@
-//! What all requests share, and the way from the text of a request to that of its answer.
+//! The state that all requests share, and the answer to each kind of request.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,24 +8,24 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tokio::sync::Semaphore;
 
-use crate::answer::{self, Desk};
+use crate::answer::{self, AnswerContext};
 use crate::description::Description;
 use crate::guard::Guard;
 use crate::latest::Latest;
 use crate::opened::Opened;
 use crate::page;
-use crate::request::{Refused, Turn};
+use crate::request::{Refused, RequestOrder};
 
 /// Requests that are computed at the same time; others wait, so that memory is bounded.
 const MOST_AT_ONCE: usize = 4;
 
-/// What all requests share.
-pub(super) struct Office {
+/// The state that all requests share.
+pub(super) struct ServerState {
     pub(super) guard: Guard,
     opened: Opened,
     run: RunOptions,
     latest: Latest,
-    pub(super) seats: Semaphore,
+    pub(super) permits: Semaphore,
 }
 
 /// The kinds of requests.
@@ -57,24 +57,24 @@ impl Kind {
 }
 
 /// The flag of a request. It is raised when the request is dropped, since nobody waits for the answer then.
-pub(super) struct Wanted(Arc<AtomicBool>);
+pub(super) struct CancelOnDrop(Arc<AtomicBool>);
 
-impl Drop for Wanted {
+impl Drop for CancelOnDrop {
     fn drop(&mut self) {
         self.0.store(true, Ordering::Relaxed);
     }
 }
 
-impl Wanted {
+impl CancelOnDrop {
     /// The flag, for the thread that computes.
     pub(super) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
 }
 
-impl Office {
-    pub(super) fn new(opened: Opened, guard: Guard, run: RunOptions) -> Office {
-        Office { guard, opened, run, latest: Latest::default(), seats: Semaphore::new(MOST_AT_ONCE) }
+impl ServerState {
+    pub(super) fn new(opened: Opened, guard: Guard, run: RunOptions) -> ServerState {
+        ServerState { guard, opened, run, latest: Latest::default(), permits: Semaphore::new(MOST_AT_ONCE) }
     }
 
     /// Cancels all requests.
@@ -90,23 +90,23 @@ impl Office {
     }
 
     /// Begins a request: older ones of its kind and page are cancelled.
-    pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<Wanted, Refused> {
+    pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<CancelOnDrop, Refused> {
         if let Kind::Save = kind {
-            return Ok(Wanted(Arc::default()));
+            return Ok(CancelOnDrop(Arc::default()));
         }
-        let Turn { page, number } = read(body)?;
-        self.latest.begin(&page, kind.name(), number).map(Wanted).ok_or(Refused::Superseded)
+        let RequestOrder { page, number } = read(body)?;
+        self.latest.begin(&page, kind.name(), number).map(CancelOnDrop).ok_or(Refused::Superseded)
     }
 
     /// The answer to a request, as JSON.
     pub(super) fn answer(&self, kind: Kind, body: &[u8], stop: &AtomicBool) -> Result<Vec<u8>, Refused> {
-        let desk = Desk { opened: &self.opened, options: self.run, stop };
+        let context = AnswerContext { opened: &self.opened, options: self.run, stop };
         match kind {
-            Kind::Family => written(&answer::family(&desk, &read(body)?)?),
-            Kind::Point => written(&answer::point(&desk, &read(body)?)?),
-            Kind::Motion => written(&answer::motion(&desk, &read(body)?)?),
-            Kind::Hysteresis => written(&answer::hysteresis(&desk, &read(body)?)?),
-            Kind::Save => written(&answer::save(&desk, &read(body)?)?),
+            Kind::Family => written(&answer::family(&context, &read(body)?)?),
+            Kind::Point => written(&answer::point(&context, &read(body)?)?),
+            Kind::Motion => written(&answer::motion(&context, &read(body)?)?),
+            Kind::Hysteresis => written(&answer::hysteresis(&context, &read(body)?)?),
+            Kind::Save => written(&answer::save(&context, &read(body)?)?),
         }
     }
 }

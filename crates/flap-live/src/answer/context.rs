@@ -1,4 +1,4 @@
-//! What every answer is made with, and the reasons why there is none.
+//! The design, the options and the stop flag of an answer, and the reasons of failed answers.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,17 +8,17 @@ use flap_sweep::run::{RunError, RunOptions};
 use crate::opened::Opened;
 use crate::request::Refused;
 
-/// What every answer is made with.
-pub(crate) struct Desk<'a> {
+/// The design and the options of an answer, and its stop flag.
+pub(crate) struct AnswerContext<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) options: RunOptions,
     /// Raised by a newer request.
     pub(crate) stop: &'a AtomicBool,
 }
 
-impl Desk<'_> {
+impl AnswerContext<'_> {
     /// [`Refused::Superseded`] if a newer request has come.
-    pub(super) fn go_on(&self) -> Result<(), Refused> {
+    pub(super) fn check_current(&self) -> Result<(), Refused> {
         if self.stop.load(Ordering::Relaxed) { Err(Refused::Superseded) } else { Ok(()) }
     }
 }
