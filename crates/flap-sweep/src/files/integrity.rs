@@ -89,35 +89,35 @@ impl Damage {
 
 impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut told = Vec::new();
+        let mut parts = Vec::new();
         if self.checksums {
-            told.push("its checksums cannot be read".to_owned());
+            parts.push("its checksums cannot be read".to_owned());
         }
         if self.header {
-            told.push("its header has changed".to_owned());
+            parts.push("its header has changed".to_owned());
         }
         if !self.rows.is_empty() {
-            told.push(format!("rows {} have changed since they were written", listed(&self.rows)));
+            parts.push(format!("rows {} have changed since they were written", listed(&self.rows)));
         }
         if let Some((found, written)) = self.count {
-            told.push(format!("it holds {found} rows, but {written} were written"));
+            parts.push(format!("it holds {found} rows, but {written} were written"));
         }
         if let Some(reason) = &self.unreadable {
-            told.push(format!("the rest cannot be read ({reason})"));
+            parts.push(format!("the rest cannot be read ({reason})"));
         }
         if self.altered {
-            told.push("it has changed since the sweep wrote it".to_owned());
+            parts.push("it has changed since the sweep wrote it".to_owned());
         }
         if self.lost > 0 {
-            told.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
+            parts.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
         }
         if !self.foreign_sidecar.is_empty() {
-            told.push(format!("its sidecar is of another sweep: {}", self.foreign_sidecar.join("; ")));
+            parts.push(format!("its sidecar is of another sweep: {}", self.foreign_sidecar.join("; ")));
         }
-        if self.bytes && told.is_empty() {
-            told.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
+        if self.bytes && parts.is_empty() {
+            parts.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
         }
-        f.write_str(&told.join("; "))
+        f.write_str(&parts.join("; "))
     }
 }
 

@@ -92,7 +92,7 @@ pub enum ResumeError {
 }
 
 impl Session {
-    /// Begins to write to `results`, an empty file which [`output::create`](crate::files::output::create) opened at `path`. The
+    /// Begins to write to `results`, an empty file which [`output::create`] opened at `path`. The
     /// journal records the time `started`, and in `replaces` that the results are to replace earlier ones.
     ///
     /// # Errors

@@ -35,19 +35,19 @@ pub(super) struct Base {
 
 /// The places that devices are read from.
 #[derive(Clone, Copy)]
-pub(super) enum Shelf<'s> {
+pub(super) enum DeviceSource<'s> {
     /// The disk.
     Disk,
     /// Those that results recorded, by their names.
     Recorded(&'s [Source]),
 }
 
-impl Shelf<'_> {
+impl DeviceSource<'_> {
     /// The text of a device, or the reason why it cannot be read.
     fn text(self, path: &Path) -> Result<String, String> {
         match self {
-            Shelf::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
-            Shelf::Recorded(devices) => {
+            DeviceSource::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
+            DeviceSource::Recorded(devices) => {
                 let name = path.display().to_string();
                 let found = devices.iter().find(|device| device.name == name);
                 found.map(|device| device.text.clone()).ok_or_else(|| "it was not recorded".to_owned())
@@ -60,7 +60,7 @@ impl Shelf<'_> {
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'r> {
     pub(super) models: &'r [&'static dyn Simulator],
-    pub(super) shelf: Shelf<'r>,
+    pub(super) source: DeviceSource<'r>,
 }
 
 impl Reader<'_> {
@@ -106,7 +106,7 @@ impl Reader<'_> {
                 .help("begin one of them with a preset");
             return None;
         }
-        let text = match self.shelf.text(&path) {
+        let text = match self.source.text(&path) {
             Ok(text) => text,
             Err(reason) => {
                 problems

@@ -9,13 +9,13 @@ use flap_core::simulate::{Rows, Simulator};
 use flap_core::vehicle::of_all_wings;
 use toml::de::DeTable;
 
-use super::device::{Base, Reader, Shelf};
+use super::device::{Base, DeviceSource, Reader};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
 use super::lookup::Lookup;
 use super::problems::{self, Problems};
 use super::table::{self, Entry};
-use super::vehicle::{self, Told};
+use super::vehicle::{self, VehicleSettings};
 use super::{axes, former, gradient, output, resonance, sample, solver};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::axes::{Axes, Axis};
@@ -28,7 +28,7 @@ use crate::resonance::AtResonance;
 /// # Errors
 /// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
 pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
-    plan(name, text, Reader { models, shelf: Shelf::Disk })
+    plan(name, text, Reader { models, source: DeviceSource::Disk })
 }
 
 /// The same for a grid that results recorded, with the devices that they recorded in place of files.
@@ -41,7 +41,7 @@ pub fn parse_recorded(
     devices: &[Source],
     models: &[&'static dyn Simulator],
 ) -> Result<Plan, Mistakes> {
-    plan(name, text, Reader { models, shelf: Shelf::Recorded(devices) })
+    plan(name, text, Reader { models, source: DeviceSource::Recorded(devices) })
 }
 
 fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
@@ -66,11 +66,11 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
-    let (base, told) = base;
+    let (base, settings) = base;
     let (robot, preset) = (base.robot.clone(), base.preset);
     let simulator = &*robot;
     let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
-        read_points(&root, base, simulator, told, reader.models, &mut problems);
+        read_points(&root, base, simulator, settings, reader.models, &mut problems);
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let gradient = table::find(&root, "gradient");
@@ -127,7 +127,7 @@ fn read_points<'n>(
     root: &[Entry<'_>],
     mut base: Base,
     simulator: &'n dyn Simulator,
-    told: Told,
+    settings: VehicleSettings,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
 ) -> Points<'n> {
@@ -146,7 +146,7 @@ fn read_points<'n>(
     formula::report_derived_twice(
         &drafts,
         &axes,
-        &[("set under [params]", &set), ("set in [vehicle]", &told.set)],
+        &[("set under [params]", &set), ("set in [vehicle]", &settings.set)],
         problems,
     );
     for placed in &axes {
@@ -161,7 +161,7 @@ fn read_points<'n>(
     let moved: Vec<usize> = moved.chain(drafts.iter().map(|draft| draft.parameter)).collect();
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
-    told.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
+    settings.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
     let unreached = base.robot.vehicle().map_or_else(Vec::new, |vehicle| {
         let is_own = |own: usize| base.values[own].given().is_some() || moved.contains(&own);
         vehicle::unreached(vehicle, &chosen, is_own)

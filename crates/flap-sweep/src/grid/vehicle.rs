@@ -31,14 +31,14 @@ const DRIVE: &str = "drive";
 
 /// The facts of this section that other sections of a grid file need.
 #[derive(Default)]
-pub(super) struct Told {
+pub(super) struct VehicleSettings {
     /// The parameters that the section sets, and where.
     pub(super) set: Vec<(usize, Range<usize>)>,
     /// Wings whose designs have another drive frequency than the grid's, each as a place and a message.
     frequencies: Vec<(Range<usize>, String)>,
 }
 
-impl Told {
+impl VehicleSettings {
     /// Reports wings of other drive frequencies, unless the grid `sets` that of all wings.
     pub(super) fn report_frequencies(
         self,
@@ -62,8 +62,8 @@ pub(super) fn read(
     base: Base,
     reader: Reader<'_>,
     problems: &mut Problems,
-) -> Option<(Base, Told)> {
-    let Some(section) = table::find(root, "vehicle") else { return Some((base, Told::default())) };
+) -> Option<(Base, VehicleSettings)> {
+    let Some(section) = table::find(root, "vehicle") else { return Some((base, VehicleSettings::default())) };
     let entries = table::section(section, problems);
     table::check_keys(&entries, &KEYS, "in [vehicle]", problems);
     let wings = wings(section, &entries, problems)?;
@@ -76,7 +76,13 @@ pub(super) fn read(
         }
     };
     let shared = base.values.len();
-    let mut own = Own { vehicle: &vehicle, shared: base, told: Told::default(), problems, models: reader };
+    let mut own = Own {
+        vehicle: &vehicle,
+        shared: base,
+        settings: VehicleSettings::default(),
+        problems,
+        models: reader,
+    };
     let of_vehicle = |parameter: &Parameter| match parameter.kind {
         Kind::Following(_, follows) if parameter.default.is_nan() => Value::Follows(follows),
         _ => Value::Given(parameter.default),
@@ -91,8 +97,8 @@ pub(super) fn read(
     for (index, wing) in wings.iter().enumerate() {
         own.wing(index, wing);
     }
-    let (shared, told) = (own.shared, own.told);
-    Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, told))
+    let (shared, settings) = (own.shared, own.settings);
+    Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, settings))
 }
 
 /// The parameters of all wings among those `chosen` by the grid that reach no wing: each has one of its own, as `is_own` says
@@ -212,7 +218,7 @@ struct Own<'o> {
     vehicle: &'o Vehicle,
     /// The design of all wings, with the values of the vehicle.
     shared: Base,
-    told: Told,
+    settings: VehicleSettings,
     problems: &'o mut Problems,
     models: Reader<'o>,
 }
@@ -234,7 +240,7 @@ impl Own<'_> {
         } else if let Some(newest) = self.problems.newest().filter(|newest| newest.help.is_empty()) {
             newest.help(help);
         }
-        self.told.set.push((index, entry.key_span.clone()));
+        self.settings.set.push((index, entry.key_span.clone()));
         self.shared.uncertainty.set(index, error);
     }
 
@@ -320,7 +326,7 @@ impl Own<'_> {
                 let shown = |value: Value| value.given().map_or_else(String::new, value::shown);
                 let (own, shared) = (shown(own), shown(shared));
                 let message = format!("the wing `{name}` flaps at {own} Hz, the vehicle at {shared} Hz");
-                self.told.frequencies.push((span.clone(), message));
+                self.settings.frequencies.push((span.clone(), message));
             }
             if parameter.group == DRIVE {
                 continue;

@@ -141,7 +141,7 @@ impl Reader {
         &self.names
     }
 
-    /// The metadata of a Parquet file, as keys with their texts: see [`Provenance`]. Empty for other
+    /// The metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). Empty for other
     /// formats.
     pub fn entries(&self) -> &[(String, String)] {
         match &self.rows {

@@ -109,7 +109,7 @@ pub struct Rerun {
     pub points: String,
 }
 
-/// The parameter that rises and falls in a response, see [`Along`](crate::plan::Along).
+/// The parameter that rises and falls in a response, see [`Along`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
     /// Its name.
