@@ -50,7 +50,7 @@ const CRATES: &[(&str, &[&str])] = &[
         "flap-cli",
         &[
             "args", "models", "statuses", "complete", "console", "table", "duration", "progress", "failure",
-            "signals", "job", "data", "cmd", "plot", "lib", "main",
+            "print", "signals", "job", "data", "cmd", "plot", "lib", "main",
         ],
     ),
 ];

@@ -31,6 +31,8 @@ use std::env;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use args::Command;
+use failure::{Exit, Failure};
 use flap_core::simulate::Simulator;
 
 /// Runs the command line of this process with these models.
@@ -53,6 +55,27 @@ pub fn run_line(line: Vec<OsString>, models: Vec<&'static dyn Simulator>) -> u8 
         console::be_quiet();
     }
     signals::refuse_large_files();
-    let ended = cmd::run(&args.command);
-    ended.unwrap_or_else(failure::Failure::report) as u8
+    run_command(&args.command).unwrap_or_else(Failure::report) as u8
+}
+
+/// Runs a command.
+fn run_command(command: &Command) -> Result<Exit, Failure> {
+    match command {
+        Command::Sweep(args) => cmd::sweep::run(args),
+        Command::Run(args) => cmd::run::run(args),
+        Command::Respond(args) => cmd::respond::run(args),
+        Command::Vehicle(args) => cmd::vehicle::run(args),
+        #[cfg(feature = "live")]
+        Command::Live(args) => cmd::live::run(args),
+        Command::Check(args) => cmd::check::run(args),
+        Command::Top(args) => cmd::top::run(args),
+        Command::Describe(args) => cmd::describe::run(args),
+        #[cfg(feature = "plots")]
+        Command::Plot(args) => plot::run(args),
+        Command::Results(command) => cmd::results::run(command),
+        Command::Test(command) => cmd::test::run(command),
+        Command::Device(command) => cmd::device::run(command),
+        Command::Models(args) => cmd::models::run(args),
+        Command::Generate(command) => cmd::generate::run(command),
+    }
 }

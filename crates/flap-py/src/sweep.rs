@@ -29,7 +29,6 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 /// it gives the bytes of the next parcel.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, parcels=None))]
-#[expect(clippy::too_many_arguments, reason = "one per keyword")]
 pub(crate) fn sweep<'py>(
     py: Python<'py>,
     grid: &Bound<'py, Grid>,

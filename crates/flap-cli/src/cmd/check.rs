@@ -23,7 +23,7 @@ use crate::job::exclusion;
 use crate::print;
 use crate::table::{self, Table, wrapped};
 
-pub(super) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = grid::read(&args.grid)?;
     far::warn(&deviation::of(&plan));
     match args.format {

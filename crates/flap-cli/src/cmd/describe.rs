@@ -24,7 +24,7 @@ use crate::failure::{Exit, Failure};
 /// Measures whose best rows are described by default.
 const MAIN: [&str; 2] = ["lift_mean_mn", "efficiency_gf_per_w"];
 
-pub(super) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     let LookArgs { results, filters, format, read, .. } = &args.look;
     let source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;

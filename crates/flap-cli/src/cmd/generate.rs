@@ -14,7 +14,7 @@ use crate::failure::{Exit, Failure};
 use crate::models;
 
 /// Runs a command of the group.
-pub(super) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
+pub(crate) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
     match command {
         GenerateCommand::Completions(args) => completions(args),
         GenerateCommand::Man(args) => man(args),

@@ -16,7 +16,7 @@ use crate::{models, signals};
 /// Time between two looks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
 
-pub(super) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     let what = args.what.clone().or_else(|| models::presets().next().map(str::to_owned));
     let what = what.ok_or_else(|| Failure::usage("there are no presets: name a file"))?;
     let plan = point::plan(&what)?;

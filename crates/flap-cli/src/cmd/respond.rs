@@ -17,7 +17,7 @@ use crate::failure::{Exit, Failure};
 use crate::job::{self, Lines, Verdicts};
 use crate::print;
 
-pub(super) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
     point::check_one_wing(&plan, &args.what, "`flap respond`")?;
     let plan = point::with_solver(plan, &args.solver)?;

@@ -21,7 +21,7 @@ use crate::print;
 use crate::print::write_csv;
 use crate::table::{Table, six_digits, wrapped};
 
-pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
     if let Some(option) = of_one_wing(args) {
         check_one_wing(&chosen.plan, &args.point.what, &format!("`flap run` with {option}"))?;

@@ -14,7 +14,7 @@ use crate::cmd::{far, grid};
 use crate::failure::{Exit, Failure};
 use crate::job;
 
-pub(super) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     let grid = args.grid();
     let is_sidecar = grid.to_string_lossy().ends_with(".meta.toml");
     let (mut plan, origin) = if is_sidecar { repeated(args)? } else { (grid::read(grid)?, None) };

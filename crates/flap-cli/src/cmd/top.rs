@@ -15,7 +15,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::Table;
 
-pub(super) fn run(args: &TopArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let LookArgs { results, aim, filters, all, format, read } = &args.look;
     let mut source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;

@@ -26,7 +26,7 @@ const SMALL: f64 = 0.1;
 /// The share of the largest singular value below which a combination does nothing.
 const NOTHING: f64 = 1e-9;
 
-pub(super) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Some(vehicle) = chosen.plan.vehicle() else {
         let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));

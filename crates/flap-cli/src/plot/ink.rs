@@ -2,20 +2,23 @@
 
 use flap_sweep::notation::text::printable;
 use flap_sweep::picture::colours;
-use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::plot::{ColorMap, LinePlot, ScatterPlot};
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::shades;
-
 /// The colour of line number `index` of `count`. Ordered ones go from dark to light.
 pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     match colours::shade(index, count) {
-        Some(share) if ordered => shades::sequential(share),
+        Some(share) if ordered => sequential(share),
         _ => colours::SERIES[index % colours::SERIES.len()].to_owned(),
     }
+}
+
+/// A colour for `share` of the way from the smallest to the largest value: even in lightness, dark to light.
+pub(super) fn sequential(share: f64) -> String {
+    ColorMap::Viridis.map(share)
 }
 
 /// A text for the library's labels, in which dollars begin formulas and control characters would make no XML.

@@ -6,7 +6,7 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-use super::ink::{rectangle, text};
+use super::ink::{self, rectangle, text};
 use super::panel::{Axis, BAR_MARGIN, LETTER};
 use super::scale;
 
@@ -34,13 +34,8 @@ impl Shades {
             let size = high.max(-low);
             return ColorMap::RedBlue.map(0.5 - 0.5 * value / size);
         }
-        sequential((value - low) / (high - low))
+        ink::sequential((value - low) / (high - low))
     }
-}
-
-/// A colour for `share` of the way from the smallest to the largest value: even in lightness, dark to light.
-pub(super) fn sequential(share: f64) -> String {
-    ColorMap::Viridis.map(share)
 }
 
 /// A label and the size of its letters, with which it fits into a length: smaller than usual, and cut if even that is too long.

@@ -7,7 +7,7 @@ use crate::args::DeviceCommand;
 use crate::failure::{Exit, Failure};
 
 /// Runs a command of the group.
-pub(super) fn run(command: &DeviceCommand) -> Result<Exit, Failure> {
+pub(crate) fn run(command: &DeviceCommand) -> Result<Exit, Failure> {
     match command {
         DeviceCommand::New(args) => new::run(args),
         DeviceCommand::Wing(args) => wing::run(args),

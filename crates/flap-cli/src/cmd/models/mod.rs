@@ -10,7 +10,7 @@ use crate::models;
 use crate::print;
 use crate::table::Table;
 
-pub(super) fn run(args: &ModelsArgs) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &ModelsArgs) -> Result<Exit, Failure> {
     if args.names.is_empty() {
         list(args)?;
         return Ok(Exit::Done);

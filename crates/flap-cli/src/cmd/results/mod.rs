@@ -10,7 +10,7 @@ use crate::args::ResultsCommand;
 use crate::failure::{Exit, Failure};
 
 /// Runs a command of the group.
-pub(super) fn run(command: &ResultsCommand) -> Result<Exit, Failure> {
+pub(crate) fn run(command: &ResultsCommand) -> Result<Exit, Failure> {
     match command {
         ResultsCommand::Convert(args) => convert::run(args),
         ResultsCommand::Merge(args) => merge::run(args),

@@ -10,7 +10,7 @@ use crate::args::TestCommand;
 use crate::failure::{Exit, Failure};
 
 /// Runs a command of the group.
-pub(super) fn run(command: &TestCommand) -> Result<Exit, Failure> {
+pub(crate) fn run(command: &TestCommand) -> Result<Exit, Failure> {
     match command {
         TestCommand::Chirp(args) => chirp::run(args),
         TestCommand::Impulse(args) => impulse::run(args),
