@@ -4,7 +4,8 @@ use std::fs;
 
 use crate::support::{Folder, frequencies, quick};
 
-const COMPLETE: &str = "is complete: nothing is left to run; `flap sweep --restart` runs its points again\n";
+const COMPLETE: &str =
+    "is complete: nothing is left to run; the same command with --restart runs its points again\n";
 
 #[test]
 fn a_second_sweep_of_the_same_grid_runs_nothing() {
@@ -66,7 +67,7 @@ fn damaged_rows_do_not_count_as_complete() {
     folder
         .ends(3, "sweep grid.toml")
         .says("grid.csv is damaged")
-        .says("`flap sweep --restart` computes the rows again");
+        .says("the same command with --restart computes the rows again");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
@@ -115,7 +116,7 @@ fn a_grid_may_come_from_stdin() {
     assert!(reading(&["sweep", "-", "--out", "rows.csv"]).stderr.contains("nothing is left to run"));
     assert_eq!(
         folder.flap("results resume rows.csv").stderr,
-        "rows.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+        "rows.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
     );
     folder.ends(0, "results convert rows.csv rows.parquet");
     let with_path = grid.clone() + "[output]\npath = \"here.csv\"\n";

@@ -94,6 +94,8 @@ fn tracked_points_become_a_motion() {
     let ended = folder.ends(0, "test track points.csv --chord 6.5 --out motion.csv");
     assert_eq!(ended.stdout, "rotation centre at x = 3.0, y = -1.0\n");
     let motion = folder.read("motion.csv");
+    let streamed = folder.ends(0, "test track points.csv --chord 6.5 --out -");
+    assert_eq!((streamed.stdout.as_str(), folder.path("-").exists()), (motion.as_str(), false));
     let mut lines = motion.lines();
     assert_eq!(lines.next(), Some("time_s,stroke_deg,pitch_deg"));
     let row: Vec<f64> = lines.nth(9).unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();

@@ -272,7 +272,7 @@ fn complete_results_are_only_read() {
             assert_eq!(
                 stderr,
                 format!(
-                    "{out} is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+                    "{out} is complete: nothing is left to run; the same command with --restart runs its points again\n"
                 )
             );
         }

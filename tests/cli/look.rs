@@ -355,6 +355,13 @@ fn comparisons_take_units() {
         "drive_frequency > 1 kHz",
         "help: drive_frequency is in Hz, such as 95 Hz; a number may have its unit",
     );
+    // The unit of a measure has a prefix already, and the example can be typed.
+    let ended =
+        folder.ends_with(2, &["top", "rows.csv", "--by", "lift_mean_mn", "--where", "lift_mean_mn > 1e3"]);
+    let example =
+        ended.stderr.split("lift_mean_mn is in mN, such as ").nth(1).unwrap().split(';').next().unwrap();
+    assert!(example.ends_with(" mN"), "{example}");
+    assert!(count(&format!("lift_mean_mn < {example} or lift_mean_mn >= {example}")) > 0);
 }
 
 #[test]

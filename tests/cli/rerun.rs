@@ -74,7 +74,10 @@ fn failed_points_are_run_again_with_other_settings() {
 fn what_cannot_be_run_again() {
     let folder = unsettled();
     let ended = folder.ends(0, "results rerun rows.csv --status diverged --out again.csv");
-    assert_eq!(ended.stderr, "no point in rows.csv is diverged: nothing is left to run\n");
+    assert_eq!(
+        ended.stderr,
+        "no point in rows.csv is diverged: nothing is left to run, and no file is written\n"
+    );
     assert!(!folder.path("again.csv").exists());
 
     fs::copy(folder.path("rows.csv.meta.toml"), folder.path("edited.meta.toml")).unwrap();
@@ -109,7 +112,7 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
     folder.ends(0, "results rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
     assert_eq!(
         folder.flap("results resume rerun.csv").stderr,
-        "rerun.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+        "rerun.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
     );
 
     fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();

@@ -124,6 +124,17 @@ fn options_are_those_of_the_sidecar() {
     assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);
 }
 
+/// A reader of the summaries that goes away does not stop the rows.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_closed_stdout_does_not_end_a_run_into_a_file() {
+    let folder = Folder::new();
+    let flap = env!("CARGO_BIN_EXE_flap");
+    let line = format!("{flap} respond ozaki2018-large --from 100 --to 110 --step 5 --out rows.csv | true");
+    assert_eq!(folder.shell(&format!("set -o pipefail; {line}")).code, 0);
+    folder.ends(0, "results verify rows.csv").prints("rows.csv: sound: ");
+}
+
 /// A band of 0.28 Hz between two steps of 0.5 Hz.
 #[test]
 fn a_band_between_two_steps_is_found() {

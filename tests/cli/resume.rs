@@ -288,7 +288,7 @@ fn a_changed_grid_is_not_resumed() {
                 help: `flap results resume grid.csv` continues it with the grid that began it\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
                 help: an edited grid is another sweep: give its rows another file with --out FILE\n\
-                help: `flap sweep --restart` drops its rows and starts over\n";
+                help: --restart drops its rows and starts over\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
 
@@ -330,7 +330,7 @@ fn there_may_be_nothing_to_resume() {
     let ended = folder.ends(1, "sweep --grid grid.toml --strict");
     assert_eq!(
         ended.stderr,
-        "grid.csv is complete: nothing is left to run; `flap sweep --restart` runs its points again\n"
+        "grid.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
     );
     assert_eq!(folder.read("grid.csv"), rows);
 

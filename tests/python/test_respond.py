@@ -86,7 +86,7 @@ def test_resonances(flap):
     found = flapwing.resonance("ozaki2018-large")
     printed = {
         row["resonance"]: row
-        for row in csv.DictReader(flap("resonance", "ozaki2018-large", "--format", "csv").stdout.splitlines())
+        for row in csv.DictReader(flap("test", "resonance", "ozaki2018-large", "--format", "csv").stdout.splitlines())
     }
     assert found.driven[0].frequency_hz == float(printed["driven_1"]["frequency_hz"])
     assert found.impulse_fit.decay_1_s == float(printed["impulse_fit"]["decay_1_s"])

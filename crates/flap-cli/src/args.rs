@@ -166,8 +166,8 @@ fn groups(command: &clap::Command) -> String {
 /// The command with the first of its examples above its usage.
 fn with_example(command: clap::Command) -> clap::Command {
     let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
-    let examples = help.split_once("Example:\n").or_else(|| help.split_once("Examples:\n"));
-    let first = examples.and_then(|(_, lines)| lines.lines().next()).map(str::trim);
+    let lines = help.lines().skip_while(|line| !line.starts_with("Example"));
+    let first = lines.map(str::trim).find(|line| line.starts_with("flap "));
     let command = match first {
         Some(example) => command.help_template(format!(
             "{{about-with-newline}}\nExample: {example}\n\n{{usage-heading}} {{usage}}\n\n{{all-args}}{{after-help}}"

@@ -104,9 +104,8 @@ impl Failure {
                 unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
             }
             JobError::Resume { error, .. } => error.into(),
-            JobError::Open(OpenError::Damaged { .. }) => {
-                Failure::damaged(error.to_string()).help("`flap sweep --restart` computes the rows again")
-            }
+            JobError::Open(OpenError::Damaged { .. }) => Failure::damaged(error.to_string())
+                .help("the same command with --restart computes the rows again"),
             JobError::Open(error) => error.into(),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
@@ -179,7 +178,7 @@ fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues:
     } else {
         failure
     };
-    edited(failure, changed).help("`flap sweep --restart` drops its rows and starts over")
+    edited(failure, changed).help("--restart drops its rows and starts over")
 }
 
 /// The help line for new results that are to replace earlier ones; `None` if there are no earlier ones.
@@ -296,7 +295,7 @@ impl From<ResumeError> for Failure {
             ResumeError::Create(error) => error.into(),
             ResumeError::Format(error) => error.into(),
             ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
-                Failure::usage(message).help("use `flap sweep --restart` to start over, or name another file")
+                Failure::usage(message).help("use --restart to start over, or name another file")
             }
         }
     }

@@ -25,10 +25,10 @@ use crate::{convert, error};
 /// Time between checkpoints of results in a file.
 const CHECKPOINT: Duration = Duration::from_secs(1);
 
-/// Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
-/// it gives the bytes of the next parcel.
+/// Runs a grid; see `flapwing.sweep`. `chunks` gives the rows of other processes: called with the number of points done,
+/// it gives the bytes of the next chunk.
 #[pyfunction]
-#[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, parcels=None))]
+#[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(
     py: Python<'py>,
     grid: &Bound<'py, Grid>,
@@ -36,19 +36,19 @@ pub(crate) fn sweep<'py>(
     restart: bool,
     threads: Option<&Bound<'py, PyAny>>,
     progress: Option<Py<PyAny>>,
-    parcels: Option<Bound<'py, PyAny>>,
+    chunks: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let parcels = parcels.map(Bound::unbind);
+    let chunks = chunks.map(Bound::unbind);
     let plan = &grid.get().plan;
     let options = options(threads)?;
     let begin = if restart { Begin::Restart } else { Begin::Continue };
     match out {
         None if restart => Err(PyValueError::new_err("restart is about a file of results: give out")),
-        None => into_columns(py, plan, &options, progress, parcels.as_ref()),
+        None => into_columns(py, plan, &options, progress, chunks.as_ref()),
         Some(out) => {
             let options = SessionOptions { run: options, checkpoint: CHECKPOINT };
             let job = Job { plan, out, begin, options, origin: None };
-            into_file(py, &job, progress, parcels.as_ref())
+            into_file(py, &job, progress, chunks.as_ref())
         }
     }
 }
@@ -69,11 +69,11 @@ pub(crate) fn into_columns<'py>(
     plan: &Plan,
     options: &RunOptions,
     progress: Option<Py<PyAny>>,
-    parcels: Option<&Py<PyAny>>,
+    chunks: Option<&Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut sink = Columns::new(Layout::of(plan).columns());
     let mut watch = Watch::new(progress);
-    let ran = if parcels.is_none() && plan.selected() <= 1 && plan.resonance().is_none() {
+    let ran = if chunks.is_none() && plan.selected() <= 1 && plan.resonance().is_none() {
         interruptible(py, |interrupted| {
             let mut output = RowWriter::begin(plan, Summary::default(), &mut sink)?;
             for row in run::alone(plan, options, interrupted) {
@@ -82,7 +82,7 @@ pub(crate) fn into_columns<'py>(
             output.finish(Ok(()))
         })?
     } else {
-        py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, parcels))
+        py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, chunks))
     };
     if ran.is_ok() {
         watch.done(plan.selected());
@@ -103,7 +103,7 @@ fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,
     progress: Option<Py<PyAny>>,
-    parcels: Option<&Py<PyAny>>,
+    chunks: Option<&Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut watch = Watch::new(progress);
     let mut unlocked = None;
@@ -114,7 +114,7 @@ fn into_file<'py>(
         };
         unlocked = writing.unlocked.take();
         let before = writing.before.clone();
-        let ended = work(job.plan, &job.options.run, before, writing.sink(), &mut watch, parcels);
+        let ended = work(job.plan, &job.options.run, before, writing.sink(), &mut watch, chunks);
         writing.finish(ended).map(Some)
     });
     if let Some(error) = unlocked {
@@ -138,19 +138,19 @@ fn into_file<'py>(
     Ok(dict)
 }
 
-/// Runs the points here, or takes their rows from parcels.
+/// Runs the points here, or takes their rows from chunks.
 fn work(
     plan: &Plan,
     options: &RunOptions,
     before: Summary,
     sink: &mut dyn Sink,
     watch: &mut Watch,
-    parcels: Option<&Py<PyAny>>,
+    chunks: Option<&Py<PyAny>>,
 ) -> Result<Summary, RunError> {
     let mut output = RowWriter::begin(plan, before, sink)?;
-    let ended = match parcels {
+    let ended = match chunks {
         None => run_here(plan, options, &mut output, watch),
-        Some(parcels) => fetch(plan, options, &mut output, watch, parcels),
+        Some(chunks) => fetch(plan, options, &mut output, watch, chunks),
     };
     output.finish(ended)
 }
@@ -181,13 +181,13 @@ fn fetch(
     options: &RunOptions,
     output: &mut RowWriter<'_>,
     watch: &mut Watch,
-    parcels: &Py<PyAny>,
+    chunks: &Py<PyAny>,
 ) -> Result<(), RunError> {
     let points = plan.selected();
     while output.done() < points && !watch.stops(Progress { finished: output.done(), points }) {
         let done = output.done();
         let fetched: PyResult<Option<Vec<u8>>> = Python::attach(|py| {
-            let bytes = parcels.call1(py, (done,))?;
+            let bytes = chunks.call1(py, (done,))?;
             let bytes = bytes.bind(py);
             if bytes.is_none() { Ok(None) } else { Ok(Some(bytes.cast::<PyBytes>()?.as_bytes().to_vec())) }
         });

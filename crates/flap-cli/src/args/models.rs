@@ -18,7 +18,7 @@ pub(crate) struct ModelsArgs {
     #[arg(long, requires = "names")]
     pub(crate) long: bool,
 
-    /// Output format: csv and json have all texts, and numbers in SI units
+    /// Output format: csv and json have all texts, and the values of parameters in SI units
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }

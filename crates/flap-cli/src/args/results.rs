@@ -140,9 +140,7 @@ OUT has the same bytes as a sweep on one machine. Refuses if a shard is missing,
 another sweep. Merging runs no model: shards of another build of flap keep its name in OUT.meta.toml. Shards of several \
 builds need --mixed-builds, since their rows may differ.
 
-Examples:
-  flap sweep grid.toml --shard 1/2
-  flap sweep grid.toml --shard 2/2
+Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
 
 #[derive(clap::Args)]

@@ -70,7 +70,7 @@ pub(crate) struct CheckArgs {
 
 const CHECK_HELP: &str = "\
 Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and an estimate \
-of the time that the sweep takes. For the estimate, it runs up to 32 points for about a second. Lists the parameters \
+of the time that the sweep takes. For the estimate, it runs up to 256 points for about a second. Lists the parameters \
 that differ from the preset, and warns of values more than a hundred times larger or smaller. Of a grid of more than a \
 million points, it counts excluded points among a million of them.
 

@@ -192,8 +192,8 @@ Angles follow the conventions of the model, see docs/model.md. Between samples t
 acceleration amplifies the noise of the samples, so smooth them first.
 
 Examples:
-  flap test track points.csv --chord 6.5 --out motion.csv
-  flap test lift ozaki2018-small motion.csv --trajectory forces.csv";
+  flap test lift ozaki2018-small motion.csv --trajectory forces.csv
+  flap test track points.csv --chord 6.5 --out motion.csv     (the motion of a filmed wing)";
 
 #[derive(clap::Args)]
 #[command(after_help = TRACK_HELP)]
@@ -207,7 +207,7 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) chord: Option<f64>,
 
-    /// CSV file for stroke_deg and pitch_deg over time [default: stdout, in the format of --format]
+    /// CSV file for stroke_deg and pitch_deg over time, or `-` for stdout [default: stdout, in the format of --format]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 

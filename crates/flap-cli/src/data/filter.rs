@@ -17,6 +17,7 @@ use super::source::Source;
 use super::{columns, quantity};
 use crate::args::Filter;
 use crate::failure::Failure;
+use crate::table::six_digits;
 
 /// The conditions of the command line.
 pub(crate) struct Filters(Vec<Test>);
@@ -191,15 +192,22 @@ impl Filters {
 /// The question whether a number without a unit was meant to have a prefix; `usual` is a number of the column.
 pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
-    let text = units::prefixed(meant, unit);
+    let text = shown_in(meant, unit);
     Some(format!("a number without a unit is in {unit}: did you mean --where {name}='{text}'?"))
 }
 
 /// The unit of a column, with a number that it has; `None` without a unit.
 fn in_unit(name: &str, unit: &str, usual: f64) -> Option<String> {
     let example =
-        if usual.is_finite() { format!(", such as {}", units::prefixed(usual, unit)) } else { String::new() };
+        if usual.is_finite() { format!(", such as {}", shown_in(usual, unit)) } else { String::new() };
     (!unit.is_empty()).then(|| format!("{name} is in {unit}{example}; a number may have its unit"))
+}
+
+/// A number in a unit, with a prefix where the unit takes one: units such as mN have one already.
+fn shown_in(number: f64, unit: &str) -> String {
+    let prefixed = units::prefixed(number, unit);
+    let is_read = units::parse_as(&prefixed, unit).is_ok();
+    if is_read { prefixed } else { format!("{} {unit}", six_digits(number)) }
 }
 
 /// The text of a cell.

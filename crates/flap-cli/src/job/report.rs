@@ -29,8 +29,11 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
-    report_warnings(plan, done);
-    report_unsettled(plan, done);
+    // An interrupted sweep goes on first.
+    if !summary.is_interrupted() {
+        report_warnings(plan, done);
+        report_unsettled(plan, done);
+    }
 
     let to = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
     if summary.is_interrupted() {

@@ -64,9 +64,8 @@ pub(crate) fn run_and_summarize(
     let mut writing = match job::begin(&job).map_err(failed)? {
         Begun::Writing(writing) => writing,
         Begun::Complete { all_periodic } => {
-            let command = if plan.followed().is_some() { "respond" } else { "sweep" };
             console::say(&format!(
-                "{place} is complete: nothing is left to run; `flap {command} --restart` runs its points again"
+                "{place} is complete: nothing is left to run; the same command with --restart runs its points again"
             ));
             return Ok(exit(all_periodic, work));
         }

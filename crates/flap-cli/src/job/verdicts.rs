@@ -44,7 +44,8 @@ impl<'a> Verdicts<'a> {
         Some(Verdicts { format, stream, rows: Vec::new(), plan, along, parameter, stroke })
     }
 
-    /// Prints the line of a curve, or keeps its rows for programs.
+    /// Prints the line of a curve, or keeps its rows for programs. A reader that closes stdout does not end the run: its
+    /// rows may go to a file.
     pub(crate) fn add(&mut self, curve: &Curve) -> io::Result<()> {
         let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
         if self.format != OutputFormat::Table {
@@ -54,7 +55,10 @@ impl<'a> Verdicts<'a> {
         let design = self.design(&curve.design);
         let line = if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") };
         match self.stream {
-            Lines::Stdout => console::results(&(line + "\n")),
+            Lines::Stdout => match console::results(&(line + "\n")) {
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                printed => printed,
+            },
             Lines::Stderr => {
                 console::say(&line);
                 Ok(())

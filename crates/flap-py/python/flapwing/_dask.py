@@ -89,7 +89,7 @@ def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsInde
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
-class Parcels:
+class Chunks:
     """Stretches of a grid, computed by a cluster; their rows come in the order of the points."""
 
     def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
@@ -105,7 +105,7 @@ class Parcels:
         self._size = max(1, min(_TASK_POINTS, -(-self._points // (_TASKS_PER_THREAD * workers))))
         self._ahead = _TASKS_PER_THREAD * workers
 
-    def __enter__(self) -> Parcels:
+    def __enter__(self) -> Chunks:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -114,7 +114,7 @@ class Parcels:
         self._under_way.clear()
 
     def next(self, done: int) -> bytes | None:
-        """The parcel that begins after the points that are done."""
+        """The chunk that begins after the points that are done."""
         if self._submitted is None:
             self._submitted = done
         while self._submitted < self._points and len(self._under_way) < self._ahead:
@@ -127,12 +127,12 @@ class Parcels:
         if not self._under_way:
             return None
         begin, future = self._under_way.popleft()
-        assert begin == done, "parcels are asked for in order"
+        assert begin == done, "chunks are asked for in order"
         try:
-            parcel: bytes = future.result()
+            chunk: bytes = future.result()
         finally:
             future.release()
-        return parcel
+        return chunk
 
 
 def _evaluate_task(

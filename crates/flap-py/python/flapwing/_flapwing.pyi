@@ -406,14 +406,14 @@ def sweep(
     restart: bool = False,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-    parcels: Callable[[int], bytes | None] | None = None,
+    chunks: Callable[[int], bytes | None] | None = None,
 ) -> NativeTable:
-    """Runs a grid; see `flapwing.sweep`. `parcels` gives the rows of other processes: called with the number of points done,
-    it gives the bytes of the next parcel.
+    """Runs a grid; see `flapwing.sweep`. `chunks` gives the rows of other processes: called with the number of points done,
+    it gives the bytes of the next chunk.
     """
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
-    """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as parcels."""
+    """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as chunks."""
 
 def identity() -> NativeIdentity:
     """The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`."""

@@ -105,8 +105,8 @@ def sweep(
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
         else:
-            with _dask.Parcels(checked, _arguments.cluster(client), threads) as parcels:
-                native = _flapwing.sweep(checked, progress=show, parcels=parcels.next, **given)
+            with _dask.Chunks(checked, _arguments.cluster(client), threads) as chunks:
+                native = _flapwing.sweep(checked, progress=show, chunks=chunks.next, **given)
     return Table._of(native, None if out is None else os.path.abspath(out), keywords)
 
 

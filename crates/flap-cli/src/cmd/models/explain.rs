@@ -18,7 +18,7 @@ use crate::print;
 use crate::table::wrapped;
 
 /// Columns of explanations for programs.
-const NAMES: [&str; 3] = ["name", "kind", "text"];
+const NAMES: [&str; 4] = ["name", "kind", "models", "text"];
 
 /// Explains names, as names of all models or of the one that the command line chooses.
 pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> {

@@ -31,7 +31,10 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     job::tell_missed(&args.results, &source.reader);
     let statuses = wanted.words();
     if list.is_empty() {
-        console::say(&format!("no point in {of} is {}: nothing is left to run", statuses.join(" or ")));
+        console::say(&format!(
+            "no point in {of} is {}: nothing is left to run, and no file is written",
+            statuses.join(" or ")
+        ));
         return Ok(Exit::Done);
     }
     let plan = with_solver(plan.with_points(list)?, &args.solver)?;

@@ -7,7 +7,7 @@ use flap_sweep::files::record::{self, Record};
 
 use crate::args::TrackArgs;
 use crate::cmd::motion::write_file;
-use crate::cmd::outputs;
+use crate::cmd::outputs::{self, is_stdout};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
@@ -39,7 +39,7 @@ pub(super) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
     }
 
     let found = format!("rotation centre at x = {}, y = {}", six_digits(centre[0]), six_digits(centre[1]));
-    if let Some(path) = &args.out {
+    if let Some(path) = args.out.as_deref().filter(|path| !is_stdout(path)) {
         write_file(&motion, path, args.overwrite.force, "image")?;
         console::results(&(found + "\n"))?;
     } else {

@@ -61,10 +61,11 @@ impl Entry {
         format!("{what}{of}{rest}")
     }
 
-    /// Name, kind and text, as a row of a table.
+    /// Name, kind, models and text, as a row of a table.
     pub(super) fn row(&self) -> Vec<String> {
-        let lines: Vec<&str> = self.text.lines().map(str::trim).collect();
-        vec![self.name.clone(), self.kind(), lines.join("\n")]
+        let Entry { name, what, models, rest, text, .. } = self;
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
     /// Adds an entry to others; those that say the same of several models become one.
