@@ -32,6 +32,7 @@ __all__ = [
     "check",
     "chirp",
     "colours",
+    "command",
     "correlations",
     "evaluate",
     "forces_along",
