@@ -103,7 +103,7 @@ def count(flap: Path, text: str) -> Count:
     instructions = int(collected[1])
     if instructions == 0:
         sys.exit(f"no function of {flap} matches {COUNTED}: has it a new name? Then change COUNTED in {__file__}.")
-    return Count(instructions, told["rhs_evals"])
+    return Count(instructions, told["summary"]["rhs_evals"])
 
 
 def read_baseline() -> dict[str, Count]:
