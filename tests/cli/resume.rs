@@ -139,14 +139,14 @@ fn an_interrupted_sweep_goes_on() {
 fn an_interrupted_sweep_of_derivatives_goes_on() {
     let gradient = "\n[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_stiffness\", \"drive_frequency\"]\n";
     for ending in ["csv", "parquet"] {
-        let folder = Folder::with_grid(&(frequencies(1500) + gradient));
+        let folder = Folder::with_grid(&(frequencies(8000) + gradient));
         folder.ends(0, &format!("sweep grid.toml --out whole.{ending}"));
         let out = format!("rows.{ending}");
         let mut child = begin(&folder, &out);
         send("INT", &child);
         assert_eq!(wait(&mut child), Some(130), "{ending}");
         let ended = folder.ends(0, &format!("results resume {out}"));
-        assert!(!ended.stderr.starts_with("0 of 1500 points"), "{}", ended.stderr);
+        assert!(!ended.stderr.starts_with("0 of 8000 points"), "{}", ended.stderr);
         assert_same(&folder, ending);
     }
 }

@@ -1,4 +1,4 @@
-"""flap: the command `flap sweep` on one thread. The CPU time is that of its whole process: it reads the points and
+"""flap: the command `flap sweep` on one thread. The CPU time includes the whole process: it reads the points and
 writes rows with all columns.
 
 Arguments: FLAP NEWTON POINTS RTOL OUT, where NEWTON is `true` or `false`. Needs Python's standard library alone.

@@ -176,3 +176,19 @@ fn with_example(command: clap::Command) -> clap::Command {
     };
     command.mut_subcommands(with_example)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_list_every_command() {
+        let mut listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        listed.retain(|name| *name != "help");
+        let command = Args::command();
+        let known: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+        for name in &known {
+            assert!(listed.contains(name), "`flap --help` does not list {name}");
+        }
+    }
+}

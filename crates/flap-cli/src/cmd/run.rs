@@ -17,8 +17,7 @@ use super::{far, outputs, samples};
 use crate::args::{OutputFormat, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::print;
-use crate::print::write_csv;
+use crate::print::{self, write_csv};
 use crate::table::{Table, six_digits, wrapped};
 
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {

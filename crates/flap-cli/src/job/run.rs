@@ -81,7 +81,7 @@ pub(crate) fn run_and_summarize(
         }
         console::say(&format!("{} of {} points of {place} are done", before.done(), plan.selected()));
     }
-    let mut verdicts = Verdicts::of(plan, format, Lines::Stdout);
+    let mut verdicts = Verdicts::of(plan, format, Lines::StdoutBesideFile);
     let ran = self::work(plan, &job.options.run, before, writing.sink(), verdicts.as_mut());
     let done = writing.finish(ran).map_err(failed)?;
     if let Some(verdicts) = verdicts.filter(|_| format != OutputFormat::Table) {

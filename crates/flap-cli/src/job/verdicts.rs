@@ -15,9 +15,11 @@ use crate::table::assignment;
 /// The stream for the lines of curves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lines {
-    /// They are results.
+    /// Stdout. If its reader closes it, the run ends.
     Stdout,
-    /// Rows are on stdout.
+    /// Stdout, while rows go to a file. If its reader closes it, the run goes on.
+    StdoutBesideFile,
+    /// Stderr, because rows are on stdout.
     Stderr,
 }
 
@@ -44,8 +46,7 @@ impl<'a> Verdicts<'a> {
         Some(Verdicts { format, stream, rows: Vec::new(), plan, along, parameter, stroke })
     }
 
-    /// Prints the line of a curve, or keeps its rows for programs. A reader that closes stdout does not end the run: its
-    /// rows may go to a file.
+    /// Prints the line of a curve, or keeps its rows for programs.
     pub(crate) fn add(&mut self, curve: &Curve) -> io::Result<()> {
         let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
         if self.format != OutputFormat::Table {
@@ -55,7 +56,8 @@ impl<'a> Verdicts<'a> {
         let design = self.design(&curve.design);
         let line = if design.is_empty() { verdict.to_string() } else { format!("{design}: {verdict}") };
         match self.stream {
-            Lines::Stdout => match console::results(&(line + "\n")) {
+            Lines::Stdout => console::results(&(line + "\n")),
+            Lines::StdoutBesideFile => match console::results(&(line + "\n")) {
                 Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
                 printed => printed,
             },

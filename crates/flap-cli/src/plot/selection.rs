@@ -129,7 +129,7 @@ pub(super) struct Columns {
     pub(super) kind: PictureKind,
     /// Column of the horizontal axis; of a tornado, the measure.
     pub(super) x: usize,
-    /// Column of the vertical axis. A trajectory, a histogram and a tornado have that of `x` once more.
+    /// Column of the vertical axis; the same as `x` in a trajectory, a histogram and a tornado.
     pub(super) y: usize,
     /// Column with one line for each of its values.
     pub(super) by: Option<usize>,
@@ -382,9 +382,9 @@ pub(super) struct Selection {
     /// The better directions of x and y.
     pub(super) aims: (Aim, Aim),
     pub(super) rows: Vec<usize>,
-    /// The columns of parameters, those of a sample first.
+    /// The columns of parameters, sampled parameters first.
     pub(super) parameters: Vec<usize>,
-    /// True if the designs are those of a sample.
+    /// True if the designs are a sample.
     pub(super) sampled: bool,
     pub(super) title: String,
     /// Filters and slices in words.

@@ -12,7 +12,7 @@ const MANY_POINTS = 4000;
 const MANY_RINGS = 2000;
 
 /**
- * The function from values of a scale to pixels of the canvas. It is faster than that of the plot.
+ * The function from values of a scale to pixels of the canvas. It is faster than the method of the chart library.
  *
  * @param {UPlot} plot
  * @param {"x" | "y"} scale

@@ -14,7 +14,7 @@ const FEW_VALUES = 12;
  * @param {RowTable} answer
  * @param {object} axes
  * @param {string} axes.x the column along x
- * @param {number} axes.factor values along x are those of the column times this
+ * @param {number} axes.factor factor from values of the column to values along x
  * @param {string} axes.y the column of the measure
  * @param {string | null} axes.by
  * @param {(value: any) => string} axes.nameOf the name of a line

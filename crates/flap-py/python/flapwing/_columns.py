@@ -1,4 +1,4 @@
-"""The columns of a table, and tables as those of other libraries."""
+"""The columns of a table, and the conversion of tables to other libraries."""
 
 from __future__ import annotations
 

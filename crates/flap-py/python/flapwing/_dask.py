@@ -157,7 +157,7 @@ def evaluate(
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
     """The rows of the columns `given`, computed by the workers of a cluster."""
-    # Mistakes are reported here, and rows are empty: their columns and axes are those of all.
+    # Mistakes are reported here. An empty selection has the same columns and axes as all rows.
     nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
     length = next(iter(lengths.values()))

@@ -255,7 +255,7 @@ def rank_correlations(
 
 
 def _parameters(data: Data) -> list[str]:
-    """The parameters that are numbers, those of a sample first."""
+    """The parameters that are numbers, sampled parameters first."""
     names = [name for name in data.parameters() if not is_text(data[name])]
     return sorted(names, key=data.on_a_grid)
 

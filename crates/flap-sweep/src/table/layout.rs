@@ -427,7 +427,7 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "residual",
         kind: CellKind::Number,
-        doc: "change of the state over the last period of the motion, in units of settle_tol",
+        doc: "change of the state over the last period of the motion, in units of the typical sizes of its components",
         cell: |_, row| Cell::Number(row.residual),
     },
     Fixed {

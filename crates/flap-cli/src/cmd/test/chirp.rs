@@ -11,8 +11,7 @@ use crate::cmd::motion::write_file;
 use crate::cmd::outputs::{self, is_stdout};
 use crate::cmd::point::{Chosen, check_one_wing};
 use crate::failure::{Exit, Failure};
-use crate::print;
-use crate::print::write_csv;
+use crate::print::{self, write_csv};
 
 pub(super) fn run(args: &ChirpArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;

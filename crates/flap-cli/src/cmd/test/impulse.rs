@@ -14,8 +14,7 @@ use crate::cmd::outputs::{self, is_stdout};
 use crate::cmd::point::{Chosen, check_one_wing};
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::print;
-use crate::print::write_csv;
+use crate::print::{self, write_csv};
 use crate::table::{Table, six_digits};
 
 /// Default duration, in periods of the first mode.

@@ -16,8 +16,7 @@ use crate::cmd::outputs;
 use crate::cmd::point::Chosen;
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::print;
-use crate::print::write_csv;
+use crate::print::{self, write_csv};
 use crate::table::{Table, six_digits};
 
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {

@@ -49,7 +49,7 @@ class Meaning:
     kind: str
     #: The parameter or measure.
     name: str
-    #: The factor from the column's unit to that of the parameter (SI) or of the measure.
+    #: The factor from the unit of the column to the unit of the parameter (SI) or of the measure.
     factor: float
     #: True for standard errors in per cent of the model's value.
     is_share: bool = False
@@ -183,7 +183,7 @@ class Noise:
             return np.full(len(measured), guess)
         if self.kind == "absolute":
             return np.broadcast_to(self.size, len(measured)).astype(np.float64)
-        # Near zero a share is no error: none is less than a hundredth of that of the largest value.
+        # A share of a value near zero is too small: an error is at least a hundredth of the error of the largest value.
         size = np.where(np.isfinite(values), np.abs(values), np.abs(measured))
         return np.asarray(self.size * np.maximum(size, 0.01 * np.abs(measured).max()))
 
