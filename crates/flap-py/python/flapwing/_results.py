@@ -58,8 +58,8 @@ class Row(Mapping[str, Any]):
     cycles : int
         Drive periods integrated, including the measurement.
     residual : float
-        Change of the state over the last period of the motion, in the units of settle_tol. nan if no period was
-        completed.
+        Change of the state over the last period of the motion, in units of the typical sizes of its components. nan
+        if no period was completed.
     period : int
         Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
     floquet_max : float
