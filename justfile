@@ -30,7 +30,7 @@ test-benches:
 test-aarch64:
     ./scripts/test-aarch64.sh
 
-# Wheels and the command for Linux, into dist/ (docs/releasing.md): `just wheels x86_64 aarch64`.
+# Wheels and the command for Linux, into dist/ (docs/contributing/releasing.md): `just wheels x86_64 aarch64`.
 [positional-arguments]
 wheels *ARGS:
     ./scripts/build-wheels.sh "$@"
@@ -58,11 +58,11 @@ docs:
 example:
     cargo run --release -- sweep --grid examples/ozaki_large.toml --restart
 
-# Computes the statements of the papers with flap: writes docs/reproduction.md.
+# Computes the statements of the papers with flap: writes docs/evidence/reproduction.md.
 reproduce:
     mkdir -p target
     cargo run --release --locked --example reproduce > target/reproduction.md
-    mv target/reproduction.md docs/reproduction.md
+    mv target/reproduction.md docs/evidence/reproduction.md
 
 # Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; sweeps of presets; CSV.
 bench:
@@ -81,7 +81,7 @@ growth *ARGS:
 
 # Run nothing else meanwhile: it takes some forty minutes, most of it for the other solvers and the largest sweeps, whose
 # rows take 4 GB below target/ for a while.
-# How fast flap is on this machine, beside other solvers too: writes docs/performance.md.
+# How fast flap is on this machine, beside other solvers too: writes docs/evidence/performance.md.
 bench-report:
     mkdir -p target
     just peers --points 256 --rtol 1e-6 --rounds 3 --json "$PWD/target/peers-256-6.json"
@@ -95,7 +95,7 @@ bench-report:
     just growth --json "$PWD/target/growth.json" --picture docs/pictures/growth.svg
     cargo bench --locked -p flap-sweep --bench report -- --growth "$PWD/target/growth.json" \
         --peers "$PWD"/target/peers-*-[68].json > target/performance.md
-    mv target/performance.md docs/performance.md
+    mv target/performance.md docs/evidence/performance.md
 
 # Instructions of small sweeps against the stored numbers (needs valgrind); `just count-instructions --renew` stores them.
 count-instructions *ARGUMENTS:

@@ -94,7 +94,7 @@ def live(driver, flap, folder):
 
 
 def results(driver, flap, folder):
-    """The page of the example in docs/plots.md, with a row that was clicked."""
+    """The page of the example in docs/how-to/plots.md, with a row that was clicked."""
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
         subprocess.run(

@@ -25,7 +25,7 @@ pub(crate) fn print(files: &[PathBuf]) {
 fn print_table(file: &Path) -> Option<()> {
     let told: Value = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
     println!(
-        "![CPU time per point and peak memory over the number of points](pictures/growth.svg)\n\n\
+        "![CPU time per point and peak memory over the number of points](../pictures/growth.svg)\n\n\
          {} on {}:\n\n\
          | points | rtol | sweep | points per second | CPU time per point, µs | peak memory, MiB | file, MB |\n\
          |---|---|---|---|---|---|---|",

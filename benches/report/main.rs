@@ -1,4 +1,4 @@
-//! Writes docs/performance.md to stdout: how fast flap is on this machine, measured in this run.
+//! Writes docs/evidence/performance.md to stdout: how fast flap is on this machine, measured in this run.
 //!
 //! ```sh
 //! just bench-report

@@ -17,7 +17,7 @@ const WORKS: [Work; 3] = [
     Work {
         name: "integration",
         text: "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one \
-               core: see [benches/peers](../benches/peers/README.md).\n",
+               core: see [benches/peers](../../benches/peers/README.md).\n",
     },
     Work {
         name: "settled",
@@ -25,7 +25,7 @@ const WORKS: [Work; 3] = [
                132 Hz), from rest until a drive period changes the state by at most 1e-6, and one more period that is \
                measured: the other solvers march, flap runs as `flap sweep` and writes rows with all columns. Its rate is in \
                [verified periodic orbits per second and \
-               core](../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
+               core](../../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
     },
     Work {
         name: "responses",

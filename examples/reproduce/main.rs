@@ -1,4 +1,4 @@
-//! Computes the cases of the papers and prints `docs/reproduction.md`.
+//! Computes the cases of the papers and prints `docs/evidence/reproduction.md`.
 //!
 //! `just reproduce` writes the page; with `--short` only what is quick to compute is printed.
 
@@ -36,9 +36,9 @@ finer. A verdict is a rule applied to the computed number:
 The four limits are a choice that was made after the results were known: they decide where *met within X %* ends, so read X and the
 computed number rather than the word.
 
-Corrections to print and what is assumed: [model.md](model.md), [model-bimorph.md](model-bimorph.md),
-[model-four-bar.md](model-four-bar.md). Free motions and their frequencies:
-[resonance.md](resonance.md); prescribed strokes: [experiments.md](experiments.md).
+Corrections to print and what is assumed: [model.md](../models/direct-drive.md), [model-bimorph.md](../models/bimorph.md),
+[model-four-bar.md](../models/four-bar.md). Free motions and their frequencies:
+[resonance.md](../how-to/resonance.md); prescribed strokes: [experiments.md](../how-to/experiments.md).
 
 ";
 
@@ -70,7 +70,7 @@ mod tests {
     /// The committed page has every line of what is quick to compute.
     #[test]
     fn the_page_is_up_to_date() {
-        let written = include_str!("../../docs/reproduction.md");
+        let written = include_str!("../../docs/evidence/reproduction.md");
         for line in super::page(true).lines() {
             assert!(written.lines().any(|one| one == line), "`just reproduce` would change the line\n{line}");
         }

@@ -15,7 +15,7 @@ pub(crate) const PAPER: Paper = Paper {
               Ohta and Hamaguchi (arXiv 2407.06500); Fuller (RA-L 2019). Only their abstracts and first pages were \
               at hand. None of these pages gives wings, actuators and voltages of its robot fully, and few give \
               torques, so that mostly signs, trends and shares can be compared. Unless a row says otherwise the \
-              vehicle is flap's own ([vehicle.md](vehicle.md)): two wings of `jafferis2016` (200 V, 120 Hz), \
+              vehicle is flap's own ([vehicle.md](../how-to/vehicle.md)): two wings of `jafferis2016` (200 V, 120 Hz), \
               shoulders 1.5 mm left and right of the middle, torques about a point 2 mm below them. x points \
               forward, y to the left, z up; roll > 0 lifts the left side, pitch > 0 lowers the nose, yaw > 0 turns \
               it to the left.",

@@ -310,7 +310,7 @@ fn ctrl_c_ends_it() {
 
 #[test]
 fn commands_and_grids_of_the_page_on_it_work() {
-    let text = document("docs/live.md");
+    let text = document("docs/how-to/live.md");
     let folder = Folder::new();
     fs::create_dir(folder.path("examples")).unwrap();
     fs::write(folder.path("examples/ozaki_large.toml"), document("examples/ozaki_large.toml")).unwrap();

@@ -24,7 +24,6 @@ mod lists;
 mod live;
 mod look;
 mod mistakes;
-mod pages;
 #[cfg(feature = "plots")]
 mod plot;
 mod point;

@@ -6,7 +6,7 @@ use flap_core::simulate;
 use jsonschema::Validator;
 use serde_json::Value;
 
-use crate::documents::{blocks, document, examples};
+use crate::documents::{blocks, document, examples, pages};
 use crate::support::Folder;
 
 fn schema(arguments: &str) -> Value {
@@ -31,20 +31,11 @@ fn mistakes(validator: &Validator, grid: &str) -> Vec<String> {
 /// The grids of the examples and of the documents, with their names.
 fn grids() -> Vec<(String, String)> {
     let files = examples().into_iter().map(|(name, path)| (name, fs::read_to_string(path).unwrap()));
-    let pages = [
-        "README.md",
-        "docs/grid.md",
-        "docs/resonance.md",
-        "docs/studies.md",
-        "docs/questions.md",
-        "docs/devices.md",
-        "docs/vehicle.md",
-    ];
-    let blocks = pages.into_iter().flat_map(|page| {
-        let blocks = blocks(&document(page), "toml").into_iter();
+    let blocks = pages().into_iter().flat_map(|page| {
+        let blocks = blocks(&document(&page), "toml").into_iter();
         let begins =
             |block: &String| ["preset", "device", "# mybee"].iter().any(|word| block.starts_with(word));
-        blocks.filter(begins).map(move |block| (page.to_owned(), block))
+        blocks.filter(begins).map(move |block| (page.clone(), block))
     });
     files.chain(blocks).collect()
 }

@@ -1,4 +1,4 @@
-//! The numbers of `docs/studies.md`.
+//! The numbers of `docs/how-to/studies.md`.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use crate::support::Folder;
 
 /// The page without line breaks.
 fn page() -> String {
-    fs::read_to_string(root().join("docs/studies.md")).unwrap().replace('\n', " ")
+    fs::read_to_string(root().join("docs/how-to/studies.md")).unwrap().replace('\n', " ")
 }
 
 /// The rows of an example grid with some text replaced, each by the names of its columns.

@@ -351,7 +351,7 @@ fn hinge_strain_is_that_of_an_arc() {
     }
 }
 
-/// A term of the table in docs/terms.md: its label, the parameter and its value, and the models for which it is shown.
+/// A term of the table in docs/models/terms.md: its label, the parameter and its value, and the models for which it is shown.
 type Shown = (&'static str, (&'static str, f64), &'static [&'static str]);
 
 const ALL: &[&str] = &["bimorph", "direct-drive", "four-bar"];
@@ -424,7 +424,7 @@ fn table_of_terms() -> String {
 
 #[test]
 fn the_table_in_the_docs_is_computed() {
-    let page = std::fs::read_to_string("../../docs/terms.md").unwrap();
+    let page = std::fs::read_to_string("../../docs/models/terms.md").unwrap();
     let table = table_of_terms();
-    assert!(page.contains(&table), "docs/terms.md must have this table:\n{table}");
+    assert!(page.contains(&table), "docs/models/terms.md must have this table:\n{table}");
 }

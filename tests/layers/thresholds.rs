@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::source::source_files;
 
-const NUMERICS: &str = include_str!("../../docs/numerics.md");
+const NUMERICS: &str = include_str!("../../docs/models/numerics.md");
 
 /// Rooms whose thresholds decide about steps, orbits and measures.
 const ROOMS: &[&str] = &["ode/", "measure/", "simulate/"];
@@ -56,6 +56,6 @@ fn every_threshold_is_documented_with_its_value_and_reason() {
     let stale: Vec<_> = documentation.difference(&sources).collect();
     assert!(
         missing.is_empty() && stale.is_empty(),
-        "docs/numerics.md, Thresholds: missing are {missing:#?}, and in no source are {stale:#?}"
+        "docs/models/numerics.md, Thresholds: missing are {missing:#?}, and in no source are {stale:#?}"
     );
 }

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import flapwing
 import pytest
+from pages import pages, python_blocks
 
 pytest.importorskip("matplotlib")
 
 REPOSITORY = Path(__file__).parents[2]
 PACKAGE = Path(flapwing.__file__).parent
-PAGES = ["README.md", "crates/flap-py/README.md", "docs/python.md", "docs/fit.md", "docs/plots.md"]
 NOTEBOOK = "examples/python/first_steps.ipynb"
 
 
@@ -33,12 +33,10 @@ def checked(files, folder):
 
 def test_pages_and_examples_are_accepted(tmp_path):
     files = sorted((REPOSITORY / "examples/python").glob("*.py"))
-    for page in PAGES:
-        text = (REPOSITORY / page).read_text(encoding="utf-8")
-        blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-        assert blocks, page
-        files.append(tmp_path / (re.sub(r"\W", "_", page.removesuffix(".md")) + ".py"))
-        files[-1].write_text("\n".join(blocks), encoding="utf-8")
+    for page in pages():
+        if blocks := python_blocks(page):
+            files.append(tmp_path / (re.sub(r"\W", "_", page.removesuffix(".md")) + ".py"))
+            files[-1].write_text("\n".join(blocks), encoding="utf-8")
     cells = json.loads((REPOSITORY / NOTEBOOK).read_text(encoding="utf-8"))["cells"]
     files.append(tmp_path / "notebook.py")
     files[-1].write_text("\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code"), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The bimorph of Jafferis, Graule and Wood (2016), preset jafferis2016: docs/model-bimorph.md has the equations.
+"""The bimorph of Jafferis, Graule and Wood (2016), preset jafferis2016: docs/models/bimorph.md has the equations.
 
 Time is the phase of the drive (rad), states are in units of their typical sizes (`TIP_SCALE`, `PITCH_SCALE`; rates in
 these per radian): all points share the phase, and one absolute tolerance serves all states.

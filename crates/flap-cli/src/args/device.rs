@@ -58,7 +58,7 @@ pub(crate) struct WingArgs {
 
 const WING_HELP: &str = "\
 The edges are distances from the hinge's axis: the leading edge ahead of it, the trailing edge behind it. Between stations they are \
-straight. docs/wings.md says which numbers belong together when a wing changes.
+straight. docs/how-to/wings.md says which numbers belong together when a wing changes.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

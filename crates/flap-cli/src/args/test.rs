@@ -188,7 +188,7 @@ pub(crate) struct LiftArgs {
 }
 
 const LIFT_HELP: &str = "\
-Angles follow the conventions of the model, see docs/model.md. Between samples the motion is a cubic spline. Its \
+Angles follow the conventions of the model, see docs/models/direct-drive.md. Between samples the motion is a cubic spline. Its \
 acceleration amplifies the noise of the samples, so smooth them first.
 
 Examples:

@@ -30,7 +30,9 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Some(vehicle) = chosen.plan.vehicle() else {
         let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
-        return Err(failure.help("add [vehicle] and [[vehicle.wings]] to a grid file: see docs/vehicle.md"));
+        return Err(
+            failure.help("add [vehicle] and [[vehicle.wings]] to a grid file: see docs/how-to/vehicle.md")
+        );
     };
     let inputs = inputs(vehicle, &chosen, &args.inputs)?;
     if let Some(input) = inputs.iter().find(|input| is_derived(&chosen, input)) {
@@ -226,7 +228,7 @@ impl From<ControlError> for Failure {
                 "the input is at an end of its range: give it another value with --set, or leave it out of --inputs"
             }
             ControlError::NoSlope { .. } => {
-                "docs/grid.md explains the word: choose another point, or leave the input out of --inputs"
+                "docs/reference/grid.md explains the word: choose another point, or leave the input out of --inputs"
             }
         };
         Failure::usage(error.to_string()).help(help)

@@ -75,7 +75,7 @@ fn report_warnings(plan: &Plan, done: &Done) {
         let rows = count(negative_power, "row");
         let verb = if negative_power == 1 { "has" } else { "have" };
         console::say(&format!(
-            "{rows} {verb} negative mean power: the model's air gives energy to the wing there (docs/model.md)"
+            "{rows} {verb} negative mean power: the model's air gives energy to the wing there (docs/models/direct-drive.md)"
         ));
     }
     if at_range_end > 0 {

@@ -21,11 +21,11 @@ pub struct Row {
     /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
     pub period: u32,
     /// Largest modulus of the orbit's Floquet multipliers: a change of the state grows or decays by this factor per
-    /// orbit in the end. Its error is larger than that of the measures, see `docs/numerics.md`. NaN without an orbit, and for a wing at rest: forces that go with the square of a speed have
+    /// orbit in the end. Its error is larger than that of the measures, see `docs/models/numerics.md`. NaN without an orbit, and for a wing at rest: forces that go with the square of a speed have
     /// no linear part there.
     pub floquet_max: f64,
     /// Estimate of the largest relative error that the integration makes in the model's
-    /// [principal measures](crate::model::Principal), such as stroke, pitch, lift and power: see `docs/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
+    /// [principal measures](crate::model::Principal), such as stroke, pitch, lift and power: see `docs/models/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
     pub error_estimate: f64,
     /// The state at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
     pub state: Vec<f64>,

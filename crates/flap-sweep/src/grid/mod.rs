@@ -1,7 +1,7 @@
 //! Grid files: from text to a [`Plan`](crate::plan::Plan), or to all mistakes in the text.
 //!
 //! Each part of the file has its own module below; all report mistakes into one list, so that one check finds all
-//! mistakes of a file. See `docs/grid.md` for the format.
+//! mistakes of a file. See `docs/reference/grid.md` for the format.
 
 mod axes;
 mod device;

@@ -2,7 +2,7 @@
 //!
 //! An expression is checked once, when it is read: its names are looked up, and numbers are told from conditions. It
 //! is then a flat list of operations. Elementary functions are those of `libm`, so that its value has the same bits on
-//! every machine. See `docs/grid.md` for the language.
+//! every machine. See `docs/reference/grid.md` for the language.
 //!
 //! Results of NaN are NaN. A comparison with NaN is unknown, neither true nor false; `and`, `or` and `not` of unknown
 //! conditions are unknown unless the other side decides.

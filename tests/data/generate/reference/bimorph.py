@@ -1,6 +1,6 @@
 """The bimorph of Jafferis, Graule and Wood (2016). Equation numbers are the paper's; SI units and radians.
 
-Eq. (6) and Eq. (11) are in their corrected forms: docs/model-bimorph.md has the evidence. The printed forms are the
+Eq. (6) and Eq. (11) are in their corrected forms: docs/models/bimorph.md has the evidence. The printed forms are the
 readings `eq6-printed` and `eq11-printed`. State: tip displacement x, its rate, wing pitch psi, its rate. One actuator
 with one wing.
 """

@@ -1,6 +1,6 @@
 """The direct drive of Ozaki and Hamaguchi (2018). Equation numbers are the paper's; SI units and radians.
 
-Eq. (11), (17), (23) to (25), (35) and (38) are in their corrected forms: docs/model.md has the evidence. The y axis
+Eq. (11), (17), (23) to (25), (35) and (38) are in their corrected forms: docs/models/direct-drive.md has the evidence. The y axis
 points to the leading edge, which is up, so that y_g is negative. State: stroke phi, wing pitch psi, their rates.
 """
 

@@ -1,6 +1,6 @@
 """The four-bar of Arabagi, Hines and Sitti (2013). Equation numbers are the paper's; SI units and radians.
 
-The paper's text lacks Eq. (1) to (3). docs/model-four-bar.md has the equations that replace them, and the evidence for
+The paper's text lacks Eq. (1) to (3). docs/models/four-bar.md has the equations that replace them, and the evidence for
 the corrections of the others. State: stroke theta, its rate, wing pitch phi, its rate. The wings and actuators are
 assumed.
 """

@@ -1,7 +1,7 @@
 //! Constants of the bimorph model, which do not change along a trajectory; computed once per point.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
-//! listed in `docs/model-bimorph.md`. Powers of constants that the equations of motion need together are
+//! listed in `docs/models/bimorph.md`. Powers of constants that the equations of motion need together are
 //! multiplied out here.
 
 use super::actuator::Actuator;

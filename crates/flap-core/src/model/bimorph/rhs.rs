@@ -1,7 +1,7 @@
 //! Equations of motion and outputs of the bimorph model.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
-//! listed in `docs/model-bimorph.md`. State `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and hinge
+//! listed in `docs/models/bimorph.md`. State `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and hinge
 //! angle (rad), each with its rate. The stroke angle is T x. ψ = 0 with the wing perpendicular to its motion,
 //! ψ > 0 when the trailing edge lags a wing that moves with ẋ > 0. Lift is positive upwards. One actuator,
 //! one wing.

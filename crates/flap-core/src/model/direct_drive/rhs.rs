@@ -1,7 +1,7 @@
 //! Equations of motion and outputs of the direct-drive model.
 //!
 //! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations, with the corrections listed
-//! in `docs/model.md`. State `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), their rates (rad/s). ψ = 0 with the
+//! in `docs/models/direct-drive.md`. State `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), their rates (rad/s). ψ = 0 with the
 //! wing's plane through the stroke axis; ψ > 0 when the trailing edge lags a wing that moves with φ̇ > 0.
 //! Lift is positive upwards, from the trailing towards the leading edge.
 

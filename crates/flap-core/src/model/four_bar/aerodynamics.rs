@@ -1,6 +1,6 @@
 //! Forces and moments of the air on the wing of the four-bar model.
 //!
-//! Arabagi, Hines and Sitti 2013, (5)–(10), (16)–(18), with the corrections listed in `docs/model-four-bar.md`.
+//! Arabagi, Hines and Sitti 2013, (5)–(10), (16)–(18), with the corrections listed in `docs/models/four-bar.md`.
 //! Lift is positive upwards; moments are those about the stroke axis (Q_θ) and the rotation axis (Q_φ).
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};

@@ -1,7 +1,7 @@
 //! Constants of the four-bar model, which do not change along a trajectory; computed once per point.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
-//! from print and rebuilt (see `docs/model-four-bar.md`).
+//! from print and rebuilt (see `docs/models/four-bar.md`).
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

@@ -1,7 +1,7 @@
 //! Equations of motion of the four-bar model.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, with the corrections listed in
-//! `docs/model-four-bar.md`. State `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), their rates (rad/s). At φ = 0 the chord
+//! `docs/models/four-bar.md`. State `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), their rates (rad/s). At φ = 0 the chord
 //! is vertical; φ > 0 displaces the trailing edge, which hangs below, to where θ > 0 goes.
 
 use super::aerodynamics::aerodynamics;
