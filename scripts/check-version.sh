@@ -13,5 +13,6 @@ cargo=$(sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"$/\1/p' Cargo
 citation=$(sed -n 's/^version: *"\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' CITATION.cff)
 [[ $cargo == "$1" ]] || differs Cargo.toml "$cargo" "$1"
 [[ $citation == "$1" ]] || differs CITATION.cff "$citation" "$1"
-grep -q "^## $1\b" CHANGELOG.md || differs CHANGELOG.md "$(sed -n 's/^## //p' CHANGELOG.md | head -n 1)" "$1"
+# The heading of a release is its version, with or without a date; "(unreleased)" is neither.
+grep -Eq "^## ${1//./\\.}( - [0-9]{4}-[0-9]{2}-[0-9]{2})?$" CHANGELOG.md || differs CHANGELOG.md "$(sed -n 's/^## //p' CHANGELOG.md | head -n 1)" "$1"
 exit "$wrong"
