@@ -35,7 +35,7 @@ def test_a_fit_is_the_same_for_any_number_of_threads():
 
 
 def test_intervals_cover_the_truth():
-    """A small version of examples/python/fit_coverage.py: of 24 intervals 95 % should hold the truth. If they do, 18
+    """A small version of benches/fit/coverage.py: of 24 intervals 95 % should hold the truth. If they do, 18
     or fewer of them are as good as impossible."""
     inside = 0
     for seed in range(8):

@@ -32,7 +32,7 @@ def checked(files, folder):
 
 
 def test_pages_and_examples_are_accepted(tmp_path):
-    files = sorted((REPOSITORY / "examples/python").glob("*.py"))
+    files = sorted((REPOSITORY / "examples/python").glob("*.py")) + sorted((REPOSITORY / "benches/fit").glob("*.py"))
     for page in pages():
         if blocks := python_blocks(page):
             files.append(tmp_path / (re.sub(r"\W", "_", page.removesuffix(".md")) + ".py"))

@@ -17,9 +17,10 @@ def test_pictures_are_shown_and_small():
 
 
 def test_the_pictures_of_python_are_made(tmp_path):
-    """By the scripts in examples/python, all of them and no others."""
-    for script, out in (("pictures", tmp_path), ("four_panels", tmp_path / "py-four-panels.png")):
-        command = [sys.executable, "-W", "error", REPOSITORY / f"examples/python/{script}.py", out]
+    """All of them and no others."""
+    panels = tmp_path / "py-four-panels.png"
+    for script, out in (("docs/site/pictures.py", tmp_path), ("examples/python/10_four_panels.py", panels)):
+        command = [sys.executable, "-W", "error", REPOSITORY / script, out]
         subprocess.run(command, check=True, capture_output=True, text=True)
     kept = {picture.name for picture in (REPOSITORY / "docs/pictures").glob("py-*")}
     assert {picture.name for picture in tmp_path.iterdir()} == kept

@@ -5,8 +5,8 @@ lift and power. It varies voltage and frequency of the drive, the transmission a
 strain of the piezoelectric plates, on the stroke and on the pitch of the wing, and two wings must carry the vehicle.
 Every generation is one call of `flapwing.evaluate`.
 
-    python pareto_pymoo.py
-    python pareto_pymoo.py --size full --strain 0.0006 --out front.csv --picture front.png
+    python 06_pareto_pymoo.py
+    python 06_pareto_pymoo.py --size full --strain 0.0006 --out front.csv --picture front.png
 
 Needs pymoo, and matplotlib for --picture: pip install pymoo matplotlib
 

@@ -1,8 +1,8 @@
 """Four pictures in one figure for a paper, 7 inches wide with letters of 7 points:
 
     pip install "./crates/flap-py[plot]"
-    python examples/python/four_panels.py              # writes docs/pictures/py-four-panels.png
-    python examples/python/four_panels.py figure.pdf   # any format of matplotlib
+    python examples/python/10_four_panels.py              # writes docs/pictures/py-four-panels.png
+    python examples/python/10_four_panels.py figure.pdf   # any format of matplotlib
 
 Each function of `flapwing.plot` draws in the axes that it is given, with the letters and lines of the script's
 settings.

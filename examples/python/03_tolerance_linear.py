@@ -5,8 +5,8 @@ gives the spread of a measure, sqrt(sum of (derivative * deviation)^2); the samp
 as long as the measure is nearly straight over the deviations. They part where it bends: near a peak, whose slopes are
 small while every deviation leads down, and on the flank of a resonance, where builds fall off it.
 
-    python tolerance_linear.py
-    python tolerance_linear.py --deviation 0.02 --builds 4096
+    python 03_tolerance_linear.py
+    python 03_tolerance_linear.py --deviation 0.02 --builds 4096
 
 Needs nothing but flapwing.
 """

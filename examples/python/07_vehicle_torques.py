@@ -1,8 +1,8 @@
 """Roll, pitch and yaw of a vehicle of two bimorph wings, each by the drive that makes it:
 
     pip install ./crates/flap-py
-    python examples/python/vehicle_torques.py
-    python examples/python/vehicle_torques.py --preset jafferis2016-improved
+    python examples/python/07_vehicle_torques.py
+    python examples/python/07_vehicle_torques.py --preset jafferis2016-improved
 
 Roll by a difference of the amplitudes, pitch by a bias, yaw by a second harmonic of opposite signs (split cycle), as in
 K. Y. Ma, S. M. Felton and R. J. Wood, "Design, fabrication, and modeling of the split actuator microrobotic bee", IROS

@@ -6,7 +6,7 @@ of `flapwing.evaluate` come with the rows, at the tolerance that rows need. Diff
 for steps of a thousandth, and a row for every side of every parameter. Forward differences take the row in the middle
 from the step before.
 
-    python fit_cost.py
+    python benches/fit/cost.py
 
 Needs scipy: pip install scipy
 """

@@ -6,9 +6,9 @@ rest comes from interactions. A parameter whose ST is near 0 can be fixed.
 
 All points go through one call of `flapwing.evaluate`.
 
-    python sobol_indices.py
-    python sobol_indices.py --size full
-    python sobol_indices.py --preset jafferis2016 --spread 25
+    python 04_sobol_indices.py
+    python 04_sobol_indices.py --size full
+    python 04_sobol_indices.py --preset jafferis2016 --spread 25
 
 Needs SALib: pip install SALib
 

@@ -7,7 +7,7 @@ every reading. Three parameters are fitted. 95 % intervals by the profile likeli
 Then a fourth parameter is freed, the inertia of the air beside that of the wing. Only their sum is in the equations, so
 no data tell them apart, and the fit must say so in every experiment.
 
-    python fit_coverage.py --experiments 300
+    python benches/fit/coverage.py --experiments 300
 
 Needs scipy: pip install scipy
 """

@@ -4,8 +4,8 @@ Starts a small Dask cluster on this machine, sweeps on it into one file, and com
 cluster: the same bytes. If a worker dies, others run its points again. The same call continues an interrupted sweep,
 on the cluster or without it.
 
-    python dask_cluster.py
-    python dask_cluster.py --size full --workers 8 --out sweep.csv
+    python 09_dask_cluster.py
+    python 09_dask_cluster.py --size full --workers 8 --out sweep.csv
 
 On a cluster, put another line in place of `LocalCluster(...)`, and the rest stays as it is. With SLURM
 (pip install dask-jobqueue):

@@ -3,8 +3,8 @@
 Sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and works on the result as labelled arrays:
 selects by value, finds each design's best frequency, interpolates between designs, and prints a map.
 
-    python xarray_map.py
-    python xarray_map.py --size full --save map.nc --picture map.png
+    python 01_xarray_map.py
+    python 01_xarray_map.py --size full --save map.nc --picture map.png
 
 Needs xarray and scipy; for --picture, matplotlib: pip install xarray scipy matplotlib
 

@@ -4,8 +4,8 @@ Maximises the lift per watt of the bimorph of Jafferis et al. over drive, transm
 strain, stroke and pitch have limits, and two wings must carry the vehicle. SLSQP takes the derivatives of settled rows;
 differential evolution of pymoo takes values alone. Both are counted: designs, right-hand sides, seconds.
 
-    python gradient_design.py
-    python gradient_design.py --starts 8 --generations 120
+    python 05_gradient_design.py
+    python 05_gradient_design.py --starts 8 --generations 120
 
 Needs SciPy and pymoo: pip install scipy pymoo
 

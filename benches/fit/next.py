@@ -5,7 +5,7 @@ says which two operating points to measure next, so that the error of the drag c
 fitted again, until it has. The same is done with points at random. Errors are computed from derivatives at the true
 parameters, which no plan knows.
 
-    python fit_next.py --trials 100
+    python benches/fit/next.py --trials 100
 
 Needs scipy: pip install scipy
 """

@@ -1,9 +1,9 @@
 """The map from the drive of a two-winged vehicle to its forces and torques, at 4,096 combinations, and its inverse:
 
     pip install ./crates/flap-py
-    python examples/python/wrench_map.py                 # 4 inputs, 8 levels each
-    python examples/python/wrench_map.py --size small    # 4 levels each
-    python examples/python/wrench_map.py --out map.csv
+    python examples/python/08_wrench_map.py                 # 4 inputs, 8 levels each
+    python examples/python/08_wrench_map.py --size small    # 4 levels each
+    python examples/python/08_wrench_map.py --out map.csv
 
 The inputs are the amplitude of both wings, its left-right difference, the bias, and the second harmonic of opposite
 signs: those that robobee3d (https://github.com/avikde/robobee3d, template/sdab_num_wrenchmap.py) maps with a simulator,

@@ -1,8 +1,8 @@
 """Makes the pictures of docs/how-to/plots.md, in some ten seconds:
 
     pip install "./crates/flap-py[plot,fit]"
-    python examples/python/pictures.py             # into docs/pictures
-    python examples/python/pictures.py elsewhere
+    python docs/site/pictures.py             # into docs/pictures
+    python docs/site/pictures.py elsewhere
 
 Each function makes one picture of what it computes itself, or of a `softened` bimorph; copy what you need.
 """

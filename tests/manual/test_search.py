@@ -1,0 +1,70 @@
+"""The search of the manual finds the right page first. MANUAL names the folder of the built site."""
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import WebDriverWait
+
+# What users type, and the pages that may come first.
+SEARCHES = {
+    "install": ["start/install"],
+    "resonance": ["how-to/resonance"],
+    "hysteresis": ["how-to/response"],
+    "fit": ["how-to/fit", "reference/python/generated/flapwing.fit"],
+    "unsettled": ["reference/results", "how-to/questions", "models/numerics"],
+    "parquet": ["reference/results", "how-to/questions"],
+    "slurm": ["how-to/several-machines"],
+    "dask": ["how-to/several-machines"],
+    "outline": ["how-to/wings", "learn/1-wing"],
+    "tolerance": ["how-to/studies", "learn/5-tolerance"],
+    "units": ["reference/grid"],
+    "derivative": ["how-to/derivatives"],
+    "floquet": ["glossary", "models/numerics"],
+    "matlab": ["how-to/questions"],
+    "torque": ["how-to/vehicle", "models/vehicle"],
+    "transmission ratio": ["glossary"],
+    "rtol": ["models/numerics", "glossary"],
+    "sidecar": ["reference/results", "glossary"],
+    "heatmap": ["reference/python/generated/flapwing.plot.heatmap"],
+    "evaluate": ["reference/python/generated/flapwing.evaluate"],
+    "cite": ["how-to/questions"],
+    "wake capture": ["models/limits"],
+    "cluster": ["how-to/several-machines", "learn/7-cluster"],
+    "shard": ["how-to/several-machines", "glossary"],
+    "notebook": ["start/first-notebook"],
+}
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    chromium, driver = (shutil.which(name) for name in ("chromium", "chromedriver"))
+    if chromium is None or driver is None:
+        pytest.skip("chromium and chromedriver are not installed")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    profile = tmp_path_factory.mktemp("browser")
+    for option in ("--headless=new", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}"):
+        options.add_argument(option)
+    started = webdriver.Chrome(options=options, service=Service(driver))
+    yield started
+    started.quit()
+
+
+@pytest.mark.parametrize("words", SEARCHES)
+def test_the_first_hit(words, browser):
+    site = Path(os.environ["MANUAL"]).resolve()
+    browser.get(f"{(site / 'search.html').as_uri()}?q={words.replace(' ', '+')}")
+    WebDriverWait(browser, 20).until(
+        lambda page: (
+            "Search finished" in page.find_element(By.ID, "search-results").text
+            or "did not match" in page.find_element(By.ID, "search-results").text
+        )
+    )
+    hits = browser.find_elements(By.CSS_SELECTOR, "#search-results ul.search > li a")
+    addresses = [hit.get_attribute("href").removeprefix(site.as_uri() + "/").split(".html")[0] for hit in hits]
+    assert addresses and addresses[0] in SEARCHES[words], addresses[:5]
