@@ -678,5 +678,5 @@ def test_a_vehicle_has_a_page(other):
 def test_pictures_of_the_documentation_are_there_and_small():
     text = (ROOT / "docs/how-to/live.md").read_text(encoding="utf-8")
     names = {path.name for path in (ROOT / "docs/pictures").glob("live*")}
-    assert names and all(f"](pictures/{name})" in text for name in names)
+    assert names and all(f"](../pictures/{name})" in text for name in names)
     assert all((ROOT / "docs/pictures" / name).stat().st_size < 60_000 for name in names)
