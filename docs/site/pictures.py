@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/how-to/plots.md, in some ten seconds:
+"""Makes the pictures of docs/how-to/plots-python.md, in some ten seconds:
 
     pip install "./crates/flap-py[plot,fit]"
     python docs/site/pictures.py             # into docs/pictures
@@ -148,7 +148,7 @@ def force_panels() -> Figure:
 
 def main() -> None:
     """Writes all pictures to a folder."""
-    parser = argparse.ArgumentParser(description="Makes the pictures of docs/how-to/plots.md.")
+    parser = argparse.ArgumentParser(description="Makes the pictures of docs/how-to/plots-python.md.")
     parser.add_argument("folder", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures")
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
