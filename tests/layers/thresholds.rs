@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::source::source_files;
 
-const NUMERICS: &str = include_str!("../../docs/models/numerics.md");
+const METHODS: &str = include_str!("../../docs/models/methods.md");
 
 /// Rooms whose thresholds decide about steps, orbits and measures.
 const ROOMS: &[&str] = &["ode/", "measure/", "simulate/"];
@@ -37,7 +37,7 @@ fn in_sources() -> BTreeSet<[String; 3]> {
 
 /// The same, in the table of the documentation.
 fn in_documentation() -> BTreeSet<[String; 3]> {
-    let section = NUMERICS.split("## Thresholds").nth(1).expect("a section on thresholds");
+    let section = METHODS.split("## Thresholds").nth(1).expect("a section on thresholds");
     let section = section.split("\n## ").next().unwrap_or_default();
     let rows = section.lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
@@ -56,6 +56,6 @@ fn every_threshold_is_documented_with_its_value_and_reason() {
     let stale: Vec<_> = documentation.difference(&sources).collect();
     assert!(
         missing.is_empty() && stale.is_empty(),
-        "docs/models/numerics.md, Thresholds: missing are {missing:#?}, and in no source are {stale:#?}"
+        "docs/models/methods.md, Thresholds: missing are {missing:#?}, and in no source are {stale:#?}"
     );
 }
