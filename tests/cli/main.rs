@@ -35,7 +35,6 @@ mod resume;
 mod schema;
 mod shards;
 mod streams;
-mod studies;
 mod support;
 mod sweep;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
