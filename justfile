@@ -50,9 +50,10 @@ lint:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
 
-# API documentation, with warnings denied.
-docs:
-    RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
+# The manual with the documentation of the crates, into target/docs/html; checks prose and links. `just docs --no-rust` is quicker.
+[positional-arguments]
+docs *ARGS:
+    ./scripts/build-docs.sh "$@"
 
 # The example sweep of the README.
 example:

@@ -13,7 +13,7 @@ for stage in "$@"; do
     case $stage in
         format) cargo fmt --all --check ;;
         lint) cargo clippy --workspace --all-targets --locked -- -D warnings ;;
-        docs) RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked ;;
+        docs) ./scripts/build-docs.sh ;;
         rust) cargo test --workspace --locked ;;
         pages) if command -v npm >/dev/null; then ./scripts/test-web.sh; else echo "skipped: npm is not installed"; fi ;;
         python) ./scripts/test-python.sh ;;

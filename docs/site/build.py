@@ -36,7 +36,7 @@ DOCUMENTS = {
 }
 # Pages that only links lead to.
 APART = ["examples/own_model.md"]
-LANGUAGES = {".toml": "toml", ".py": "python", ".rs": "rust", ".sh": "sh", ".csv": "text"}
+LANGUAGES = {".cff": "yaml", ".toml": "toml", ".py": "python", ".rs": "rust", ".sh": "sh", ".csv": "text"}
 LINK = re.compile(r"(\]\()([^)#\s]+)(#[^)\s]*)?\)")
 FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
 # Comments that only the tests read.
