@@ -39,6 +39,8 @@ APART = ["examples/own_model.md"]
 LANGUAGES = {".cff": "yaml", ".toml": "toml", ".py": "python", ".rs": "rust", ".sh": "sh", ".csv": "text"}
 LINK = re.compile(r"(\]\()([^)#\s]+)(#[^)\s]*)?\)")
 FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+# Words that lead to a page in the search.
+KEYWORDS = re.compile(r"^<!-- keywords: (.*?) -->$", re.MULTILINE)
 # Comments that only the tests read.
 HIDDEN = re.compile(r"^<!-- (?:setup|check|not run).*?-->\n", re.MULTILINE | re.DOTALL)
 
@@ -83,6 +85,7 @@ class Sources:
                 return found[0]
             return f"{start}{os.path.relpath(linked, os.path.dirname(page) or '.')}{anchor})"
 
+        text = KEYWORDS.sub(lambda found: indexed(found[1]), text)
         if page in APART:
             text = f"---\norphan: true\n---\n\n{text}"
         parts = FENCED.split(text)
@@ -101,6 +104,12 @@ class Sources:
             fence = "`" * 4
             text = f"---\norphan: true\n---\n\n# {path}\n\n{fence}{LANGUAGES[Path(path).suffix]}\n{body}{fence}\n"
             self.write(page, text)
+
+
+def indexed(keywords: str) -> str:
+    """The directive that makes main entries of the index, which the search ranks first."""
+    entries = "\n".join(f"single: ! {keyword.strip()}" for keyword in keywords.split(","))
+    return f"```{{index}}\n{entries}\n```"
 
 
 def main() -> int:
