@@ -2,8 +2,8 @@
 
     python examples/learn/make_measured.py measured.csv
 
-The "built" robot has the numbers of robot.toml, except for BUILT. A camera reads the stroke from peak to peak and the pitch
-amplitude of its settled motion, with normally distributed noise.
+The "built" robot has the numbers of robot.toml, except for BUILT. The readings are the stroke from peak to peak and the
+pitch amplitude of its settled motion, with normally distributed noise.
 """
 
 import sys
