@@ -8,12 +8,17 @@ pitch amplitude of its settled motion, with normally distributed noise.
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import flapwing
 import numpy as np
 
 ROBOT = Path(__file__).with_name("robot.toml")
-BUILT = {"hinge_stiffness": "1.08 uN*m/rad", "rotation_pressure_width": "2.2 mm", "drag_coefficient_max": 3.7}
+BUILT: dict[str, Any] = {
+    "hinge_stiffness": "1.08 uN*m/rad",
+    "rotation_pressure_width": "2.2 mm",
+    "drag_coefficient_max": 3.7,
+}
 FREQUENCIES_HZ = np.arange(80.0, 131.0, 5.0)
 VOLTAGES = [120.0, 160.0]
 NOISE_DEG = 1.0

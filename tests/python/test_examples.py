@@ -1,11 +1,9 @@
 """The examples run as they are, and what they say is so."""
 
 import importlib.util
-import os
 import re
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import flapwing
@@ -13,7 +11,6 @@ import numpy as np
 import pytest
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python"
-NOTEBOOK = "first_steps.ipynb"
 
 
 def script(name):
@@ -230,79 +227,6 @@ def test_cluster_gives_the_same_bytes(tmp_path):
     assert "The same bytes as without the cluster." in printed
     flapwing.sweep(example.grid(example.STEP_HZ["small"]), out=local)
     assert out.read_bytes() == local.read_bytes()
-
-
-def test_notebook_is_stripped():
-    import nbformat
-
-    text = (EXAMPLES / NOTEBOOK).read_text(encoding="utf-8")
-    notebook = nbformat.reads(text, as_version=4)
-    nbformat.validate(notebook)
-    for cell in notebook.cells:
-        if cell.cell_type == "code":
-            assert cell.outputs == [] and cell.execution_count is None, cell.source
-        assert not cell.metadata, cell.source
-    assert set(notebook.metadata) == {"kernelspec", "language_info"}
-    assert nbformat.writes(notebook, indent=1) + "\n" == text
-
-
-def test_notebook_links_lead_somewhere():
-    text = (EXAMPLES / NOTEBOOK).read_text(encoding="utf-8")
-    for target in re.findall(r"\]\((\.\./[^)]+)\)", text):
-        assert (EXAMPLES / target).resolve().exists(), target
-    for script in re.findall(r"`(\w+\.py)`", text):
-        assert (EXAMPLES / script).exists(), script
-
-
-# Runs the notebook with sockets in the folder in place of ports. It is a process of its own because nbclient leaves
-# sockets open, which is a warning whenever they are collected.
-RUN_NOTEBOOK = """
-import sys
-import nbclient
-import nbformat
-from jupyter_client.manager import AsyncKernelManager
-
-notebook, folder, executed = sys.argv[1:]
-kernel = AsyncKernelManager(kernel_name="python3", transport="ipc", ip=f"{folder}/ipc")
-cells = nbformat.read(notebook, as_version=4)
-nbclient.NotebookClient(cells, km=kernel, timeout=120, resources={"metadata": {"path": folder}}).execute()
-nbformat.write(cells, executed)
-"""
-
-
-def test_notebook_runs(tmp_path):
-    import nbformat
-
-    # The names of sockets must be short. Nothing is written to the user's home, and the kernel chooses how pictures are
-    # shown.
-    executed = tmp_path / NOTEBOOK
-    with tempfile.TemporaryDirectory(prefix="nb") as folder:
-        environment = {**os.environ, "JUPYTER_RUNTIME_DIR": folder, "IPYTHONDIR": folder, "JUPYTER_NO_CONFIG": "1"}
-        environment.pop("MPLBACKEND", None)
-        command = [sys.executable, "-c", RUN_NOTEBOOK, EXAMPLES / NOTEBOOK, folder, executed]
-        ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=False, timeout=300)
-        assert ended.returncode == 0, ended.stderr
-    notebook = nbformat.read(executed, as_version=4)
-
-    shown, pictures = "", 0
-    for cell in notebook.cells:
-        outputs = cell.get("outputs", [])
-        for output in outputs:
-            assert output.output_type != "error" and output.get("name") != "stderr", output
-            shown += output.get("text", "") + output.get("data", {}).get("text/plain", "")
-        pictured = any("image/png" in output.get("data", {}) for output in outputs)
-        assert pictured == cell.source.splitlines()[-1].startswith("plot."), cell.source
-        pictures += pictured
-    assert pictures == 3
-    for said in [
-        "ozaki2018-large",
-        "'unsettled'",
-        "did you mean `drive_frequency`?",
-        "`V` is a voltage",
-        "interrupted",
-    ]:
-        assert said in shown
-    assert "the same as the sweep in memory: True" in shown
 
 
 def designs(printed):

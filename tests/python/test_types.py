@@ -17,7 +17,7 @@ pytest.importorskip("matplotlib")
 
 REPOSITORY = Path(__file__).parents[2]
 PACKAGE = Path(flapwing.__file__).parent
-NOTEBOOK = "examples/python/first_steps.ipynb"
+NOTEBOOK = "docs/start/first-notebook.ipynb"
 
 
 def checked(files, folder):
@@ -32,7 +32,8 @@ def checked(files, folder):
 
 
 def test_pages_and_examples_are_accepted(tmp_path):
-    files = sorted((REPOSITORY / "examples/python").glob("*.py")) + sorted((REPOSITORY / "benches/fit").glob("*.py"))
+    folders = ("examples/python", "examples/learn", "benches/fit")
+    files = [file for folder in folders for file in sorted((REPOSITORY / folder).glob("*.py"))]
     for page in pages():
         if blocks := python_blocks(page):
             files.append(tmp_path / (re.sub(r"\W", "_", page.removesuffix(".md")) + ".py"))

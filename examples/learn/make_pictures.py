@@ -1,6 +1,6 @@
 """Makes the pictures of docs/start and docs/learn, all or the named ones: docs/pictures/learn-NAME.png.
 
-    python examples/learn/pictures.py [NAME]...
+    python examples/learn/make_pictures.py [NAME]...
 
 Each picture is drawn by the commands of its page, then reduced to 1040 pixels and 256 colours or fewer. Needs the
 command flap on the PATH, and the extras plot and fit of flapwing.
