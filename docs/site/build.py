@@ -108,8 +108,7 @@ class Sources:
 
 def indexed(keywords: str) -> str:
     """The directive that makes main entries of the index, which the search ranks first."""
-    entries = "\n".join(f"single: ! {keyword.strip()}" for keyword in keywords.split(","))
-    return f"```{{index}}\n{entries}\n```"
+    return "```{index} " + ", ".join(f"! {keyword.strip()}" for keyword in keywords.split(",")) + "\n```"
 
 
 def main() -> int:
@@ -121,10 +120,12 @@ def main() -> int:
     source, html = arguments.out / "source", arguments.out / "html"
     shutil.rmtree(source, ignore_errors=True)
     shutil.rmtree(html, ignore_errors=True)
-    shutil.copytree(REPOSITORY / "docs", source, ignore=shutil.ignore_patterns("*.md", "style", "__pycache__"))
+    others = shutil.ignore_patterns("*.md", "*.ipynb", "style", "__pycache__")
+    shutil.copytree(REPOSITORY / "docs", source, ignore=others)
 
     sources = Sources(source)
-    for page in sorted((REPOSITORY / "docs").rglob("*.md")):
+    docs = REPOSITORY / "docs"
+    for page in sorted([*docs.rglob("*.md"), *docs.rglob("*.ipynb")]):
         path = page.relative_to(REPOSITORY).as_posix()
         sources.add(path, path.removeprefix("docs/"))
     for path, page in DOCUMENTS.items():

@@ -36,7 +36,7 @@ SEARCHES = {
     "wake capture": ["models/limits"],
     "cluster": ["how-to/several-machines", "learn/7-cluster"],
     "shard": ["how-to/several-machines", "glossary"],
-    "notebook": ["start/first-notebook"],
+    "notebook": ["start/index", "start/first-notebook"],
 }
 
 
