@@ -14,18 +14,18 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Arabagi, Hines and Sitti (2013)",
-    preface: "Model `four-bar`, presets `arabagi2013-75hz` and `arabagi2013-30hz`. The paper gives neither \
-              the wings nor the actuators, and no lifts or amplitudes as numbers: those of the presets are \
-              assumed, and only frequencies, trends and ratios can be compared. **(T)** marks what the \
-              assumed numbers were tuned to, which proves nothing; **(S)** what was in sight when they \
-              were chosen, which is weak evidence.",
+    preface: "The model is `four-bar` with the presets `arabagi2013-75hz` and `arabagi2013-30hz`.\n\
+              The paper gives neither the wings nor the [actuators](../glossary.md#actuator), and no lifts or amplitudes as numbers.\n\
+              The presets assume them, so you can compare only frequencies, trends and ratios.\n\
+              **(T)** marks a number to which the assumed values were tuned: agreement proves nothing.\n\
+              **(S)** marks a number that was in sight when the values were chosen: agreement is weak evidence.",
     groups: &[
         Group { title: "Resonances", preface: "", quick: false, claims: resonance::claims },
         Group {
             title: "Resonances of small motions",
-            preface: "Peaks of the spectrum of the first second after an impulse by which the first mode alone, \
-                      undamped, would reach 0.5°. In the paper amplitudes are below 5°, and it is \
-                      the first link of the four-bar that moves, with the stroke.",
+            preface: "The numbers are peaks of the spectrum of the first second after an impulse.\n\
+                      The impulse is sized so that the first mode alone, without damping, would reach 0.5°.\n\
+                      In the paper, amplitudes are below 5°, and they are amplitudes of the first link of the four-bar, which moves with the stroke.",
             quick: true,
             claims: resonance::small_motions,
         },
@@ -33,18 +33,19 @@ pub(crate) const PAPER: Paper = Paper {
         Group { title: "Parts of the lift", preface: "", quick: true, claims: lift::parts },
         Group {
             title: "Voltage, hinge and slider-crank",
-            preface: "Figs. 13 to 15 at 70 Hz, with the 75 Hz system.",
+            preface: "Figs. 13 to 15 are computed at 70 Hz with the 75 Hz system.",
             quick: false,
             claims: control::claims,
         },
         Group { title: "Reynolds number", preface: "", quick: true, claims: reynolds::claims },
         Group {
             title: "Rotation alone",
-            preface: "The stroke is a sinusoid of the measured amplitude, which is not in the text: amplitudes are \
-                      assumed and stated in each row. That arms count from the leading edge, as printed, instead of \
-                      from the axis of rotation, was chosen with such trends in sight. Print says that the full \
-                      simulation underpredicts the stroke by ≈20° peak to peak, then that its larger strokes lift \
-                      more; only the latter agrees with its lift, and is taken.",
+            preface: "The stroke is a sinusoid of the measured amplitude.\n\
+                      The paper does not give this amplitude as a number, so each row states the assumed one.\n\
+                      The paper measures arms from the leading edge instead of the axis of rotation.\n\
+                      The preset does the same; this choice was made with such trends in sight.\n\
+                      The paper first states that the full simulation underpredicts the stroke by ≈20° peak to peak, then that its larger strokes make more lift.\n\
+                      Only the second statement agrees with its lift, so the rows use the second one.",
             quick: true,
             claims: rotation::claims,
         },
@@ -99,6 +100,6 @@ fn straightness(points: &[(f64, f64)]) -> f64 {
 }
 
 fn unchecked() -> Vec<Claim> {
-    const SIZES: &str = "it depends on wings and actuators that the paper does not give";
+    const SIZES: &str = "they depend on wings and actuators that the paper does not give";
     vec![said("Figs. 7 to 15", "lifts and amplitudes", "drawn").cannot_be_checked(SIZES, "")]
 }

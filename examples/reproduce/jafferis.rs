@@ -13,10 +13,12 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Jafferis, Graule and Wood (2016)",
-    preface: "Model `bimorph`. T₁ is Table I (preset `jafferis2016`), T₂ and T₃ its transmission scaled by \
-              0.8 and 0.6 as in Fig. 5, the redesign preset `jafferis2016-improved`. Many parameters of \
-              Table I are fits to the same vehicle, so agreement tests the transcription and the \
-              corrections rather than the physics.",
+    preface: "The [model](../glossary.md#model) is `bimorph`.\n\
+              T₁ is Table I (preset `jafferis2016`).\n\
+              T₂ and T₃ scale its [transmission ratio](../glossary.md#transmission-ratio) by 0.8 and 0.6, as in Fig. 5.\n\
+              The redesign is the preset `jafferis2016-improved`.\n\
+              Many parameters of Table I were fitted to the same vehicle.\n\
+              Agreement therefore tests the transcription and the corrections rather than the physics.",
     groups: &[
         Group { title: "From Table I, without a motion", preface: "", quick: true, claims: design::claims },
         Group {
@@ -27,8 +29,8 @@ pub(crate) const PAPER: Paper = Paper {
         },
         Group {
             title: "The redesigned vehicle",
-            preface: "Its wings have another shape than those of Table I, whose coefficients the model \
-                      has. Values at the model's own largest lift, then at the paper's 155 Hz.",
+            preface: "The redesigned wings have another shape than the wings of Table I, but the model uses the coefficients of Table I.\n\
+                      Rows with two values give the value at the largest lift of the model, then the value at 155 Hz, as in the paper.",
             quick: true,
             claims: redesign::claims,
         },
@@ -38,7 +40,7 @@ pub(crate) const PAPER: Paper = Paper {
 };
 
 fn bench() -> Bench {
-    // Kinks make the states at the ends of cycles jitter, so that a motion settles no further.
+    // Kinks make the state at the end of a period jitter, so a motion cannot settle to a smaller residual.
     Bench::new("bimorph", 1e-4)
 }
 
@@ -60,11 +62,11 @@ fn response(p: &Params, drive_voltage_pp: f64, [from, to]: [f64; 2]) -> Response
 
 fn unchecked() -> Vec<Claim> {
     vec![
-        said("Figs. 4, 7", "measured strokes, hinge angles and lifts", "drawn")
+        said("Figs. 4, 7", "measured strokes, pitches and lifts", "drawn")
             .cannot_be_checked("neither the points nor the voltages are in the text", ""),
-        said("II-C", "deflection at DC: about 480 µm peak to peak", "480 µm")
+        said("II-C", "peak-to-peak deflection at DC", "about 480 µm")
             .cannot_be_checked("the text gives no voltage", ""),
-        said("Table II", "the previous vehicle: lift, lift per power", "140 mg, 7 mg/mW")
-            .cannot_be_checked("its actuators are not those of Table I, and not described", ""),
+        said("Table II", "previous vehicle: lift, and lift per power", "140 mg, 7 mg/mW")
+            .cannot_be_checked("its actuators differ from Table I and are not described", ""),
     ]
 }

@@ -19,26 +19,40 @@ use table::{Paper, paragraph, section, summary};
 const PAPERS: [Paper; 4] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER, vehicles::PAPER];
 
 const HEAD: &str = "\
-# Statements of the papers, and results of flap
+# Reproduction of the papers
 
-Written by `just reproduce`; not to be edited. Every row is a statement of a paper, computed anew with flap's presets;
-where the paper does not give a size, a statement has a row for each size that was tried. `rtol` is 1e-7. Motions are
-driven until they settle, except those after an impulse. Responses to frequency have steps of 1 Hz unless a row is
-finer. A verdict is a rule applied to the computed number:
+This page compares statements of the papers with numbers that flap computes from its [presets](../glossary.md#preset).
+Use it to judge how far a preset represents the published robot.
+`just reproduce` generates the page, so do not edit it by hand.
 
-- *met*: the published number to its rounding, or the statement holds;
-- *met within X %*: off by up to X %, and by no more than 3 % of a resonance or of a number that the paper computed from
-  the same parameters, 10 % of a number that it calls approximate, 20 % of a measured one, 25 % where wing and actuator
-  are assumed;
-- *not reproduced*: further off, or the statement does not hold;
-- *cannot be checked*: there is nothing to compare, for the reason given.
+Each row is one statement.
+If a paper leaves out a size that the statement depends on, there is one row for each size that was tried.
+The solver uses [`rtol`](../glossary.md#rtol) = 1e-7.
+Motions are [settled](../glossary.md#settled), except motions after an impulse.
+Frequency responses have steps of 1 Hz or less.
+In the column *published*, *drawn* means that the paper gives no number.
 
-The four limits are a choice that was made after the results were known: they decide where *met within X %* ends, so read X and the
-computed number rather than the word.
+A rule computes each verdict from the two numbers:
 
-Corrections to print and what is assumed: [model.md](../models/direct-drive.md), [model-bimorph.md](../models/bimorph.md),
-[model-four-bar.md](../models/four-bar.md). Free motions and their frequencies:
-[resonance.md](../how-to/resonance.md); prescribed strokes: [experiments.md](../how-to/experiments.md).
+| verdict | meaning |
+|---|---|
+| met | the computed number equals the published one to its rounding, or the statement holds |
+| met within X % | the computed number differs by up to X %, and X is at most the limit below |
+| not reproduced | the difference is larger than the limit, or the statement does not hold |
+| cannot be checked | there is nothing to compare, for the reason in the row |
+
+| published number | limit |
+|---|---|
+| a resonance, or computed by the paper from the same parameters | 3 % |
+| called approximate by the paper | 10 % |
+| measured | 20 % |
+| any number of a robot whose wing and actuator are assumed | 25 % |
+
+The limits were chosen after the results were known.
+Judge by X and by the computed number rather than by the verdict.
+
+Corrections to the printed equations and all assumptions are listed with the models: [direct drive](../models/direct-drive.md), [bimorph](../models/bimorph.md) and [four-bar](../models/four-bar.md).
+[Resonance](../how-to/resonance.md) describes motions after an impulse, and [Experiments](../how-to/experiments.md) describes prescribed strokes.
 
 ";
 

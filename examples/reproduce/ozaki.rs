@@ -11,46 +11,51 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Ozaki and Hamaguchi (2018)",
-    preface: "Model `direct-drive`, presets `ozaki2018-small` and `ozaki2018-large`: Table A1 as printed, \
-              but for the sign of y_g. The drive is V₀ sin ωt + V₀.",
+    preface: "The model is `direct-drive` with the presets `ozaki2018-small` and `ozaki2018-large`.\n\
+              They are Table A1 as printed, except for the sign of y_g.\n\
+              The drive is V₀ sin ωt + V₀.",
     groups: &[
         Group {
             title: "Resonance after an impulse",
-            preface: "The paper fits A e^(-λt) sin(ω_r t + θ) to the stroke after an impulse of the voltage, and \
-                      states neither its size nor the time that is fitted; 208.5 and 109.0 Hz follow from its \
-                      errors of -0.7 % and 3.8 % against the measured 210 and 105 Hz. There is no linear \
-                      damping, so the frequency depends on both. Here it is fitted through 4 periods of small \
-                      motions, after impulses by which these, undamped, would reach 0.3, 0.5 and 0.8 rad. These \
-                      choices are flap's, and were made after the results were known.",
+            preface: "The paper fits A e^(-λt) sin(ω_r t + θ) to the [stroke](../glossary.md#stroke) after an impulse of the voltage.\n\
+                      It gives neither the size of the impulse nor the time that is fitted.\n\
+                      The frequency depends on both, because the model has no linear damping.\n\
+                      208.5 and 109.0 Hz follow from the errors that the paper reports (-0.7 % and 3.8 %) against the measured 210 and 105 Hz.\n\
+                      Here the fit covers 4 periods of small motions.\n\
+                      The impulses are sized so that small motions without damping would reach 0.3, 0.5 and 0.8 rad.\n\
+                      These choices were made after the results were known.",
             quick: true,
             claims: resonance::calculated,
         },
         Group {
             title: "Resonance, driven",
-            preface: "The paper does not say at which of its voltages: the nearest frequency between those at \
-                      the lowest and the highest counts. Steps of 0.1 Hz.",
+            preface: "The paper does not give the voltage of the measurement.\n\
+                      Each row gives the computed frequencies at the lowest and at the highest voltage.\n\
+                      The verdict uses the frequency between these two that is nearest to the published one.\n\
+                      The steps are 0.1 Hz.",
             quick: false,
             claims: resonance::driven,
         },
         Group {
             title: "Performance at the paper's frequencies",
-            preface: "The text does not say whether its efficiencies are measured or calculated.",
+            preface: "The paper does not state if these efficiencies are measured or calculated.",
             quick: true,
             claims: performance::claims,
         },
         Group {
             title: "Hypotheses on Table A1",
-            preface: "**Not the defaults.** That the columns of k_w are swapped (presets \
-                      `ozaki2018-small-kw-swapped`, `ozaki2018-large-kw-swapped`), and that J_B of the \
-                      small type is 3.39e-9 instead of 3.89e-9 kg·m², were found by trying to match the \
-                      paper: agreement is weak evidence, and nothing in the text proves either. Impulses as \
-                      above; the verdict is on that of 0.5 rad, the first stroke peak of which is nearest to 20°.",
+            preface: "**These parameters are not the defaults.**\n\
+                      One hypothesis is that the columns of k_w are swapped (presets `ozaki2018-small-kw-swapped` and `ozaki2018-large-kw-swapped`).\n\
+                      The other is that J_B of the small type is 3.39e-9 kg·m² instead of 3.89e-9 kg·m².\n\
+                      Both were found by trying to match the paper, and nothing in the paper proves either, so agreement is weak evidence.\n\
+                      The impulses are the same as above.\n\
+                      The verdict uses the impulse of 0.5 rad, because its first stroke peak is nearest to 20°.",
             quick: true,
             claims: hypothesis::claims,
         },
         Group {
             title: "Hypotheses on Table A1, driven",
-            preface: "As above, in steps of 0.1 Hz.",
+            preface: "The hypotheses and the steps of 0.1 Hz are the same as above.",
             quick: false,
             claims: hypothesis::driven,
         },

@@ -23,8 +23,8 @@ pub(crate) struct Response {
 }
 
 impl Bench {
-    /// The model called `name`. `settle_tol` is that of [`SolverSettings`]; the integrator is ten times stricter
-    /// than by default, so that what is printed does not depend on it.
+    /// The model called `name`. `settle_tol` goes into [`SolverSettings`]. The integrator is ten times stricter than by
+    /// default, so that the printed digits do not depend on it.
     pub(crate) fn new(name: &str, settle_tol: f64) -> Bench {
         let model = by_name(name).expect("flap has this model");
         let solver = SolverSettings {

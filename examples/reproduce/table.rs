@@ -5,7 +5,7 @@ use crate::claim::{Claim, Verdict};
 /// A paper, and the groups of its claims.
 pub(crate) struct Paper {
     pub(crate) title: &'static str,
-    /// Notes for the reader on all that follows.
+    /// Introduction to all groups: one sentence per line.
     pub(crate) preface: &'static str,
     pub(crate) groups: &'static [Group],
 }
@@ -13,7 +13,7 @@ pub(crate) struct Paper {
 /// Claims that are computed together.
 pub(crate) struct Group {
     pub(crate) title: &'static str,
-    /// Notes for the reader; may be empty.
+    /// Introduction to the table: one sentence per line, or empty.
     pub(crate) preface: &'static str,
     /// True if it is quick to compute.
     pub(crate) quick: bool,
@@ -32,28 +32,15 @@ pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     format!("### {}\n\n{}{}\n\n", group.title, paragraph(group.preface), lines.join("\n"))
 }
 
-/// Text in lines of up to 120 characters; nothing if there is no text.
+/// Text and the empty line after it; nothing if there is no text.
 pub(crate) fn paragraph(text: &str) -> String {
-    if text.is_empty() {
-        return String::new();
-    }
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= 120 => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines.join("\n") + "\n\n"
+    if text.is_empty() { String::new() } else { format!("{text}\n\n") }
 }
 
 /// The number of claims of each paper by verdict.
 pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
     let mut lines = vec![
-        "| paper | rows | met | met within a share | not reproduced | cannot be checked |".to_owned(),
+        "| paper | rows | met | met within X % | not reproduced | cannot be checked |".to_owned(),
         "|---|---|---|---|---|---|".to_owned(),
     ];
     for (paper, verdicts) in papers {

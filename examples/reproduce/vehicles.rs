@@ -10,44 +10,58 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Torques of vehicles",
-    preface: "Sources: Ma, Felton and Wood (IROS 2012); Finio, Galloway and Wood (IROS 2011); Gravish and Wood (APS \
-              March Meeting 2016, Y40.9); Weber, Dhingra and Fuller (arXiv 2407.00217, 2604.22121); Jimbo, Ozaki, \
-              Ohta and Hamaguchi (arXiv 2407.06500); Fuller (RA-L 2019). Only their abstracts and first pages were \
-              at hand. None of these pages gives wings, actuators and voltages of its robot fully, and few give \
-              torques, so that mostly signs, trends and shares can be compared. Unless a row says otherwise the \
-              vehicle is flap's own ([vehicle.md](../how-to/vehicle.md)): two wings of `jafferis2016` (200 V, 120 Hz), \
-              shoulders 1.5 mm left and right of the middle, torques about a point 2 mm below them. x points \
-              forward, y to the left, z up; roll > 0 lifts the left side, pitch > 0 lowers the nose, yaw > 0 turns \
-              it to the left.",
+    preface: "These statements come from several papers:\n\
+              \n\
+              - Ma, Felton and Wood (IROS 2012)\n\
+              - Finio, Galloway and Wood (IROS 2011)\n\
+              - Gravish and Wood (APS March Meeting 2016, Y40.9)\n\
+              - Weber, Dhingra and Fuller (arXiv 2407.00217, 2604.22121)\n\
+              - Jimbo, Ozaki, Ohta and Hamaguchi (arXiv 2407.06500)\n\
+              - Fuller (RA-L 2019)\n\
+              \n\
+              Only their abstracts and first pages were available.\n\
+              These pages give no robot completely (wings, actuators and voltages), and few give torques.\n\
+              You can therefore compare mostly signs, trends and ratios.\n\
+              \n\
+              Unless a row gives another one, the vehicle ([Vehicles](../how-to/vehicle.md)) has two wings of `jafferis2016` at 200 V and 120 Hz.\n\
+              Their shoulders are 1.5 mm left and right of the middle.\n\
+              Torques are about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
+              A positive roll lifts the left side, a positive pitch lowers the nose, and a positive yaw turns the nose to the left.",
     groups: &[
         Group {
             title: "One torque for each drive",
-            preface: "Each drive alone, on top of the same sine for both wings: a difference of the amplitudes, left minus \
-                      right, peak to peak; a bias of both wings; a second harmonic (split cycle), added on the left and \
-                      taken away on the right, at the phase of the largest yaw. All three are a fifth of the amplitude.",
+            preface: "Each row changes one drive, on top of the same sine for both wings:\n\
+                      \n\
+                      - roll: a difference of the amplitudes, left minus right, peak to peak\n\
+                      - pitch: a bias of both wings\n\
+                      - yaw: a second harmonic (split cycle), added on the left and subtracted on the right, at the phase of the largest yaw\n\
+                      \n\
+                      On each wing, the change is a fifth of the amplitude.",
             quick: true,
             claims: drives::claims,
         },
         Group {
             title: "Roll and pitch at the same time",
-            preface: "Weber, Dhingra and Fuller: a robot of 180 mg, the UW RoboFly. Commands: differences up to 40 V and \
-                      biases up to 20 V to both sides, in five steps each, all 25 combinations. The range is assumed.",
+            preface: "The robot of Weber, Dhingra and Fuller is the UW RoboFly with a mass of 180 mg.\n\
+                      The commands are differences up to 40 V and biases up to 20 V to both sides, in five steps each: 25 combinations.\n\
+                      This range is assumed.",
             quick: true,
             claims: coupling::claims,
         },
         Group {
             title: "Split cycle and hinge",
-            preface: "Gravish and Wood: one wing whose half-strokes last differently long, in simulation and experiment. \
-                      Here the second harmonic is 0.2, and leads by 90°.",
+            preface: "Gravish and Wood study one wing with half-strokes of different durations, in simulation and experiment.\n\
+                      Here the second harmonic is 0.2 and leads by 90°.",
             quick: true,
             claims: hinge::claims,
         },
         Group {
             title: "Four wings",
-            preface: "Jimbo and others: a robot of 1.52 g whose wings, in four pairs, are tilted; here one wing of \
-                      `ozaki2018-large` stands for each pair, 10 mm before or behind and left or right of the middle, \
-                      tilted by 10°: those in front backward, those behind forward. Fuller: a robot of 143 mg; here four \
-                      wings of `jafferis2016`. Both layouts are assumed.",
+            preface: "The robot of Jimbo and others has a mass of 1.52 g and four pairs of tilted wings.\n\
+                      Here one wing of `ozaki2018-large` represents each pair, 10 mm in front of or behind and left or right of the middle.\n\
+                      The front wings are tilted backward by 10°, the rear wings forward by 10°.\n\
+                      The robot of Fuller has a mass of 143 mg; here it is four wings of `jafferis2016`.\n\
+                      Both layouts are assumed.",
             quick: true,
             claims: tilted::claims,
         },

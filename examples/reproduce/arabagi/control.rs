@@ -35,7 +35,7 @@ fn voltage() -> Claim {
     said("VI, Fig. 13", "lift is linear in the voltage", "linear").is(
         &about(1.0, 0.01),
         all,
-        format!("R² {all:.3} from 20 to 200 V, {upper:.3} from 100 V on; convex: ∝ V^{exponent:.1} at 150 V"),
+        format!("R² {all:.3} from 20 to 200 V, {upper:.3} from 100 V; convex: ∝ V^{exponent:.1} at 150 V"),
     )
 }
 
@@ -52,11 +52,11 @@ fn hinge() -> Vec<Claim> {
     let [s_30, s_120] = [30.0, 120.0].map(|stiffness| at(&strokes, stiffness));
     let (best, _) = response.peak(LIFT);
     vec![
-        said("VI, Fig. 14", "lift falls as the hinge gets stiffer, from 30 to 120 mN·mm", "falls").holds(
+        said("VI, Fig. 14", "lift falls with a stiffer hinge, from 30 to 120 mN·mm", "falls").holds(
             lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
-            format!("{l_30:.2}, {l_50:.2}, {l_80:.2}, {l_120:.2} mN at 30, 50, 80, 120; largest at {best:.0} mN·mm"),
+            format!("{l_30:.2}, {l_50:.2}, {l_80:.2}, {l_120:.2} mN at 30, 50, 80, 120 mN·mm; largest at {best:.0} mN·mm"),
         ),
-        said("VI, Fig. 14", "and the stroke grows", "grows")
+        said("VI, Fig. 14", "the stroke grows with a stiffer hinge", "grows")
             .holds(s_120 > s_30, format!("{s_30:.1}° to {s_120:.1}°, peak to peak")),
     ]
 }

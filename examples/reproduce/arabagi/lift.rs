@@ -26,13 +26,18 @@ fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
     said("VI", format!("{}: lift rises linearly up to the first resonance", system.name), "linearly").is(
         &about(1.0, 0.01),
         straightness,
-        format!("R² {straightness:.3} from 0.7 of the resonance on"),
+        format!("R² {straightness:.3} from 0.7 of the resonance"),
     )
 }
 
 fn largest(system: &System, response: &Response, resonance: f64) -> Claim {
     let (frequency, _) = response.peak(LIFT);
-    said("V-C", format!("(S) {}: largest lift above the first resonance by", system.name), "10 to 20 Hz").is(
+    said(
+        "V-C",
+        format!("(S) {}: distance of the largest lift above the first resonance", system.name),
+        "10 to 20 Hz",
+    )
+    .is(
         &between(10.0, 20.0),
         frequency - resonance,
         format!("{:.1} Hz ({frequency:.1} Hz)", frequency - resonance),
@@ -51,12 +56,15 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
         lags.iter().zip(frequencies).map(|(lag, f)| format!("{lag:.0}° at {f:.0} Hz")).collect();
     said(
         "V-C",
-        format!("(S) {}: beyond it lift falls sharply, as the pitch comes out of phase", system.name),
+        format!(
+            "(S) {}: beyond this peak lift falls sharply, as the phase lag of the pitch grows",
+            system.name
+        ),
         "to 180°",
     )
     .holds(
         lags.windows(2).all(|pair| pair[1] > pair[0]) && lags[3] > 135.0 && from.is_finite(),
-        format!("lag {}; no lift from {from:.0} Hz on", words.join(", ")),
+        format!("lag {}; lift is negative from {from:.0} Hz", words.join(", ")),
     )
 }
 
@@ -66,14 +74,14 @@ pub(super) fn parts() -> Vec<Claim> {
         let point = super::bench().point(system.params.to_values());
         ["translational", "added_mass", "rotational"].map(|part| point.get(&format!("lift_{part}_mean_mn")))
     });
-    let shown = |split: [f64; 3]| format!("{:.3} to {:.3} mN", split[0], split[1]);
+    let shown = |split: [f64; 3]| format!("translation {:.3} mN, added mass {:.3} mN", split[0], split[1]);
     let [translational, added_mass, rotational] = split_30;
     vec![
-        said("V-B, Fig. 11", "(S) 75 Hz system: translation lifts more than the added mass", "dominant")
+        said("V-B, Fig. 11", "(S) 75 Hz system: translation makes more lift than added mass", "dominant")
             .holds(split_75[0] > split_75[1], shown(split_75)),
         said(
             "IV-A, Fig. 7b",
-            "(S) 30 Hz system: most of the lift is translational, little of the added mass",
+            "(S) 30 Hz system: most lift comes from translation, little from added mass",
             "most",
         )
         .holds(translational > 0.5 * (translational + added_mass + rotational), shown(split_30)),

@@ -16,7 +16,7 @@ pub(super) fn claims() -> Vec<Claim> {
     let mut claims = vec![
         frequency("V-B, Fig. 11", "(T) 75 Hz system, first peak of the stroke", 75.0, peak(&humps_75, 0)),
         frequency("V-B, Fig. 11", "(T) 75 Hz system, second peak, simulated", 115.0, peak(&humps_75, 1)),
-        said("V-C", "75 Hz system: driven hard, the second peak moves down", "129 to 115 Hz").holds(
+        said("V-C", "75 Hz system: the second peak moves down with a stronger drive", "129 to 115 Hz").holds(
             peak(&humps_75, 1) < second_75,
             format!("{second_75:.0} Hz at 20 V, {:.0} Hz at 150 V", peak(&humps_75, 1)),
         ),
@@ -27,7 +27,7 @@ pub(super) fn claims() -> Vec<Claim> {
             if humps_30.len() > 1 {
                 format!("{:.1} Hz", peak(&humps_30, 1))
             } else {
-                format!("none up to {:.0} Hz at 180 V; {second_30:.1} Hz at 20 V", system_30().range[1])
+                format!("no peak up to {:.0} Hz at 180 V; {second_30:.1} Hz at 20 V", system_30().range[1])
             },
         ),
     ];

@@ -14,11 +14,11 @@ pub(super) fn claims() -> Vec<Claim> {
     [system_75(), system_30()]
         .map(|system| {
             let reynolds = strip_average(&system.params) * largest_rate(&system.params);
-            let statement = format!("{}: Reynolds number, averaged over the strips", system.name);
+            let statement = format!("{}: Reynolds number, mean over the strips", system.name);
             said("II-C", statement, "2800").is(
                 &assumed(2800.0, 50.0),
                 reynolds,
-                format!("{:.0} at the largest speed", 10.0 * (reynolds / 10.0).round()),
+                format!("{:.0} at the largest stroke rate", 10.0 * (reynolds / 10.0).round()),
             )
         })
         .into()

@@ -36,18 +36,19 @@ fn lags() -> Vec<Claim> {
     let lag = |amplitude: f64, arms: Arms| alone(&system_75(), 95.0, amplitude, arms).get("pitch_lag_deg");
     let [small, large] = [7.5, 12.5].map(|amplitude| lag(amplitude, Arms::Printed));
     let axis = lag(12.5, Arms::Axis);
-    let simulated = |system: &str, lag: f64| {
-        said("V-B, Fig. 10", format!("(S) 95 Hz: the pitch is behind the stroke, simulated; {system}"), "81°")
-            .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
-    };
+    let simulated =
+        |system: &str, lag: f64| {
+            said("V-B, Fig. 10", format!("(S) simulated phase lag of the pitch at 95 Hz, {system}"), "81°")
+                .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
+        };
     vec![
         simulated("stroke amplitude 7.5°", small),
         simulated("stroke amplitude 12.5°", large),
         simulated("stroke amplitude 12.5°, arms from the axis of rotation", axis),
-        said("V-B, Fig. 10", "95 Hz: the same, measured", "138°").is(
+        said("V-B, Fig. 10", "measured phase lag of the pitch at 95 Hz", "138°").is(
             &assumed(138.0, 0.5),
             large,
-            format!("{small:.1}° with 7.5°, {large:.1}° with 12.5°"),
+            format!("{small:.1}° at stroke amplitude 7.5°, {large:.1}° at 12.5°"),
         ),
     ]
 }
@@ -64,12 +65,12 @@ fn parts() -> Vec<Claim> {
         for amplitude in amplitudes {
             let [translation, added_mass] = split(&alone(&system_75(), frequency, *amplitude, Arms::Printed));
             holds &= added_mass > translation;
-            shown.push(format!("{added_mass:.3} to {translation:.3} mN with {amplitude}°"));
+            shown.push(format!("{added_mass:.3} against {translation:.3} mN at {amplitude}°"));
             let ratio = translation / added_mass;
             half.push(
                 said(
                     PLACE,
-                    format!("75 Hz system, {frequency} Hz, {amplitude}°: translation lifts half of that"),
+                    format!("75 Hz system, {frequency} Hz, {amplitude}°: lift of translation over lift of added mass"),
                     "0.5",
                 )
                 .is(&assumed(0.5, 0.05), ratio, format!("{ratio:.2}")),
@@ -78,7 +79,7 @@ fn parts() -> Vec<Claim> {
         largest.push(
             said(
                 PLACE,
-                format!("75 Hz system, {frequency} Hz: the added mass lifts more than translation"),
+                format!("75 Hz system, {frequency} Hz: added mass makes more lift than translation"),
                 "largest",
             )
             .holds(holds, shown.join(", ")),
@@ -88,7 +89,7 @@ fn parts() -> Vec<Claim> {
     largest
 }
 
-/// The ratio of translational lift in the full simulation to that of a prescribed stroke.
+/// Translational lift in the full simulation over translational lift with a prescribed stroke.
 fn growth() -> Claim {
     let system = system_75();
     let full = bench().point(system.params.to_values());
@@ -99,18 +100,20 @@ fn growth() -> Claim {
     let [growth, over_10] = [over(amplitude), over(10.0)];
     said(
         "V-B, Figs. 10b, 11",
-        "75 Hz system: in the full simulation, whose stroke is ≈20° peak to peak larger, translation lifts more",
+        "75 Hz system: translational lift grows in the full simulation, where the stroke is ≈20° larger peak to peak",
         "eightfold",
     )
     .is(
         &assumed(8.0, 0.5),
         growth,
-        format!("{growth:.1} over {amplitude:.1}°, 20° less than {stroke:.1}° peak to peak; {over_10:.1} over 10°"),
+        format!("{growth:.1} times its value at {amplitude:.1}° (20° less than {stroke:.1}° peak to peak); {over_10:.1} times its value at 10°"),
     )
 }
 
 fn large_strokes() -> Claim {
     let [translation, added_mass] = split(&alone(&system_30(), 30.0, 30.0, Arms::Printed));
-    said("V-B, Fig. 8b", "30 Hz system: translation dominates; 30 Hz, 30°", "dominates")
-        .holds(translation > added_mass, format!("{translation:.3} to {added_mass:.3} mN"))
+    said("V-B, Fig. 8b", "30 Hz system: translation dominates the lift at 30 Hz, 30°", "dominates").holds(
+        translation > added_mass,
+        format!("translation {translation:.3} mN, added mass {added_mass:.3} mN"),
+    )
 }

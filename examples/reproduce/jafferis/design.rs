@@ -15,8 +15,8 @@ fn masses() -> Vec<Claim> {
     let with_air = mass(&transmission(1.0));
     let without_air = mass(&Params { added_inertia_stroke: 0.0, ..transmission(1.0) });
     [
-        ("mass that the actuator feels, of the wing's inertia", 570.0, without_air),
-        ("the same with the added mass of the air", 700.0, with_air),
+        ("effective mass at the actuator, from the inertia of the wing", 570.0, without_air),
+        ("effective mass at the actuator, with the added mass of the air", 700.0, with_air),
     ]
     .map(|(statement, published, mass)| {
         said("III-A", statement, format!("~{published} mg")).is(
@@ -33,20 +33,21 @@ fn transmissions() -> Vec<Claim> {
     let mode = |ratio: f64| Bimorph::modes(&constants(&transmission(ratio)))[0].frequency;
     let [t_1, t_2, t_3] = [1.0, 0.8, 0.6].map(mode);
     vec![
-        said("II-C", "the transmission is as stiff as the actuator at 480 µm peak to peak", "197.7 N/m").is(
-            &closely(197.7, 0.05),
-            stiffness,
-            format!("{stiffness:.1} N/m"),
-        ),
-        said("III-A", "resonance rises as 1/T: undamped, T₂ over T₁", "1.25").is(
+        said(
+            "II-C",
+            "stiffness of the transmission at 480 µm peak to peak, equal to the actuator's",
+            "197.7 N/m",
+        )
+        .is(&closely(197.7, 0.05), stiffness, format!("{stiffness:.1} N/m")),
+        said("III-A", "resonance rises as 1/T: undamped natural frequency, T₂ over T₁", "1.25").is(
             &about(1.25, 0.005),
             t_2 / t_1,
             format!("{:.2} ({t_1:.1} Hz to {t_2:.1} Hz)", t_2 / t_1),
         ),
-        said("III-A", "the same, T₃ over T₁", "1.67").is(
+        said("III-A", "resonance rises as 1/T: undamped natural frequency, T₃ over T₁", "1.67").is(
             &about(1.0 / 0.6, 0.005),
             t_3 / t_1,
-            format!("{:.2} (to {t_3:.1} Hz)", t_3 / t_1),
+            format!("{:.2} ({t_1:.1} Hz to {t_3:.1} Hz)", t_3 / t_1),
         ),
     ]
 }
@@ -62,17 +63,17 @@ fn lift_and_drag() -> Vec<Claim> {
     let gain = lift_to_drag(&drawn, 70.0) / before;
     let angle_lift = angle_of_largest(mean_lift);
     vec![
-        said("II-A, Fig. 3", "hinge angle of the largest lift to drag", "~70°").is(
+        said("II-A, Fig. 3", "pitch at the largest ratio of lift to drag", "~70°").is(
             &about(70.0, 0.5),
             angle,
             format!("{angle:.1}° ({angle_fitted:.1}° with the fitted coefficients of Table I)"),
         ),
-        said("III-A, Fig. 3", "lift to drag at 70° over that at 45° to 50°", "about 1.5").is(
+        said("III-A, Fig. 3", "ratio of lift to drag: at 70°, over its value at 45° to 50°", "about 1.5").is(
             &about(1.5, 0.05),
             gain,
             format!("{gain:.2}"),
         ),
-        said("II-A", "largest hinge angle that gives the largest mean lift, at ideal phase", "51°").is(
+        said("II-A", "peak pitch for the largest mean lift, at ideal phase", "51°").is(
             &closely(51.0, 0.5),
             angle_lift,
             format!("{angle_lift:.1}°"),
@@ -80,13 +81,13 @@ fn lift_and_drag() -> Vec<Claim> {
     ]
 }
 
-/// Lift over drag at a hinge angle in degrees.
+/// Lift over drag at a pitch in degrees.
 fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
     let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
     c.b_l * sin / (c.b_1 + c.b_2 * cos)
 }
 
-/// Mean lift of a sinusoidal stroke, ∝ ⟨cos²θ sin(2ψ_m cos θ)⟩, for a largest hinge angle ψ_m in degrees.
+/// Mean lift of a sinusoidal stroke, ∝ ⟨cos²θ sin(2ψ_m cos θ)⟩, for a peak pitch ψ_m in degrees.
 fn mean_lift(degrees: f64) -> f64 {
     let n = 400;
     (0..n)
@@ -110,21 +111,24 @@ fn strains() -> Vec<Claim> {
     vec![
         said(
             "Table II, IV",
-            "largest strain, at a stroke of 92° peak to peak with T = 2666 rad/m",
+            "largest strain at a stroke of 92° peak to peak, with T = 2666 rad/m",
             "0.079 %",
         )
-        .is(&closely(0.079, 0.0005), strain, format!("{strain:.4} % at the plates' outer faces")),
-        said("IV", "stroke of the previous vehicle that strains its actuators as much", "115°").is(
+        .is(
+            &closely(0.079, 0.0005),
+            strain,
+            format!("{strain:.4} % at the outer faces of the plates"),
+        ),
+        said("IV", "stroke of the previous vehicle at the same actuator strain", "115°").is(
             &closely(115.0, 0.5),
             equal,
             format!("{equal:.1}°"),
         ),
-        said("Table II, IV", "that is more than its typical stroke, strained by 0.066 %, by", "15 to 25 %")
-            .is(
-                &between(15.0, 25.0),
-                100.0 * (equal / typical - 1.0),
-                format!("{:.1} % ({typical:.1}°)", 100.0 * (equal / typical - 1.0)),
-            ),
+        said("Table II, IV", "this stroke exceeds its typical stroke (strain 0.066 %) by", "15 to 25 %").is(
+            &between(15.0, 25.0),
+            100.0 * (equal / typical - 1.0),
+            format!("{:.1} % ({typical:.1}°)", 100.0 * (equal / typical - 1.0)),
+        ),
     ]
 }
 

@@ -34,7 +34,7 @@ pub(super) fn claims() -> Vec<Claim> {
             format!("{frequency:.0} Hz"),
         ),
         said("IV", "stroke, peak to peak", "92°").is(&measured(92.0, 0.5), stroke, strokes),
-        said("abstract, III-A", "hinge angle of the best operation", "about 70°").is(
+        said("abstract, III-A", "pitch at the best operating point", "about 70°").is(
             &about(70.0, 5.0),
             angle,
             angles,

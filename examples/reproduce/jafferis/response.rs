@@ -43,14 +43,14 @@ fn regimes() -> Vec<Claim> {
         ),
         said("II-A (c), Fig. 4a", "medium force: a broad peak, then a sharp one", "two peaks")
             .holds(humps.len() == 2, format!("140 V: peaks at {} Hz", list(&humps))),
-        said("II-A (c)", "the sharp peak falls in frequency with more force", "falls")
+        said("II-A (c)", "the frequency of the sharp peak falls with more force", "falls")
             .holds(f_high < f_sharp, format!("{f_sharp:.0} Hz at 160 V, {f_high:.0} Hz at 200 V")),
-        said("II-A (c)", "and rises in stroke per volt", "rises")
+        said("II-A (c)", "the stroke per volt of the sharp peak rises with more force", "rises")
             .holds(r_high > r_sharp && r_sharp > r_low, format!("{r_sharp:.3} to {r_high:.3} °/V")),
     ]
 }
 
-/// The largest hinge angle where the stroke first rises by more than 1° per Hz, by central differences.
+/// The peak pitch where the stroke first rises by more than 1° per Hz, by central differences.
 fn onset(response: &Response) -> f64 {
     let strokes = response.column("stroke_pp_deg");
     let angles = response.column("pitch_peak_deg");
@@ -61,7 +61,7 @@ fn onset(response: &Response) -> f64 {
 fn steep_rise(families: &Families) -> Claim {
     let angles: Vec<f64> = families.iter().flatten().map(onset).collect();
     let (low, high) = extremes(&angles);
-    said("II-A, Fig. 4", "largest hinge angle at the onset of the steep rise", "around 50°").is(
+    said("II-A, Fig. 4", "peak pitch at the onset of the steep rise", "around 50°").is(
         &about(50.0, 0.5),
         farther_from(50.0, low, high),
         format!("{low:.1}° to {high:.1}° (T₁, T₂, T₃ at 160 to 240 V)"),
@@ -75,10 +75,10 @@ fn phase(families: &Families) -> Claim {
         .map(|response| response.peak("stroke_pp_deg").1.get("pitch_lag_deg").abs())
         .collect();
     let (low, high) = extremes(&lags);
-    said("II-A", "phase between stroke and hinge angle, at the largest stroke", "near 90°").is(
+    said("II-A", "phase between stroke and pitch, at the largest stroke", "near 90°").is(
         &about(90.0, 0.5),
         farther_from(90.0, low, high),
-        format!("{low:.0}° to {high:.0}° (the same)"),
+        format!("{low:.0}° to {high:.0}° (T₁, T₂, T₃ at 160 to 240 V)"),
     )
 }
 
@@ -92,8 +92,11 @@ fn small_peaks() -> Vec<Claim> {
             let nearest =
                 humps.iter().copied().min_by(|a, b| (a - published).abs().total_cmp(&(b - published).abs()));
             let nearest = nearest.unwrap_or(f64::NAN);
-            said("II-C", "the model has a small peak of the hinge angle", format!("about {published:.0} Hz"))
-                .is(&about(published, 0.5), nearest, format!("{nearest:.1} Hz (160 V)"))
+            said("II-C", "small peak of the pitch in the model", format!("about {published:.0} Hz")).is(
+                &about(published, 0.5),
+                nearest,
+                format!("{nearest:.1} Hz (160 V)"),
+            )
         })
         .into()
 }
@@ -140,13 +143,11 @@ fn scaling(families: &Families) -> Vec<Claim> {
     }
     let (at, best) = t_2[V_200].peak("vehicle_lift_mgf");
     let predicted = best.get("vehicle_lift_mgf");
-    claims.push(
-        said("IV", "lift with T₂ (of scaling 140 mg, not of the model: agreement is chance)", "~290 mg").is(
-            &about(290.0, 5.0),
-            predicted,
-            format!("{predicted:.1} mg at 200 V, {at:.0} Hz"),
-        ),
-    );
+    claims.push(said("IV", "lift with T₂ (the paper scales 140 mg; agreement is chance)", "~290 mg").is(
+        &about(290.0, 5.0),
+        predicted,
+        format!("{predicted:.1} mg at 200 V, {at:.0} Hz"),
+    ));
     claims
 }
 

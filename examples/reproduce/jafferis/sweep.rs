@@ -42,7 +42,7 @@ fn as_settled() -> Claim {
     let (frequency, point) = settled.peak("stroke_pp_deg");
     let stroke = point.get("stroke_pp_deg");
     let farther = if (up - stroke).abs() > (down - stroke).abs() { up } else { down };
-    said("(7)", "responses are to a sweep of 15 Hz/s, here settled: largest stroke of T₁, 160 V", "a sweep").is(
+    said("(7)", "largest stroke of T₁ at 160 V in a sweep of 15 Hz/s", "a sweep").is(
         &closely(stroke, 0.0),
         farther,
         format!(
@@ -51,7 +51,7 @@ fn as_settled() -> Claim {
     )
 }
 
-/// With half the hinge's stiffness its frequency is near that of the stroke: there are two motions.
+/// With half of the hinge stiffness, the natural frequencies of pitch and stroke are close: there are two motions.
 fn soft_hinge() -> Claim {
     let table_1 = table_1();
     let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };
@@ -66,12 +66,12 @@ fn soft_hinge() -> Claim {
     };
     let [up, down] = apart(&soft);
     let [up_1, down_1] = apart(&table_1);
-    said("III-A", "scaling is not sustainable as the frequencies of hinge and stroke approach one another", "not sustainable")
+    said("III-A", "scaling fails as the natural frequencies of pitch and stroke approach each other", "not sustainable")
         .holds(
             (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
             format!(
-                "hysteresis with half of κ_wh (modes {hinge:.0} and {stroke:.0} Hz): at 160 V, 126 Hz {up:.0}° rising, \
-                 {down:.0}° falling; none with Table I ({up_1:.0}°, {down_1:.0}°)"
+                "half of κ_wh (modes {hinge:.0} and {stroke:.0} Hz): {up:.0}° rising, {down:.0}° falling at 160 V, 126 Hz. \
+                 Table I: {up_1:.0}°, {down_1:.0}°"
             ),
         )
 }

@@ -1,4 +1,4 @@
-//! A guess at Table A1 as it was meant.
+//! Hypotheses about misprints in Table A1.
 
 use flap_core::model::direct_drive::Params;
 
@@ -7,7 +7,7 @@ use super::resonance::{self, after_an_impulse, largest_stroke_of_large, largest_
 use super::{Type, large, small};
 use crate::claim::{Claim, measured, said};
 
-/// Inertia of the small type's leading edge (kg·m²), with one digit of Table A1 changed.
+/// Inertia of the leading edge of the small type (kg·m²), with one digit of Table A1 changed.
 const LIGHTER: f64 = 3.39e-9;
 
 /// Table A1 with one or both changes.

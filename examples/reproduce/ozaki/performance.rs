@@ -32,10 +32,10 @@ pub(super) fn claims() -> Vec<Claim> {
             .holds(s_30 > l_50, format!("{s_30:.2} and {l_50:.2}")),
         said("4.3, Fig. 17", "efficiency falls as the voltage rises, small type", "falls")
             .holds(s_30 < s_15, format!("{s_15:.2} to {s_30:.2} gf/W")),
-        said("4.3, Fig. 17", "the same, large type", "falls")
+        said("4.3, Fig. 17", "efficiency falls as the voltage rises, large type", "falls")
             .holds(l_50 < l_20, format!("{l_20:.2} to {l_50:.2} gf/W")),
         said("4.3", "errors of the calculation: stroke, pitch, lift, power", "20, 8.1, 15, 8.7 %")
-            .cannot_be_checked("the measured points are drawn only", ""),
+            .cannot_be_checked("the paper only draws the measured points", ""),
     ];
     for (actuator, points) in types.iter().zip([&points_small, &points_large]) {
         for (v_0, point) in actuator.voltages.iter().zip(points) {
@@ -57,5 +57,5 @@ fn drawn(actuator: &Type, v_0: f64, point: &Settled) -> Claim {
     let statement =
         format!("amplitudes of stroke and pitch, lift, power: {name} type at {v_0:.0} V, {frequency:.0} Hz");
     said("Figs. 13 to 16", statement, "drawn")
-        .cannot_be_checked("the calculated curves are drawn only", computed)
+        .cannot_be_checked("the paper only draws the calculated curves", computed)
 }

@@ -9,7 +9,7 @@ const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
 const MIDDLE: usize = 1;
 /// Periods of the first mode that the damped sine is fitted to.
 const WINDOW: u32 = 4;
-/// Other windows, to show how much hangs on it.
+/// Other windows, to show how the frequency depends on the window.
 const LONGER: [u32; 2] = [5, 10];
 
 /// A published frequency (Hz), and how it is shown.
@@ -29,7 +29,7 @@ pub(super) fn calculated() -> Vec<Claim> {
     let mut claims = by_size(&small, &SMALL);
     claims.extend(by_size(&large, &LARGE));
     let ratios = IMPULSES.map(|impulse| fitted(&small, impulse, WINDOW) / fitted(&large, impulse, WINDOW));
-    claims.push(said("4.2", "frequency of the small type over that of the large one", "roughly 2").is(
+    claims.push(said("4.2", "ratio of the frequencies, small type to large type", "roughly 2").is(
         &about(2.0, 0.05),
         ratios[MIDDLE],
         format!(
@@ -48,12 +48,12 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
     let claim = |impulse: f64| {
         let swing = bench().swing(&actuator.params.to_values(), impulse, WINDOW);
         let [five, ten] = LONGER.map(|window| fitted(actuator, impulse, window));
-        let what = format!("{} type: calculated, impulse of {impulse:.1} rad", actuator.name);
+        let what = format!("{} type: calculated resonance, impulse of {impulse:.1} rad", actuator.name);
         said("4.2, Fig. 10", what, published.shown).is(
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "{:.1} Hz, first peak {:.1}°, {:.0} % left over; {five:.1} Hz through 5 periods, {ten:.1} Hz through 10",
+                "{:.1} Hz, first peak {:.1}°, residual {:.0} %; {five:.1} Hz through 5 periods, {ten:.1} Hz through 10",
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms
@@ -68,7 +68,7 @@ pub(super) fn after_an_impulse(what: &str, actuator: &Type, published: &Publishe
     let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
     said(
         "4.2, Fig. 10",
-        format!("{what}, {} type: calculated, impulse of 0.5 rad", actuator.name),
+        format!("{what}, {} type: calculated resonance, impulse of 0.5 rad", actuator.name),
         published.shown,
     )
     .is(
@@ -117,7 +117,7 @@ fn largest_stroke(what: &str, actuator: &Type, range: [f64; 2], published: &Publ
         peak
     });
     let [v_low, v_high] = actuator.voltages;
-    said("4.2, Fig. 10", format!("{what}: measured, largest stroke"), published.shown).is(
+    said("4.2, Fig. 10", format!("{what}: measured frequency of the largest stroke"), published.shown).is(
         &closely(published.frequency, 0.5),
         published.frequency.clamp(low.min(high), low.max(high)),
         format!("{low:.1} Hz ({v_low:.0} V) to {high:.1} Hz ({v_high:.0} V)"),

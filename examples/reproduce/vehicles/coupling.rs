@@ -50,19 +50,27 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2604.22121, abstract", "correlation of a torque with the other command", "-0.001, -0.085")
             .holds(
                 cross.iter().all(|one| one.abs() < 0.0855),
-                format!("{:.3}, {:.3} in size", cross[0].abs(), cross[1].abs()),
+                format!("magnitudes {:.3}, {:.3}", cross[0].abs(), cross[1].abs()),
             ),
-        said("2604.22121, abstract", "thrust deviates from its mean by up to", "5.8 %").is(
+        said("2604.22121, abstract", "largest deviation of the thrust from its mean", "5.8 %").is(
             &between(0.0, 5.8),
             deviation,
             format!("{deviation:.1} %"),
         ),
-        said("2407.00217, abstract", "roll moves with the pitch command, of its range, by up to", "8.58 %")
-            .is(&between(0.0, 8.58), roll_moved, format!("{roll_moved:.1} %")),
-        said("2407.00217, abstract", "pitch moves with the roll command, of its range, by up to", "17.24 %")
-            .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
+        said(
+            "2407.00217, abstract",
+            "largest change of roll with the pitch command, relative to the range of roll",
+            "8.58 %",
+        )
+        .is(&between(0.0, 8.58), roll_moved, format!("{roll_moved:.1} %")),
+        said(
+            "2407.00217, abstract",
+            "largest change of pitch with the roll command, relative to the range of pitch",
+            "17.24 %",
+        )
+        .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
         said("both", "torques in µN·m", "drawn").cannot_be_checked(
-            "neither the sizes nor the voltages are in the text at hand",
+            "the available text has neither sizes nor voltages",
             {
                 let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
                 format!("ranges {roll:.2} (roll) and {pitch:.2} µN·m (pitch)")

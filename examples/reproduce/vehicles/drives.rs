@@ -9,7 +9,7 @@ use crate::points::Settled;
 /// Share of the amplitude by which each drive is changed.
 const SHARE: f64 = 0.2;
 const SENSOR: &str = "Finio and others, I";
-const PREDICTED: &str = "torques of a robotic fly that flaps asymmetrically, predicted:";
+const PREDICTED: &str = "predicted torque of a robotic fly with asymmetric flapping:";
 
 pub(super) fn claims() -> Vec<Claim> {
     let pair = Flier::pair();
@@ -23,30 +23,25 @@ pub(super) fn claims() -> Vec<Claim> {
     let (phase, yaw) = split_cycle();
     let largest = |torques: [f64; 3], of: usize| (0..3).all(|i| torques[i].abs() <= torques[of].abs());
     vec![
-        said(
-            "Ma and others, abstract",
-            "both wings are moved independently, which makes a roll torque",
-            "roll",
-        )
-        .holds(
+        said("Ma and others, abstract", "independent wings make a roll torque", "roll").holds(
             largest(roll, 0) && roll[0] > 0.0,
             format!("{} with {difference:.0} V more on the left", shown(roll)),
         ),
-        said("Ma and others, abstract", "and a pitch torque", "pitch").holds(
+        said("Ma and others, abstract", "independent wings make a pitch torque", "pitch").holds(
             largest(pitch, 1) && pitch[1] < 0.0,
             format!(
-                "{} with a bias of {bias:.0} V, which moves both strokes forward and lifts the nose",
+                "{} with a bias of {bias:.0} V: both strokes move forward and the nose rises",
                 shown(pitch)
             ),
         ),
-        said("Ma and others, abstract", "and, by split cycles, a yaw torque", "yaw").holds(
+        said("Ma and others, abstract", "independent wings make a yaw torque by split cycles", "yaw").holds(
             largest(yaw, 2),
             format!("{} with a second harmonic of {SHARE} that leads by {phase:.0}°", shown(yaw)),
         ),
         said("Ma and others", "sizes of the torques", "drawn")
-            .cannot_be_checked("neither the sizes nor the voltages are in the text at hand", ""),
-        said("Ma and others, abstract", "peak lift of the vehicle, of 70 mg", "1.3 mN").cannot_be_checked(
-            "the voltage is not in the text at hand, and its wings and actuators are others",
+            .cannot_be_checked("the available text has neither sizes nor voltages", ""),
+        said("Ma and others, abstract", "peak lift of the vehicle of 70 mg", "1.3 mN").cannot_be_checked(
+            "the available text has no voltage, and the vehicle has other wings and actuators",
             format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
         ),
         of_size("roll", roll[0], &with_less(&rolling, difference)),
@@ -81,8 +76,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
         parts.map(|(part, point)| format!("{} with {:.0} V", rounded(torques(point)[0]), part * difference));
     let lift = |point: &Settled| rounded(point.get("right_lift_mean_mn"));
     format!(
-        " with {difference:.0} V more on the left, which lies beyond a steep drop of the right wing's lift ({} mN with {:.0} V, {} mN with \
-         {difference:.0} V): {}",
+        " with {difference:.0} V more on the left. The right lift drops steeply from {} mN ({:.0} V) to {} mN \
+         ({difference:.0} V). Smaller differences: {}",
         lift(&points[1]),
         PARTS[0] * difference,
         lift(&points[0]),

@@ -7,7 +7,7 @@ use flap_core::drive::Shape;
 use super::flier::{Flier, rounded, torques};
 use crate::claim::{Claim, said};
 
-/// Stiffness of the hinge over that of the preset.
+/// Stiffness of the hinge over the stiffness in the preset.
 const FACTORS: [f64; 7] = [0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0];
 
 pub(super) fn claims() -> Vec<Claim> {
@@ -28,22 +28,14 @@ pub(super) fn claims() -> Vec<Claim> {
     );
     let place = match turned[..] {
         [place] => {
-            format!(
-                "changes its sign between {} and {} times the stiffness",
-                FACTORS[place - 1],
-                FACTORS[place]
-            )
+            format!("sign changes between {} and {} times the stiffness", FACTORS[place - 1], FACTORS[place])
         }
-        _ => format!("changes its sign {} times", turned.len()),
+        _ => format!("sign changes {} times", turned.len()),
     };
     vec![
         said("abstract", "yaw depends strongly on the stiffness of the hinge", "strongly")
             .holds(largest > 2.0 * smallest, shown),
-        said(
-            "abstract",
-            "the relation of yaw and split cycle becomes another at a critical stiffness",
-            "one",
-        )
-        .holds(turned.len() == 1, place),
+        said("abstract", "the relation between yaw and split cycle changes at a critical stiffness", "one")
+            .holds(turned.len() == 1, place),
     ]
 }

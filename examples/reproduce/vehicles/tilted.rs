@@ -29,10 +29,10 @@ pub(super) fn claims() -> Vec<Claim> {
     let share = values.min() / values.max();
     let payload = payload();
     vec![
-        said("2407.06500, abstract", "tilted wings make yaw from amplitudes alone", "yaw").holds(
+        said("2407.06500, abstract", "with tilted wings, amplitudes alone make a yaw torque", "yaw").holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{} and {} mN of lift per volt on the diagonals; yaw {} µN·m without the tilt",
+                "{} and lift {} mN, per volt on the diagonals; yaw {} µN·m without tilt",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
                 rounded(of_tilted[0]),
                 rounded(of_flat[3])
@@ -45,10 +45,12 @@ pub(super) fn claims() -> Vec<Claim> {
         )
         .holds(
             share > 1e-3,
-            format!("smallest singular value {share:.3} of the largest, 1 mN counting as 1 µN·m"),
+            format!(
+                "ratio of the smallest to the largest singular value {share:.3}, where 1 mN counts as 1 µN·m"
+            ),
         ),
         said("2407.06500", "torques and tilt", "drawn")
-            .cannot_be_checked("they are not in the text at hand", ""),
+            .cannot_be_checked("they are not in the available text", ""),
         said("Fuller, abstract", "payload of four wings", "> 260 mg")
             .holds(payload > 260.0, format!("{payload:.0} mg at 200 V, 120 Hz")),
     ]
