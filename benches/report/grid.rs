@@ -4,7 +4,7 @@ use flap_core::simulate;
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 
-/// The names of the presets of all models, without those that are another one with a swapped hinge stiffness.
+/// The names of the presets of all models, without the variants with a swapped hinge stiffness.
 pub(crate) fn presets() -> impl Iterator<Item = &'static str> {
     let presets = simulate::all().iter().flat_map(|model| model.presets());
     presets.map(|preset| preset.name).filter(|name| !name.ends_with("-kw-swapped"))

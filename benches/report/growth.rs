@@ -1,4 +1,4 @@
-//! The growth of cost and memory with the number of points, out of what `just growth --json FILE` has measured.
+//! Time and memory over the number of points, from the file that `just growth --json FILE` writes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,9 +9,12 @@ use crate::spread::{Spread, digits};
 
 pub(crate) fn print(files: &[PathBuf]) {
     println!(
-        "## Growth\n\n`flap sweep` on grids of ever more points, into CSV files with four measures: voltages and frequencies \
-         around the flight of a preset, `settle_tol` = `rtol`. Shards run at the same time on one thread each, and are \
-         merged; their CPU time includes the merge, their memory is that of the largest process.\n"
+        "## Growth\n\n\
+         This section reports the time and memory of `flap sweep` for different numbers of points.\n\
+         The grids vary voltage and frequency around the published values of a preset, with `settle_tol` = `rtol`.\n\
+         The rows have four measures and go into CSV files.\n\
+         [Shards](../glossary.md#shard) run at the same time on one thread each and are then merged.\n\
+         Their CPU time includes the merge, and their memory is the memory of the largest process.\n"
     );
     if files.is_empty() {
         println!("Not measured.\n");
@@ -26,7 +29,7 @@ fn print_table(file: &Path) -> Option<()> {
     let told: Value = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
     println!(
         "![CPU time per point and peak memory over the number of points](../pictures/growth.svg)\n\n\
-         {} on {}:\n\n\
+         `{}` on {}:\n\n\
          | points | rtol | sweep | points per second | CPU time per point, µs | peak memory, MiB | file, MB |\n\
          |---|---|---|---|---|---|---|",
         told["preset"].as_str()?,

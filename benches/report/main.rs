@@ -1,11 +1,11 @@
-//! Writes docs/evidence/performance.md to stdout: how fast flap is on this machine, measured in this run.
+//! Writes docs/evidence/performance.md to stdout: the speed of flap on this machine, measured in this run.
 //!
 //! ```sh
 //! just bench-report
 //! ```
 //!
-//! Compared programs run in turn, so that other work on the machine slows all alike; numbers are medians, with the least
-//! and the most. Without the arguments of a bench it is only tried out, on few points.
+//! Compared programs run in turn, so that other work on the machine slows all of them. Numbers are medians, with the smallest
+//! and the largest value. Without `--bench` the report covers a few points only, to test the program.
 #![expect(clippy::print_stdout, reason = "a bench reports")]
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -29,21 +29,21 @@ mod whole;
 
 use std::path::PathBuf;
 
-/// The amount of work that is measured.
+/// Amount of work.
 #[derive(Clone, Copy)]
 struct Effort {
     /// Rounds of each comparison.
     rounds: usize,
     /// Points per side of the grid of each preset.
     side: usize,
-    /// Points of the sweep that is looked at as a whole.
+    /// Points of the whole sweep.
     points: usize,
-    /// Drive periods that are timed for the share of the peak.
+    /// Timed drive periods for the share of the peak.
     periods: u64,
 }
 
 const MEASURED: Effort = Effort { rounds: 5, side: 24, points: 10_000, periods: 2000 };
-const TRIED_OUT: Effort = Effort { rounds: 1, side: 3, points: 50, periods: 2 };
+const TRIAL: Effort = Effort { rounds: 1, side: 3, points: 50, periods: 2 };
 
 fn main() {
     #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -53,11 +53,14 @@ fn main() {
     }
 
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIED_OUT };
+    let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIAL };
 
     println!("# Performance\n");
     println!(
-        "Written by `just bench-report`, which measures everything anew. Other machines give other numbers.\n"
+        "This page reports the speed and memory of flap on one machine, beside other solvers.\n\
+         `just bench-report` measures all numbers and writes the page, so do not edit it by hand.\n\
+         Other machines give other numbers.\n\
+         Numbers are medians, with the smallest and the largest value in parentheses.\n"
     );
     machine::print();
     peers::print(&files_of(&arguments, "--peers"));
@@ -68,7 +71,7 @@ fn main() {
     peak::print(effort);
 }
 
-/// The files behind an option, up to the next one.
+/// The files after an option, up to the next option.
 fn files_of(arguments: &[String], option: &str) -> Vec<PathBuf> {
     let behind = arguments.iter().skip_while(|argument| *argument != option).skip(1);
     behind.take_while(|argument| !argument.starts_with('-')).map(PathBuf::from).collect()

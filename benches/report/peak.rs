@@ -20,12 +20,17 @@ const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-7, max_steps: 1
 
 pub(crate) fn print(effort: Effort) {
     println!(
-        "## Share of the peak\n\nThe equations of `examples/own_equations` at rtol 1e-6, marched in full lanes. Instructions \
-                    are counted by single steps, and named by a disassembly; *arithmetic* are those that add, multiply, fuse \
-                    both, divide or compare vectors of doubles. The peak is a loop of fused multiplications and additions in ten \
-                    independent registers, run in turn. Per right-hand side and vector of two registers, steps included:\n\n\
-                    | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
-                    share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
+        "## Share of the peak\n\n\
+         This section compares the hot loop with the peak arithmetic rate of the processor.\n\
+         The loop marches the equations of `examples/own_equations` at rtol 1e-6 in full lanes.\n\
+         The peak is a loop of fused multiplications and additions in ten independent registers; both loops run in turn.\n\
+         Single steps count the instructions, and a disassembly names them.\n\
+         Counts are per right-hand side and vector of two registers, and include the other instructions of a step.\n\
+         \n\
+         - *arithmetic*: instructions that add, multiply, divide or compare vectors of doubles, or fuse a multiplication and an addition\n\
+         - *with the stack*: instructions with an operand in the memory of the stack\n\n\
+         | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
+         share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
     );
     for backend in Backend::available().into_iter().filter(|backend| backend.name() != "sse2") {
         println!(

@@ -16,21 +16,23 @@ struct Work {
 const WORKS: [Work; 3] = [
     Work {
         name: "integration",
-        text: "## Beside other solvers\n\nThe equations of `examples/own_equations`, the same points for all, in turn on one \
-               core: see [benches/peers](../../benches/peers/README.md).\n",
+        text: "## Beside other solvers\n\n\
+               All solvers integrate the same points of the equations of `examples/own_equations`, in turn on one core.\n\
+               [The comparison](../../benches/peers/README.md) describes the programs and the measurement.\n",
     },
     Work {
         name: "settled",
-        text: "## Settled motions beside other solvers\n\nThe preset `jafferis2016` around its flight (120 to 200 V, 102 to \
-               132 Hz), from rest until a drive period changes the state by at most 1e-6, and one more period that is \
-               measured: the other solvers march, flap runs as `flap sweep` and writes rows with all columns. Its rate is in \
-               [verified periodic orbits per second and \
-               core](../../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
+        text: "## Settled motions beside other solvers\n\n\
+               The points are the preset `jafferis2016` at 120 to 200 V and 102 to 132 Hz.\n\
+               Each motion starts at rest, runs until a drive period changes the state by at most 1e-6, and is measured over one more period.\n\
+               The other solvers [march](../glossary.md#march).\n\
+               flap runs as `flap sweep` and writes rows with all columns.\n\
+               Its rate is in [verified periodic orbits per second and core](../../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
     },
     Work {
         name: "responses",
-        text: "Likewise over the frequency responses of `examples/jafferis_fig4.toml` (40 to 240 V, 40 to 200 Hz), where \
-               some motions settle slowly.\n",
+        text: "The next table covers the frequency responses of `examples/jafferis_fig4.toml` (40 to 240 V, 40 to 200 Hz), \
+               where some motions settle slowly.\n",
     },
 ];
 

@@ -1,4 +1,4 @@
-//! Points per second of each preset, by marching alone and with Newton's iteration, to the same residual.
+//! Points per second of each preset, by marching alone and with Newton shooting, to the same residual.
 
 use std::time::Instant;
 
@@ -13,10 +13,19 @@ use crate::spread::{Spread, digits};
 
 pub(crate) fn print(effort: Effort) {
     println!(
-        "## Presets\n\n{0} × {0} points of each: 60 to 100 % of the published voltage, 85 to 110 % of its frequency, on one \
-         thread, to a residual of {1:e} at rtol {2:e}. `newton = false` in `[solver]` is marching alone. *Settled* counts \
-         the points with an orbit; *cycles* are the median's drive periods; *lanes full* is the share of the steps of all lanes \
-         that a run needed, with Newton's iteration: marching, periods with responses, measured periods, and all.\n\n\
+        "## Presets\n\n\
+         Each preset is computed at {0} × {0} points on one thread.\n\
+         Voltages are 60 to 100 % of the published voltage, and frequencies 85 to 110 % of the published frequency.\n\
+         The residual is at most {1:e}, at rtol {2:e}.\n\
+         The columns *marching* have `newton = false` in `[solver]`; the columns *Newton* use [Newton shooting](../glossary.md#newton-shooting), the default.\n\
+         \n\
+         - *cycles*: median of the drive periods per point\n\
+         - *settled*: number of points with an orbit\n\
+         - *ratio of times*: time by marching over time with Newton shooting\n\
+         - *lanes full*: share of the steps of all [lanes](../glossary.md#lane) that a point needed, with Newton shooting\n\
+         \n\
+         The numbers of *lanes full* cover marching, periods with responses, measured periods, and all steps.\n\
+         Responses are derivatives with respect to the initial state.\n\n\
          | preset | marching, points/s | cycles | settled | Newton, points/s | cycles | settled | ratio of times | lanes full |\n\
          |---|---|---|---|---|---|---|---|---|",
         effort.side,

@@ -1,4 +1,4 @@
-//! A sweep as a whole: threads, lanes, and writing and reading its rows.
+//! A whole sweep: threads, lanes, and the time to write and read its rows.
 
 use std::fs::File;
 use std::io::{self, Seek};
@@ -33,9 +33,10 @@ pub(crate) fn print(effort: Effort) {
     }
     let lane_use = listed.map_or_else(String::new, |listed| lanes_full(&listed.lane_use));
     println!(
-        "## A whole sweep\n\n{} points of {PRESET}, to a CSV file:\n\n| | |\n|---|---|\n\
-         | points per second, one thread | {} |\n| two threads | {} |\n| two threads against one | {} |\n\
-         | writing CSV, in % of the sweep's time on one thread | {} |\n| reading it | {} |\n\
+        "## A whole sweep\n\nA sweep of {} points of `{PRESET}` into a CSV file:\n\n| | |\n|---|---|\n\
+         | points per second, one thread | {} |\n| points per second, two threads | {} |\n| speed of two threads over one | {} |\n\
+         | time to write the CSV file, % of the sweep on one thread | {} |\n\
+         | time to read the CSV file, % of the sweep on one thread | {} |\n\
          | lanes full: marching, responses, measuring; all | {lane_use} |\n",
         plan.len(),
         Spread::of(one.iter().map(|seconds| plan.len() as f64 / seconds)),
@@ -67,7 +68,7 @@ fn file(plan: &Plan, listed: &Listed<'_>) -> io::Result<(f64, f64)> {
     let layout = Layout::of(plan);
     let mut sink = CsvSink::new(layout.names(), file.try_clone()?);
     sink.begin()?;
-    // Rows are in the order in which they were done, which makes no difference to the time.
+    // The order of the rows does not change the time.
     for (index, row) in (0..).zip(&listed.rows) {
         sink.write(&layout.cells(&plan.point(index), row))?;
     }
