@@ -55,7 +55,7 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIAL };
 
-    println!("# Performance\n");
+    println!("# Performance\n\n<!-- keywords: performance, speed, benchmark, memory -->\n");
     println!(
         "This page reports the speed and memory of flap on one machine, beside other solvers.\n\
          `just bench-report` measures all numbers and writes the page, so do not edit it by hand.\n\

@@ -21,6 +21,8 @@ const PAPERS: [Paper; 4] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER, vehic
 const HEAD: &str = "\
 # Reproduction of the papers
 
+<!-- keywords: reproduction, papers, validation -->
+
 This page compares statements of the papers with numbers that flap computes from its [presets](../glossary.md#preset).
 Use it to judge how far a preset represents the published robot.
 `just reproduce` generates the page, so do not edit it by hand.
