@@ -1,5 +1,7 @@
 """The settings of the manual for Sphinx. `docs/site/build.py` prepares the sources and runs Sphinx on them."""
 
+from pathlib import Path
+
 import flapwing
 from pygments.lexers.special import TextLexer
 
@@ -25,6 +27,8 @@ nb_execution_mode = "off"
 nb_merge_streams = True
 # Options such as --out keep their hyphens.
 smartquotes = False
+# `Readings` in a docstring is a link.
+default_role = "py:obj"
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
 autodoc_typehints = "none"
@@ -40,6 +44,7 @@ html_css_files = ["manual.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_search_language = "en"
+html_search_scorer = str(Path(__file__).parent / "site/scorer.js")
 html_theme_options = {
     "navbar_align": "left",
     "header_links_before_dropdown": 8,

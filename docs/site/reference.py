@@ -19,6 +19,25 @@ SECTION = re.compile(r"^(\S[^\n]*):$")
 ENTRY = re.compile(r"^ {2,6}(-\S.*?|\[?<?[A-Z][\w|<>\[\]./ -]*?\]?(?:\.\.\.)?)(?: {2,}(\S.*))?$")
 
 
+# The pages that show what a command is for.
+GUIDES = {
+    "sweep": ("Your first sweep", "start/first-sweep"),
+    "run": ("Devices", "how-to/devices"),
+    "respond": ("Responses and hysteresis", "how-to/response"),
+    "vehicle": ("Vehicles", "how-to/vehicle"),
+    "live": ("The live page", "how-to/live"),
+    "check": ("Grid files", "reference/grid"),
+    "top": ("Results", "reference/results"),
+    "describe": ("Studies", "how-to/studies"),
+    "plot": ("Pictures", "how-to/plots"),
+    "results": ("Results", "reference/results"),
+    "test": ("Experiments", "how-to/experiments"),
+    "device": ("Devices", "how-to/devices"),
+    "models": ("The terminal", "how-to/terminal"),
+    "generate": ("The terminal", "how-to/terminal"),
+}
+
+
 def pages(flap: Path) -> dict[str, str]:
     """The pages by their paths in the manual."""
     found = dict(command_pages(flap))
@@ -59,6 +78,9 @@ def command_pages(flap: Path):
     yield "reference/commands/index.md", "\n".join(index)
     for name in names:
         text = command(flap, [name], 1)
+        if guide := GUIDES.get(name):
+            head, _, rest = text.partition("\n\n")
+            text = f"{head}\n\nGuide: [{guide[0]}](../../{guide[1]}.md).\n\n{rest}"
         for group, body in sections(run(flap, name, "--help")):
             if group == "Commands":
                 for inner, _ in subcommands(body):
@@ -90,18 +112,19 @@ def command(flap: Path, name: list[str], level: int) -> str:
     """The help of a command as Markdown."""
     title = "flap " + " ".join(name)
     text = [f"{'#' * level} {title}", ""]
+    mark = "#" * (level + 1)
     for heading, body in sections(run(flap, *name, "--help")):
         lines = body.strip("\n")
         if heading.startswith("Usage") or lines.startswith("Usage: "):
             text += ["```text", lines, "```", ""]
         elif heading in ("Examples", "Example"):
-            text += ["**Examples**", "", "```sh", *(line[2:] for line in lines.splitlines()), "```", ""]
+            text += [f"{mark} Examples", "", "```sh", *(line[2:] for line in lines.splitlines()), "```", ""]
         elif heading == "Commands":
             continue
         elif heading and ENTRY.match(lines.splitlines()[0] if lines else ""):
-            text += [f"**{heading}**", "", *entries(lines), ""]
+            text += [f"{mark} {heading}", "", *entries(lines), ""]
         elif heading:
-            text += [f"**{heading}**", "", "```text", lines, "```", ""]
+            text += [f"{mark} {heading}", "", "```text", lines, "```", ""]
         else:
             text += prose(lines)
     return "\n".join(text)
@@ -125,23 +148,22 @@ def prose(lines: str) -> list[str]:
 def entries(lines: str) -> list[str]:
     """Arguments and options as a list of definitions."""
     text = []
-    values = False
-    for line in lines.splitlines():
-        entry = ENTRY.match(line)
-        words = line.strip()
-        if entry and not line.startswith(" " * 8):
-            text += ["", f"`{entry[1]}`", f": {escaped(entry[2] or '')}"]
-            values = False
-        elif words == "Possible values:":
-            text += ["", "  Possible values:", ""]
-            values = True
-        elif values and (value := re.match(r"- ([\w.-]+):? *(.*)", words)):
-            text.append(f"  - `{value[1]}`: {escaped(value[2])}")
-        elif not words:
-            text.append("")
-        else:
-            text.append(("    " if values and not words.startswith("[") else "  ") + escaped(words))
-            values = values and not words.startswith("[")
+    for entry in re.split(r"^(?= {2,6}[-\[<A-Z])", lines, flags=re.MULTILINE):
+        if not (found := ENTRY.match(entry.split("\n")[0])):
+            continue
+        paragraphs = re.split(r"\n\s*\n", (found[2] or "") + "\n" + "\n".join(entry.split("\n")[1:]))
+        body = []
+        for paragraph in paragraphs:
+            words = paragraph.split("\n")
+            if words[0].strip() == "Possible values:":
+                body += ["Possible values:", ""]
+                for value in re.split(r"\n\s*- ", "\n" + "\n".join(words[1:]))[1:]:
+                    name, _, meaning = " ".join(value.split()).partition(": ")
+                    body.append(f"- `{name.rstrip(':')}`" + (f": {escaped(meaning)}" if meaning else ""))
+                body.append("")
+            elif paragraph.strip():
+                body += [escaped(" ".join(paragraph.split())), ""]
+        text += ["", f"`{found[1]}`", f": {body[0] if body else ''}", *(f"  {line}".rstrip() for line in body[1:])]
     return text
 
 

@@ -36,6 +36,16 @@ SEARCHES = {
     "wake capture": ["models/limits"],
     "cluster": ["how-to/several-machines", "learn/7-cluster"],
     "shard": ["how-to/several-machines", "glossary"],
+    "no compiler": ["start/install"],
+    "which model": ["how-to/questions"],
+    "does not settle": ["how-to/questions"],
+    "worst case": ["how-to/studies"],
+    "two solutions": ["how-to/response"],
+    "steering": ["how-to/vehicle"],
+    "RoboBee": ["models/bimorph"],
+    "precision": ["models/numerics"],
+    "error bars": ["how-to/fit"],
+    "job array": ["how-to/several-machines"],
     "notebook": ["start/index", "start/first-notebook"],
 }
 
