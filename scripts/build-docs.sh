@@ -20,10 +20,10 @@ if [[ -z $vale ]] && command -v go >/dev/null; then
     [[ -x $vale ]] || GOBIN=$work/bin go install github.com/vale-cli/vale/v3/cmd/vale@v3.20.0
 fi
 if [[ -n $vale ]]; then
-    python3 scripts/prose.py "$work/prose"
-    git ls-files -z '*.md' ':!docs/evidence/re*' ':!docs/evidence/performance.md' ':!fuzz' |
-        xargs -0 "$vale" --output=line
-    "$vale" --output=line "$work/prose"
+    git ls-files -z '*.md' ':!tests/sweep/mistakes' | xargs -0 "$vale" --output=line
+    rm -rf -- "$work/prose"
+    git ls-files -z 'crates/*.rs' 'crates/*.py' 'examples/*.rs' 'examples/*.py' | xargs -0 python3 scripts/prose.py "$work/prose"
+    (cd -- "$work/prose" && "$vale" --config "$OLDPWD/.vale.ini" --output=line .)
 else
     echo "The prose is not checked: install go or vale."
 fi

@@ -1,8 +1,8 @@
-//! Lift and drag coefficients of a wing over its hinge angle: Fig. 3.
+//! Lift and drag coefficients of a wing over its pitch: Fig. 3.
 
 use flap_core::num::Real;
 
-/// Quasi-steady coefficients of the hinge angle ψ, which is 90° less the angle of attack.
+/// Quasi-steady coefficients of the pitch ψ, which is 90° less the attack angle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coefficients {
     /// Amplitude of the lift coefficient.
@@ -13,7 +13,7 @@ pub(crate) struct Coefficients {
     pub(crate) drag_swing: f64,
 }
 
-/// Those of Fig. 3: 1.8 sin 2ψ and 1.9 + 1.5 cos 2ψ.
+/// The coefficients of Fig. 3: 1.8 sin 2ψ and 1.9 + 1.5 cos 2ψ.
 pub(crate) const FIG_3: Coefficients = Coefficients { lift: 1.8, drag_mean: 1.9, drag_swing: 1.5 };
 
 impl Coefficients {
@@ -35,14 +35,15 @@ impl Coefficients {
         self.drag(cos * cos * 2.0 - 1.0) * cos + self.lift(sin * cos * 2.0) * sin
     }
 
-    /// Lift over drag at a hinge angle (deg).
+    /// Lift over drag at a pitch (deg).
     pub(crate) fn lift_to_drag(&self, degrees: f64) -> f64 {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
         self.lift(sin_2psi) / self.drag(cos_2psi)
     }
 
-    /// Mean lift coefficient, weighted with the square of the speed, of a wing in sinusoidal flapping whose hinge
-    /// angle reaches `degrees` in mid-stroke, where the wing is fastest.
+    /// Mean lift coefficient of a wing in sinusoidal flapping, weighted with the square of the speed.
+    ///
+    /// The pitch reaches `degrees` in mid-stroke, where the wing is fastest.
     pub(crate) fn mean_lift(&self, degrees: f64) -> f64 {
         let instants = 400;
         let weighted: f64 = (0..instants)
@@ -56,7 +57,7 @@ impl Coefficients {
     }
 }
 
-/// The hinge angle (deg, in steps of 0.01) at which a curve is highest, and its value there.
+/// The pitch (deg, in steps of 0.01) at which a curve is highest, and its value there.
 pub(crate) fn highest(curve: impl Fn(f64) -> f64) -> (f64, f64) {
     (0..9000)
         .map(|i| 0.01 * f64::from(i))

@@ -54,7 +54,7 @@ fn print_curve(name: &str, force: f64, curve: &[Response], hinge: bool) {
     }
 }
 
-/// Coefficients against the hinge angle.
+/// Coefficients against the pitch.
 fn figure_3() {
     println!("hinge_angle_deg,lift_coefficient,drag_coefficient,lift_to_drag");
     for degrees in 0..=90 {
@@ -68,9 +68,7 @@ fn figure_3() {
 /// The statements of the paper's text.
 fn summary() {
     let (angle, ratio) = highest(|degrees| FIG_3.lift_to_drag(degrees));
-    println!(
-        "lift over drag is largest at a hinge angle of {angle:.2} deg: {ratio:.3} (paper: about 70 deg)"
-    );
+    println!("lift over drag is largest at a pitch of {angle:.2} deg: {ratio:.3} (paper: about 70 deg)");
     let (angle, lift) = highest(|degrees| FIG_3.mean_lift(degrees));
     println!("mean lift is largest where the hinge reaches {angle:.2} deg: {lift:.3} (paper: 51 deg)");
     for force in FORCES {

@@ -1,7 +1,6 @@
-//! The three oscillators of Fig. 2, as equations of one's own for flap's integrator.
+//! The three oscillators of Fig. 2, as new equations for flap's integrator.
 //!
-//! Stroke x and hinge angle ψ in radians, the time in units of 1/ω₀, ω₀ being the undamped resonance: all numbers are
-//! ratios. A force F sin ωt drives each of them.
+//! Stroke x and pitch ψ are in radians, and the time is in units of 1/ω₀, with the undamped resonance ω₀. A force F sin ωt drives each of them.
 
 use flap_core::num::Real;
 use flap_core::ode::Ode;
@@ -61,7 +60,7 @@ impl Oscillator<2> for Linear {
     }
 }
 
-/// (ii) Damping by the drag of a wing that is held at one hinge angle.
+/// (ii) Damping by the drag of a wing that is held at one pitch.
 ///
 /// ```text
 /// ẍ + x + d C_D |ẋ|ẋ = F sin ωt
@@ -72,7 +71,7 @@ pub(crate) struct HeldWing {
 }
 
 impl HeldWing {
-    /// A wing at a hinge angle (deg).
+    /// A wing at a pitch (deg).
     pub(crate) fn at(degrees: f64) -> HeldWing {
         HeldWing { drag: FIG_3.drag((2.0 * degrees).to_radians().cos()) }
     }

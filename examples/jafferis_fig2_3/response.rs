@@ -29,7 +29,7 @@ pub(crate) struct Response {
     pub(crate) frequency: f64,
     /// Amplitude of the stroke per force.
     pub(crate) stroke: f64,
-    /// Amplitude of the second state: of the hinge angle (rad), where there is one.
+    /// Amplitude of the second state: of the pitch (rad), if the oscillator has a pitch.
     pub(crate) second: f64,
 }
 

@@ -19,5 +19,5 @@ pub(crate) const MOMENT: f64 = PRESSURE * 54.59e-6 / 0.017;
 /// Damping of the hinge per squared rate (kg m²), Eq. (11).
 pub(crate) const HINGE_DRAG: f64 = 0.5 * 1.2 * 54.59e-6 * 0.753e-3 * 0.43 * 0.43 * 4.5e-3 * 4.5e-3 * 4.25;
 
-/// Typical sizes of the states: tip of the actuator (m), its rate (m/s), hinge angle (rad), its rate (rad/s).
+/// Typical sizes of the states: tip of the actuator (m), its rate (m/s), pitch (rad), its rate (rad/s).
 pub(crate) const SCALE: [f64; 4] = [1e-4, 0.1, 1.0, 1e3];

@@ -38,7 +38,7 @@ impl Drive<f64> {
     }
 }
 
-/// The wing: tip of the actuator (m), its rate, hinge angle (rad), its rate.
+/// The wing: tip of the actuator (m), its rate, pitch (rad), its rate.
 pub(crate) struct Wing;
 
 impl Ode<4> for Wing {

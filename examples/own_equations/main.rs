@@ -1,13 +1,13 @@
-//! Equations of one's own in flap's integrator: thousands of runs in SIMD lanes.
+//! New equations in flap's integrator: thousands of runs in SIMD lanes.
 //!
 //! ```sh
 //! cargo run --release -p flap-core --example own_equations -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
 //! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for 40
-//! drive periods from rest; OUT.csv says how far tip and hinge swing and what the mean lift is in the last five. The time
-//! that the runs took goes to stdout, as JSON. SET names the instructions to be used (avx512, avx2, sse2 or neon): without
-//! it, the best.
+//! drive periods from rest. OUT.csv gets the amplitudes of tip and pitch and the mean lift, over the last five periods.
+//! The time of the runs goes to stdout, as JSON. SET names the instructions: avx512, avx2, sse2 or neon. Default: the
+//! fastest set of the processor.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 
@@ -24,7 +24,7 @@ use nix::time::{ClockId, clock_gettime};
 
 use equations::{Drive, Measured, SCALE, Sums, Wing};
 
-/// Drive periods before those that are measured, and those.
+/// Drive periods before the measurement, and measured drive periods.
 const PERIODS: [u32; 2] = [35, 5];
 
 type Begin = Start<Drive<f64>, 4>;

@@ -1,10 +1,11 @@
-"""Reference motions of the motor-driven wing, by SciPy: a transcription of the equations of its own.
+"""Reference motions of the motor-driven wing, by SciPy, from a separate transcription of the equations.
 
     python examples/own_model/reference.py > tests/data/motor_wing.csv
 
-Each row: voltage (V), frequency (Hz), wing length (m), spring stiffness (N m/rad, empty where it follows the
-frequency), then what is measured over the last of 100 drive periods: largest flap angle (deg), mean lift (mN), mean and
-mean magnitude of the electrical power (mW), mean power that the air takes (mW), root mean square of the current (mA).
+The columns of a point are voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). The stiffness is
+empty where it follows the frequency. The measures are taken over the last of 100 drive periods. They are the largest
+flap angle (deg), the mean lift (mN), the mean and the mean magnitude of the electrical power (mW), the mean power taken
+by the air (mW), and the root mean square of the current (mA).
 """
 
 import csv

@@ -1,7 +1,8 @@
 """The largest lift of each design and its frequency, over hinge stiffness and voltage.
 
-Sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and works on the result as labelled arrays:
-selects by value, finds each design's best frequency, interpolates between designs, and prints a map.
+The script sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and converts the result to
+labelled arrays. With these it selects by value, finds the best frequency of each design, interpolates between
+designs, and prints a map.
 
     python 01_xarray_map.py
     python 01_xarray_map.py --size full --save map.nc --picture map.png

@@ -1,9 +1,10 @@
 """Tolerances of a build: linear propagation by exact derivatives beside 2,000 sampled builds.
 
-Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). One row with derivatives
-gives the spread of a measure, sqrt(sum of (derivative * deviation)^2); the sample gives it by brute force. Both agree
-as long as the measure is nearly straight over the deviations. They part where it bends: near a peak, whose slopes are
-small while every deviation leads down, and on the flank of a resonance, where builds fall off it.
+Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). One row with
+derivatives gives the spread of a measure, sqrt(sum of (derivative * deviation)^2); the sample gives it by brute
+force. Both agree as long as the measure is nearly linear over the deviations. They differ near a peak, where the
+derivatives are small but every deviation lowers the measure. They also differ on the flank of a resonance, where some
+builds lose most of the lift.
 
     python 03_tolerance_linear.py
     python 03_tolerance_linear.py --deviation 0.02 --builds 4096

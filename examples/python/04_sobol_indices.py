@@ -1,8 +1,8 @@
 """Sobol' indices of lift and power, for parameters that are known to 10 % only.
 
-A Sobol' index is the share of a result's variance that comes from one parameter: the first-order index S1 from it
-alone, the total index ST from it and all its interactions with others. First-order indices add up to at most 1; the
-rest comes from interactions. A parameter whose ST is near 0 can be fixed.
+A Sobol' index is the share of the variance of a result that one parameter causes. The first-order index S1 counts the
+parameter alone. The total index ST also counts all interactions of the parameter with others. First-order indices add
+up to at most 1; the rest comes from interactions. A parameter whose ST is near 0 can be fixed.
 
 All points go through one call of `flapwing.evaluate`.
 
@@ -62,9 +62,9 @@ def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
 def rows_of_whole_blocks(periodic: np.ndarray, parameters: int) -> np.ndarray:
     """Marks the rows of blocks that are periodic throughout.
 
-    Saltelli's design comes in blocks of rows that belong together: two points, and the first with each parameter
-    taken from the second. The estimators compare rows within blocks, so if one row of a block is no periodic motion
-    and has no lift or power, the block has to go, and nothing must be put in its place.
+    Saltelli's design consists of blocks of rows: two points, and the first point with each parameter taken from the
+    second. The estimators compare rows within a block. If one row of a block is not periodic, the row has no lift or
+    power, and the whole block is left out.
     """
     blocks = periodic.reshape(-1, parameters + 2)
     whole = blocks.all(axis=1)

@@ -1,8 +1,8 @@
 """The trade-off of lift and power, with a limit on the strain of the actuator.
 
 NSGA-II searches the Pareto front of the bimorph of Jafferis et al.: the designs that no other design beats in both
-lift and power. It varies voltage and frequency of the drive, the transmission and the hinge, keeps to limits on the
-strain of the piezoelectric plates, on the stroke and on the pitch of the wing, and two wings must carry the vehicle.
+lift and power. Voltage and frequency of the drive, the transmission and the hinge vary. The strain of the piezoelectric
+plates, the stroke and the pitch have limits, and two wings must carry the vehicle.
 Every generation is one call of `flapwing.evaluate`.
 
     python 06_pareto_pymoo.py

@@ -4,10 +4,12 @@
     python examples/python/07_vehicle_torques.py
     python examples/python/07_vehicle_torques.py --preset jafferis2016-improved
 
-Roll by a difference of the amplitudes, pitch by a bias, yaw by a second harmonic of opposite signs (split cycle), as in
+A difference of the amplitudes gives roll, a bias pitch, and a second harmonic of opposite signs (split cycle) yaw.
+Axes of the body: x forward, y to the left, z up. Positive roll lifts the left side, positive pitch lowers the nose, and
+positive yaw turns the nose to the left.
+
 K. Y. Ma, S. M. Felton and R. J. Wood, "Design, fabrication, and modeling of the split actuator microrobotic bee", IROS
-2012. Axes of the body: x forward, y to the left, z up; roll > 0 lifts the left side, pitch > 0 lowers the nose, yaw > 0
-turns it to the left.
+2012.
 """
 
 from __future__ import annotations

@@ -5,10 +5,9 @@
     python examples/python/08_wrench_map.py --size small    # 4 levels each
     python examples/python/08_wrench_map.py --out map.csv
 
-The inputs are the amplitude of both wings, its left-right difference, the bias, and the second harmonic of opposite
-signs: those that robobee3d (https://github.com/avikde/robobee3d, template/sdab_num_wrenchmap.py) maps with a simulator,
-one combination after the other.
-"""
+The inputs are the amplitude of both wings, the difference of the amplitudes, the bias, and the second harmonic of
+opposite signs. The script template/sdab_num_wrenchmap.py of robobee3d (https://github.com/avikde/robobee3d) maps the
+same inputs with a simulator, one combination after the other."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """A sweep spread over the processes of a cluster, with the same result as on one machine.
 
-Starts a small Dask cluster on this machine, sweeps on it into one file, and compares that with a sweep without a
-cluster: the same bytes. If a worker dies, others run its points again. The same call continues an interrupted sweep,
-on the cluster or without it.
+The script starts a small Dask cluster on this machine and sweeps on it into one file. A sweep without a cluster gives
+the same bytes, which the script compares. If a worker dies, others run its points again. The same call continues an
+interrupted sweep, on the cluster or without it.
 
     python 09_dask_cluster.py
     python 09_dask_cluster.py --size full --workers 8 --out sweep.csv
@@ -20,8 +20,8 @@ With Kubernetes (pip install dask-kubernetes), where the image needs flapwing:
     cluster = KubeCluster(image="registry.example/flapwing")
     cluster.scale(64)
 
-Workers need the same build of flapwing, and processors with the same rounding; otherwise the sweep ends with an error.
-This process writes the file, not the workers.
+Workers need the same build of flapwing, and processors with the same rounding; otherwise the sweep ends with an
+error. This process writes the file, not the workers.
 
 Needs Dask: pip install distributed
 

@@ -1,8 +1,8 @@
-//! A wing on the shaft of a motor, against a spring: flap angle, its rate, and the motor's current. Its pitch follows the
-//! speed of the flap.
+//! A wing on the shaft of a motor, against a spring. The states are the flap angle, its rate, and the current of the
+//! motor. The pitch follows the flap rate.
 //!
 //! Park and Abolfathi, "Direct Drive Design and Operational Performance Analysis of an Insect-Sized Flapping-Wing Micro
-//! Air Vehicle" (2024), as told by the facts of its public repository, saatvikbasil/UCL-MicroFlapping.
+//! Air Vehicle" (2024). The facts are from the public repository of the paper, saatvikbasil/UCL-MicroFlapping.
 //!
 //! ```text
 //! L_a di/dt = V sin ωt − R_a i − K_b β̇
@@ -24,7 +24,7 @@ use flap_core::quadrature::gauss_legendre;
 use columns::Signals;
 pub(crate) use params::Params;
 
-/// The model. All its points share one equation, so it has no choices of its own.
+/// The model. All points share one equation, so the model has no choices.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MotorWing;
 
@@ -58,8 +58,9 @@ flap_core::per_lane! {
     }
 }
 
-/// ∫ f(r, c) dr over a wing from radius `root` (m) on, whose chord (m) is a quarter of an ellipse:
-/// c = `chord` √(1 − x²) at r = root + x · length, with x = sin θ.
+/// ∫ f(r, c) dr over a wing that begins at the radius `root` (m).
+///
+/// The chord (m) is a quarter of an ellipse: c = `chord` √(1 − x²) at r = root + x · length, with x = sin θ.
 fn over_wing(root: f64, length: f64, chord: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
     let value = |theta: f64| {
         let (sin, cos) = theta.sin_cos();

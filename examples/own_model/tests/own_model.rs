@@ -1,10 +1,10 @@
-//! The model of one's own, through every command that it takes part in.
+//! The new model, through every command that supports it.
 
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Numbers of a solver and a transcription of its own: `examples/own_model/reference.py`.
+/// Numbers of a separate solver and transcription: `examples/own_model/reference.py`.
 const REFERENCE: &str = include_str!("../../../tests/data/motor_wing.csv");
 
 fn flap(folder: &Path, args: &[&str]) -> Output {

@@ -88,7 +88,7 @@ pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
     format!("roll {}, pitch {}, yaw {} µN·m", rounded(roll), rounded(pitch), rounded(yaw))
 }
 
-/// A torque with two decimals. What rounds to zero has no sign.
+/// A torque with two decimals. A torque that rounds to zero has no sign.
 pub(super) fn rounded(torque: f64) -> String {
     let text = format!("{torque:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
