@@ -3,9 +3,9 @@
     python examples/own_model/reference.py > tests/data/motor_wing.csv
 
 The columns of a point are voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). The stiffness is
-empty where it follows the frequency. The measures are taken over the last of 100 drive periods. They are the largest
-flap angle (deg), the mean lift (mN), the mean and the mean magnitude of the electrical power (mW), the mean power taken
-by the air (mW), and the root mean square of the current (mA).
+empty where it follows the frequency. The measures are taken over the last of 100 drive periods. The first
+are the largest flap angle (deg) and the mean lift (mN). Mean and mean magnitude of the electrical power (mW) follow, then
+the mean power taken by the air (mW), and the root mean square of the current (mA).
 """
 
 import csv
