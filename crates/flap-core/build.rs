@@ -1,4 +1,4 @@
-//! Tells the crate the hash of its sources.
+//! Passes the hash of the crate's sources to the compiler as an environment variable.
 
 fn main() -> std::io::Result<()> {
     flap_sources::print()

@@ -131,7 +131,7 @@ fn mistakes_on_stdin_have_their_place() {
     assert_eq!(ended.code, 2);
     ended.says("<stdin>:2:2");
     let results = folder.flap_reading("point,status\n0,periodic\n", &["check", "-"]);
-    results.says("<stdin>: this looks like results, not like a grid file");
+    results.says("<stdin> contains results and is not a grid file");
     let empty = folder.flap_reading("", &["sweep", "-", "--out", "-"]);
     assert_eq!(empty.code, 2);
     empty.says("<stdin>");

@@ -108,7 +108,7 @@ fn parameters_of_a_wing_that_are_not_set_have_the_common_value() {
          [sample.parameters]\nleft_drive_voltage_pp = {{ relative_sd = \"5 %\" }}\n"
     );
     fs::write(folder.path("varied.toml"), varied).unwrap();
-    folder.refuses("check varied.toml", "has no value of its own to be the mean");
+    folder.refuses("check varied.toml", "is not set, so it has no value for the mean");
 }
 
 #[test]
@@ -163,11 +163,11 @@ fn inputs_that_cannot_be_have_help() {
     folder.refuses("vehicle grid.toml --inputs left_frequency", "the vehicle has no input");
     folder
         .ends(2, "vehicle grid.toml --set drive_voltage_pp=0 --inputs amplitude")
-        .says("is not known: edge")
+        .says("is missing: edge")
         .says("help: the input is at an end of its range");
     folder
         .ends(2, "vehicle grid.toml --set charge_recovery=1 --inputs charge_recovery")
-        .says("is not known: edge")
+        .says("is missing: edge")
         .says("help: the input is at an end of its range");
     folder.refuses("run grid.toml --set left_position_x=nan", "--set left_position_x=nan: ");
     folder

@@ -261,7 +261,7 @@ fn conversion_does_not_heal() {
     let missing = [&lines[..300], &lines[301..]].concat().join("\n") + "\n";
     fs::write(folder.path("rows.csv"), missing).unwrap();
     let told =
-        "rows 257 to 700 have changed since they were written; it holds 699 rows, but 700 were written";
+        "rows 257 to 700 have changed since they were written; it contains 699 rows, but 700 were written";
     assert_eq!(folder.flap("results verify rows.csv").stdout, format!("rows.csv: damaged: {told}\n"));
     assert_eq!(folder.flap("results convert rows.csv out.parquet --ignore-damage").code, 0);
     let ended = folder.flap("results verify out.parquet");
@@ -300,20 +300,20 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
     let joined = |lines: &[&str]| lines.join("\n") + "\n";
     let without = |place: usize| joined(&[&lines[..place], &lines[place + 1..]].concat());
     for (edited, message) in [
-        (rows.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
-        (without(4), "row 4 is of point 4: the row of point 3 is missing"),
-        (without(700), "it holds 699 rows, but 700 were written"),
+        (rows.replacen("unsettled", "peridoic", 1), "row 1: `peridoic` is not a status"),
+        (without(4), "row 4 belongs to point 4: the row of point 3 is missing"),
+        (without(700), "it contains 699 rows, but 700 were written"),
         (
             rows.replacen(first, &format!("{first}\n{first}"), 1),
-            "row 5 is of point 3: it comes twice or out of order",
+            "row 5 belongs to point 3: it is repeated or out of order",
         ),
         (
             rows.replacen(&format!("{first}\n{second}"), &format!("{second}\n{first}"), 1),
-            "row 4 is of point 4: the row of point 3",
+            "row 4 belongs to point 4: the row of point 3",
         ),
         (
             rows.clone() + "700" + lines[700].strip_prefix("699").unwrap() + "\n",
-            "row 701 is of point `700`, which was not run",
+            "row 701 belongs to point `700`, which was not run",
         ),
     ] {
         fs::write(folder.path("rows.csv"), edited).unwrap();
@@ -359,7 +359,7 @@ fn an_edited_sidecar_is_noticed() {
     edited.write(&folder.path("rows.csv.meta.toml")).unwrap();
     folder
         .ends(2, "sweep rows.csv.meta.toml --out out.csv")
-        .says("the grid in it was edited after the sweep");
+        .says("the recorded grid was edited after the sweep");
     assert!(!folder.path("out.csv").exists());
 }
 
@@ -396,7 +396,7 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         let done: usize = told.strip_suffix(" points done)\n").unwrap().parse().unwrap();
         assert!(done > 0);
         let warning = format!(
-            "warning: {name} is unfinished: {done} points done so far, `flap results resume` continues it\n"
+            "warning: {name} is unfinished: {done} points done so far; `flap results resume` continues it\n"
         );
         let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
@@ -502,7 +502,8 @@ fn the_sidecar_of_another_sweep_is_noticed() {
         let sidecar = format!("{name}.meta.toml");
         let own = fs::read(folder.path(&sidecar)).unwrap();
         fs::copy(other.path(&sidecar), folder.path(&sidecar)).unwrap();
-        let told = format!("{name} is damaged: its sidecar is of another sweep: the grid file differs\n");
+        let told =
+            format!("{name} is damaged: its sidecar belongs to another sweep: the grid file differs\n");
         let ended = folder.ends(3, &format!("results verify {name}"));
         assert_eq!(ended.stdout, told.replace(" is damaged", ": damaged"));
         for command in [

@@ -49,7 +49,7 @@ fn values_far_from_the_preset_are_warned_of() {
                 "{told}"
             );
             if !grid.contains("sobol") || !command.starts_with("run") {
-                assert!(told.contains("; if 17 mm was meant, write \"17 mm\"\n"), "{told}");
+                assert!(told.contains("; if you mean 17 mm, write \"17 mm\"\n"), "{told}");
             }
         }
     }

@@ -172,7 +172,7 @@ fn mistakes_in_devices_are_told_with_their_place() {
     told("device = \"grid2.toml\"\n", "grid2.toml: ", "mybee.toml:1:10");
     told(
         "device = \"mybee.toml\"\n",
-        "the device begins with itself: mybee.toml → mybee.toml",
+        "the device refers to itself: mybee.toml → mybee.toml",
         "mybee.toml:1:10",
     );
     told(
@@ -186,7 +186,7 @@ fn mistakes_in_devices_are_told_with_their_place() {
     fs::write(folder.path("other.toml"), "device = \"mybee.toml\"\n").unwrap();
     told(
         "device = \"other.toml\"\n",
-        "the device begins with itself: mybee.toml → other.toml → mybee.toml",
+        "the device refers to itself: mybee.toml → other.toml → mybee.toml",
         "other.toml:1:10",
     );
     told(
@@ -217,12 +217,12 @@ fn mistakes_in_standard_errors_are_told_with_their_place() {
     told(&params("wing_area = { value = 5e-5, sd = \"2 %\" }"), "not a share of its value", "relative_sd");
     told(
         &params("wing_area = { value = 5e-5, sd = 0 }"),
-        "`sd` must come to more than zero",
+        "`sd` must give a standard error of more than zero",
         "mybee.toml:3:34",
     );
     told(
         &params("wing_area = { value = 5e-5, sd = -1e-6 }"),
-        "`sd` must come to more than zero, not -1e-6",
+        "`sd` must give a standard error of more than zero, not -1e-6",
         "mybee.toml:3:34",
     );
     told(&params("wing_area = { value = 5e-5, sd = nan }"), "`sd` cannot be `nan`", "mybee.toml:3:34");

@@ -106,7 +106,11 @@ fn tracked_points_become_a_motion() {
     let piped = folder.flap("test track points.csv");
     assert!(piped.stdout.starts_with("time_s,stroke_deg\n") && piped.stderr.contains("rotation centre"));
     let short = folder.flap("test track points.csv --chord 3");
-    assert!(short.code == 2 && short.stderr.contains("image 1: the lower edge appears"), "{}", short.stderr);
+    assert!(
+        short.code == 2 && short.stderr.contains("image 1: the lower edge is at a distance of"),
+        "{}",
+        short.stderr
+    );
 }
 
 /// A filmed stroke without pitch leads to the command that computes the pitch.
@@ -146,7 +150,7 @@ fn contradictory_columns_are_refused() {
     );
     let ended = lift(&("time_s,pitch_deg,stroke_deg,pitch_deg\n".to_owned() + &rows("2")));
     assert_eq!(ended.code, 2);
-    assert_eq!(ended.stderr, "error: motion.csv: there are two columns pitch_deg: keep one of them\n");
+    assert_eq!(ended.stderr, "error: motion.csv: two columns are called pitch_deg: keep one of them\n");
 }
 
 #[test]
@@ -177,10 +181,13 @@ fn chirps_end() {
     let folder = Folder::new();
     let chirp = "test chirp jafferis2016 --from 100 --to";
     for (rest, numbers) in [
-        ("400 --rate 1e-9", "lasts 3.000e11 s, which are 7.500e13 drive periods: 100000 are allowed\n"),
-        ("400 --rate 1e-300", "at 1e-300 Hz/s lasts 3.000e302 s, which are 7.500e304 drive periods"),
-        ("1e308", "to 1e308 Hz at 15.0 Hz/s lasts 6.667e306 s, which are inf drive periods"),
-        ("1 --rate=-1e-9", "lasts 9.900e10 s, which are 5.000e12 drive periods"),
+        (
+            "400 --rate 1e-9",
+            "lasts 3.000e11 s, which is 7.500e13 drive periods: at most 100000 are allowed\n",
+        ),
+        ("400 --rate 1e-300", "at 1e-300 Hz/s lasts 3.000e302 s, which is 7.500e304 drive periods"),
+        ("1e308", "to 1e308 Hz at 15.0 Hz/s lasts 6.667e306 s, which is inf drive periods"),
+        ("1 --rate=-1e-9", "lasts 9.900e10 s, which is 5.000e12 drive periods"),
     ] {
         let ended = folder.ends(2, &format!("{chirp} {rest} --trajectory chirp.csv"));
         ended.says(numbers);
@@ -192,7 +199,7 @@ fn chirps_end() {
     folder
         .ends(2, &format!("{chirp} 400 {samples}"))
         .says(
-            "a chirp of 75000 drive periods with 1000 samples each has 75000000 samples: 5000000 are allowed",
+            "a chirp of 75000 drive periods with 1000 samples each has 75000000 samples: at most 5000000 are allowed",
         )
         .says("help: take at most 66 samples per drive period");
     // The estimate is the number of rows.

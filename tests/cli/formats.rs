@@ -235,6 +235,6 @@ fn what_cannot_be_converted() {
     folder.rewrite_sidecar("rows.csv", |sidecar| sidecar.checksums = None);
     folder
         .ends(3, "results convert rows.csv out.parquet")
-        .says("its columns differ from those of the grid in its sidecar");
+        .says("its columns differ from the columns of the grid in its sidecar");
     assert!(!folder.path("out.parquet").exists());
 }

@@ -160,7 +160,7 @@ fn mistakes_in_the_section_are_told_with_their_place() {
         (("\"hinge_stiffness\",", "\"air_density\","), "`air_density` is derived from other parameters"),
         (
             ("\"hinge_stiffness\",", "\"drive_shape\","),
-            "`drive_shape` has fixed values, so there is no derivative by it",
+            "`drive_shape` is a choice, so there is no derivative with respect to it",
         ),
         (
             ("\"hinge_stiffness\",", "\"drive_bias\","),

@@ -122,7 +122,7 @@ fn results_given_as_a_grid_file_are_recognised() {
         assert_eq!(
             ended.stderr,
             format!(
-                "error: rows.{ending}: this looks like results, not like a grid file\n\
+                "error: rows.{ending} contains results and is not a grid file\n\
                  help: did you mean `flap plot rows.{ending}`?\n"
             )
         );
@@ -204,7 +204,7 @@ fn inputs_end() {
     fs::write(folder.path("pipe-device.toml"), "device = \"pipe\"\n").unwrap();
     fs::write(folder.path("pipe-sampled.toml"), sampled("pipe")).unwrap();
 
-    let (size, listed) = ("the file has more than 16 MiB", "the file has more than 256 MiB");
+    let (size, listed) = ("the file is too large: at most 16 MiB", "the file is too large: at most 256 MiB");
     let (endless, is_folder) = ("this is a device or a pipe, which may never end", "this is a folder");
     for (arguments, message) in [
         ("check grid.toml", size),

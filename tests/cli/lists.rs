@@ -331,13 +331,13 @@ fn former_names_still_work_with_a_warning() {
     let grid = |name: &str| format!("preset = \"jafferis2016\"\n[params]\n{name} = 3.0\n");
     let folder = Folder::with_grid(&grid("drag_max"));
     let former = folder.ends(0, "sweep grid.toml --out former.csv");
-    former.says("`drag_max` is called `drag_coefficient_max` now; the former name still works");
+    former.says("`drag_max` is the former name of `drag_coefficient_max`; flap still accepts it");
     fs::write(folder.path("new.toml"), grid("drag_coefficient_max")).unwrap();
     let new = folder.ends(0, "sweep new.toml --out new.csv");
     assert!(!new.stderr.contains("former"), "{}", new.stderr);
     assert_eq!(folder.read("former.csv"), folder.read("new.csv"));
     let run = folder.ends(0, "run jafferis2016 --set drag_max=3.0");
-    run.says("`drag_max` is called `drag_coefficient_max` now");
+    run.says("`drag_max` is the former name of `drag_coefficient_max`");
     let told = folder.ends(0, "models lift_max").stdout;
     assert!(told.contains("the former name of lift_coefficient_max"), "{told}");
     fs::write(folder.path("both.toml"), grid("drag_max") + "drag_coefficient_max = 3.0\n").unwrap();

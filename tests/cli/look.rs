@@ -367,7 +367,7 @@ fn comparisons_take_units() {
 #[test]
 fn former_names_of_columns_are_understood() {
     let folder = swept("preset = \"jafferis2016\"\n[axes]\ndrag_coefficient_max = [3.0, 3.3, 3.6]\n");
-    let note = "warning: `drag_max` is called `drag_coefficient_max` now; the former name still works\n";
+    let note = "warning: `drag_max` is the former name of `drag_coefficient_max`; flap still accepts it\n";
     for arguments in [
         "top rows.csv --by drag_max",
         "top rows.csv --by lift_mean_mn --where drag_max=3.3",

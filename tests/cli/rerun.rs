@@ -42,9 +42,7 @@ fn a_sidecar_is_enough_to_repeat_a_sweep() {
     folder.ends(0, "sweep rows.csv.meta.toml --out again.csv");
     assert_eq!(folder.read("rows.csv"), folder.read("again.csv"));
 
-    folder
-        .ends(2, "sweep rows.csv --out other.csv")
-        .says("rows.csv: this looks like results, not like a grid file");
+    folder.ends(2, "sweep rows.csv --out other.csv").says("rows.csv contains results and is not a grid file");
     folder.ends(2, "sweep rows.csv.meta.toml").says("--out");
 }
 
@@ -125,7 +123,7 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
         let ended = folder.ends(2, arguments);
         assert_eq!(
             ended.stderr,
-            "error: rows.csv.meta.toml: designs/points.csv no longer holds the points that were run\n\
+            "error: rows.csv.meta.toml: designs/points.csv has changed since the points were run\n\
              help: restore the file of points, or sweep the grid file again\n",
             "{arguments}"
         );

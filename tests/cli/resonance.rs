@@ -87,10 +87,7 @@ fn impossible_motions_and_searches_are_refused() {
     for (arguments, message) in [
         ("test impulse ozaki2018-small --amplitude 20", "write a number with a unit, such as `20 deg`"),
         ("test impulse ozaki2018-small --amplitude 20mm", "write a number with a unit, such as `20 deg`"),
-        (
-            "test impulse ozaki2018-small --amplitude 200deg",
-            "is larger than half a turn: give at most 180 deg",
-        ),
+        ("test impulse ozaki2018-small --amplitude 200deg", "is larger than 180 deg: give at most 180 deg"),
         ("test resonance ozaki2018-small --impulse 20rad", "an impulse of 1145.9 deg (20 rad) is larger"),
         ("test impulse ozaki2018-small --amplitude 0deg", "must be finite and not zero"),
         ("test impulse ozaki2018-small --duration 0s", "cannot be sampled"),
@@ -108,7 +105,7 @@ fn impossible_motions_and_searches_are_refused() {
         ("test resonance ozaki2018-small --point 1", "there is no point 1"),
         (
             "test resonance ozaki2018-small --set stroke_mode=prescribed",
-            "the same at every frequency, set it to free",
+            "the same at every frequency, set stroke_mode to free",
         ),
     ] {
         folder.refuses(arguments, message);

@@ -245,7 +245,7 @@ fn results_removed_meanwhile_are_noticed() {
         fs::remove_file(folder.path(removed)).unwrap();
         assert_eq!(wait(&mut child), Some(3), "{removed}");
         let stderr = std::io::read_to_string(child.stderr.take().unwrap()).unwrap();
-        assert!(stderr.contains(&format!("{removed} was removed or replaced meanwhile")), "{stderr}");
+        assert!(stderr.contains(&format!("{removed} was removed or replaced while it was open")), "{stderr}");
 
         folder
             .ends(0, &format!("results resume {out}"))

@@ -127,11 +127,11 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
     let short = lines.join("\n") + "\n";
     let foreign = short.clone() + "3," + last.split_once(',').unwrap().1 + "\n";
     for (rows, message) in [
-        (short.as_str(), "it holds 32 rows, but 33 were written"),
-        (foreign.as_str(), "row 33 is of point `3`, which was not run"),
-        (&short.replacen("unsettled", "peridoic", 1), "row 1: there is no status `peridoic`"),
-        ("a,b\n1,2\n", "its columns differ from those of the grid in its sidecar"),
-        ("", "its columns differ from those of the grid in its sidecar"),
+        (short.as_str(), "it contains 32 rows, but 33 were written"),
+        (foreign.as_str(), "row 33 belongs to point `3`, which was not run"),
+        (&short.replacen("unsettled", "peridoic", 1), "row 1: `peridoic` is not a status"),
+        ("a,b\n1,2\n", "its columns differ from the columns of the grid in its sidecar"),
+        ("", "its columns differ from the columns of the grid in its sidecar"),
     ] {
         let folder = folder(100);
         fs::write(folder.path("grid.2of3.csv"), rows).unwrap();
@@ -185,7 +185,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
     assert_eq!(
         ended.stderr,
         format!(
-            "error: the shards are by several builds of flap, whose rows may differ: grid.1of3.csv by build {build} of \
+            "error: the shards were computed by several builds of flap, whose rows may differ: grid.1of3.csv by build {build} of \
              flap {flap}, grid.2of3.csv by build zfed of flap {flap}\n\
              help: sweep the shards again with one build, or merge them as they are with --mixed-builds\n"
         )

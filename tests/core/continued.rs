@@ -63,7 +63,7 @@ fn what_is_no_state_is_refused() {
         for begin in [&[][..], &[0.0; 3], &[0.0; 5], &[0.0, f64::NAN, 0.0, 0.0]] {
             let row = model.run_point(&PointRun::new(Backend::best(), &SOLVER, values), Some(begin));
             assert_eq!(row.status, Status::Invalid);
-            assert!(row.reason.unwrap().contains("the state needs 4 finite numbers"));
+            assert!(row.reason.unwrap().contains("a state consists of 4 finite numbers"));
             assert!(
                 model
                     .motions()

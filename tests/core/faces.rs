@@ -57,7 +57,7 @@ const SOLVER: SolverSettings = SolverSettings::DEFAULT;
 fn a_model_with_rows_alone_says_so() {
     let motions = Backwards.motions().err().unwrap();
     assert_eq!(motions, Unfinished::NoMotions { model: "backwards" });
-    assert_eq!(motions.to_string(), "the model backwards has no single motions");
+    assert_eq!(motions.to_string(), "the model backwards computes rows, but no single motions");
     let experiments = Backwards.experiments().err().unwrap();
     assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
 
@@ -110,7 +110,7 @@ fn motions_that_are_not_followed_say_why() {
     assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate: 1.0 }.into()));
     assert_eq!(
         response.unwrap_err().to_string(),
-        "a chirp from 2 Hz cannot reach 1 Hz at 1 Hz/s: frequencies are more than zero, and the rate has the sign of \
+        "a chirp from 2 Hz cannot reach 1 Hz at 1 Hz/s: frequencies must be more than zero, and the rate must have the sign of \
          the change"
     );
 
@@ -120,7 +120,7 @@ fn motions_that_are_not_followed_say_why() {
     assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
     assert_eq!(
         error.to_string(),
-        "the motion cannot begin at [0.0, 0.0, 0.0]: the state needs 4 finite numbers"
+        "the motion cannot begin at [0.0, 0.0, 0.0]: a state consists of 4 finite numbers"
     );
 }
 

@@ -72,7 +72,7 @@ fn ranges_contain_what_they_say() {
         for value in outside {
             assert!(!range.contains(value), "{value}: {words}");
             let error = Invalid::unless_within("strips", value, range).unwrap_err();
-            assert_eq!(error.to_string(), format!("strips is {value}: not {words}"));
+            assert_eq!(error.to_string(), format!("strips is {value}, but must be {words}"));
         }
     }
 }

@@ -341,5 +341,5 @@ fn an_impossible_wing_is_named() {
     let row = Flier::pair("jafferis2016").with(&[("difference_drive_voltage_pp", 1000.0)]).row();
     assert_eq!(row.status, Status::Invalid);
     let reason = row.reason.unwrap();
-    assert_eq!(reason, "wing right: drive_voltage_pp is -300: not zero or more");
+    assert_eq!(reason, "wing right: drive_voltage_pp is -300, but must be zero or more");
 }

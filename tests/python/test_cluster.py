@@ -119,7 +119,7 @@ def test_what_a_worker_says_arrives(client, tmp_path):
     path.write_text('preset = "ozaki2018-large"\n[sample]\nmethod = "file"\npath = "points.csv"\n')
     grid = flapwing.Grid(path)
     points.write_text("drive_frequency\n100\n106\n")
-    with pytest.raises(RuntimeError, match="rows of a worker do not fit: the file of points differs"):
+    with pytest.raises(RuntimeError, match="rows of a worker do not belong to this run: the file of points differs"):
         flapwing.sweep(grid, client=client)
     points.unlink()
     with pytest.raises(flapwing.GridError, match="points.csv") as caught:
@@ -200,7 +200,7 @@ def test_derivatives_of_a_batch_are_those_of_one_machine(client, axes):
         flapwing.evaluate(grid, columns, client=there, initial_state=near, **options) for there in (client, None)
     )
     np.testing.assert_array_equal(again.gradient, here.gradient)
-    with pytest.raises(ValueError, match="`lift_sign` has fixed values, so there is no derivative by it"):
+    with pytest.raises(ValueError, match="`lift_sign` is a choice, so there is no derivative with respect to it"):
         flapwing.evaluate(grid, columns, gradient=["lift_sign"], client=client)
 
 

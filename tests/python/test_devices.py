@@ -79,13 +79,13 @@ def test_a_fit_of_a_device_keeps_what_is_known_of_the_others(bee, tmp_path):
 @pytest.mark.parametrize(
     ("text", "says", "line"),
     [
-        ('device = "mybee.toml"\n', "the device begins with itself: ", 1),
+        ('device = "mybee.toml"\n', "the device refers to itself: ", 1),
         ('device = "none.toml"\n', "none.toml: ", 1),
         ('preset = "jafferis2016"\n[params]\nvehicle_mass = "-80 mg"\n', "`vehicle_mass` must be zero or more", 3),
         ('preset = "jafferis2016"\n[params]\nwing_aera = 1\n', "did you mean `wing_area`?", 3),
         (
             'preset = "jafferis2016"\n[params]\nwing_area = { value = 5e-5, sd = -1 }\n',
-            "must come to more than zero",
+            "must give a standard error of more than zero",
             3,
         ),
     ],

@@ -70,7 +70,7 @@ def test_out_of_range(arguments, says):
 
 def test_former_names_warn_and_work():
     now = flapwing.evaluate("jafferis2016", {"drag_coefficient_max": [3.0]})
-    with pytest.warns(FutureWarning, match="`drag_max` is called `drag_coefficient_max` now"):
+    with pytest.warns(FutureWarning, match="`drag_max` is the former name of `drag_coefficient_max`"):
         former = flapwing.evaluate("jafferis2016", {"drag_max": [3.0]})
     assert former["lift_mean_mn"] == now["lift_mean_mn"]
     with pytest.warns(FutureWarning, match="`drag_min` is called"):

@@ -260,7 +260,7 @@ def test_arguments_that_are_refused(keywords, error, says):
 
 
 def test_former_names_work_with_a_warning():
-    with pytest.warns(FutureWarning, match="`drag_max` is called `drag_coefficient_max` now"):
+    with pytest.warns(FutureWarning, match="`drag_max` is the former name of `drag_coefficient_max`"):
         found = flapwing.fit(PRESET, DATA, ["drag_max"], sigma="3 %", starts=1, profile=False)
     assert list(found.values) == ["drag_coefficient_max"]
 

@@ -305,11 +305,11 @@ def test_damage_of_unfinished_results_is_noticed(tmp_path):
     path, sidecar = tmp_path / "rows.csv", tmp_path / "rows.csv.meta.toml"
     own = sidecar.read_bytes()
     sidecar.write_bytes((tmp_path / "other.csv.meta.toml").read_bytes())
-    with pytest.raises(ValueError, match="rows.csv is damaged: its sidecar is of another sweep: the grid file differs"):
+    with pytest.raises(ValueError, match="rows.csv is damaged: its sidecar belongs to another sweep: the grid file differs"):
         flapwing.read(path)
     with pytest.warns(UserWarning) as caught:
         table = flapwing.read(path, ignore_damage=True)
-    assert any("its sidecar is of another sweep" in str(warning.message) for warning in caught)
+    assert any("its sidecar belongs to another sweep" in str(warning.message) for warning in caught)
     assert "grid" not in table.meta and len(table) > 0
 
     sidecar.write_bytes(own)

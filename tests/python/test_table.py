@@ -250,7 +250,7 @@ def test_files_that_others_wrote_are_read(flap, tmp_path):
     assert table["ok"][0] == 1.0 and np.isnan(table["ok"][1])
     assert table.to_pandas()["ok"].isna().tolist() == [False, True]
     (tmp_path / "ragged.csv").write_text("a,b\n1,2\n3\n")
-    with pytest.raises(ValueError, match="ragged.csv: line 3: 1 cells under 2 headings"):
+    with pytest.raises(ValueError, match="ragged.csv: line 3: 1 cells, but 2 headings"):
         flapwing.read(tmp_path / "ragged.csv")
     with pytest.raises(FileNotFoundError, match="no.csv"):
         flapwing.read(tmp_path / "no.csv")

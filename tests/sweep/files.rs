@@ -97,7 +97,7 @@ fn grid_files_have_a_largest_size() {
     fs::File::create(&path).and_then(|file| file.set_len(input::MOST_BYTES + 1)).expect("made");
     let error = error(&path);
     assert!(matches!(error, ReadError::Input { error: InputError::TooLarge(_), .. }), "{error:?}");
-    assert!(error.to_string().ends_with("more than 16 MiB, the most that it may have"), "{error}");
+    assert!(error.to_string().ends_with("the file is too large: at most 16 MiB are allowed"), "{error}");
 }
 
 /// Twenty times as many lines take twenty times as long, not four hundred times.

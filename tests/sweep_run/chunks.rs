@@ -68,10 +68,10 @@ fn chunks_that_do_not_fit_are_refused() {
     let whole = plan(Fake::leak(Fault::None, 4), 100);
     let other = plan(Fake::leak(Fault::None, 4), 101);
     for (chunks, complaint) in [
-        (vec![bytes(&whole, 10, 20)], "points 10 to 20 came, but point 0 was expected next"),
+        (vec![bytes(&whole, 10, 20)], "points 10 to 20 arrived, but point 0 was expected next"),
         (
             vec![bytes(&whole, 0, 10), bytes(&whole, 0, 10)],
-            "points 0 to 10 came, but point 10 was expected next",
+            "points 0 to 10 arrived, but point 10 was expected next",
         ),
         (vec![bytes(&other, 0, 10)], "the grid file differs"),
         (vec![vec![7, 7, 7]], ""),
@@ -80,7 +80,10 @@ fn chunks_that_do_not_fit_are_refused() {
     ] {
         let (text, summary) = put_together(&whole, chunks);
         let error = summary.expect_err(complaint).to_string();
-        assert!(error.starts_with("rows of a worker do not fit: ") && error.contains(complaint), "{error}");
+        assert!(
+            error.starts_with("rows of a worker do not belong to this run: ") && error.contains(complaint),
+            "{error}"
+        );
         // What came before is kept.
         assert!(text.lines().count() == 1 || text.lines().count() == 11, "{text}");
     }

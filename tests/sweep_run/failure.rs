@@ -77,10 +77,7 @@ fn a_model_that_loses_a_point_is_an_error() {
     for (threads, window) in SHAPES {
         let (error, rows) = fails(Fault::Lose(700.0), threads, window);
         assert_eq!(rows, 700);
-        assert_eq!(
-            error.to_string(),
-            "the model does not keep its contract: it returned without the rows of 1 point"
-        );
+        assert_eq!(error.to_string(), "bug in the model: it returned without the rows of 1 point");
     }
 }
 

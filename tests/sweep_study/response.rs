@@ -203,7 +203,7 @@ fn motions_that_do_not_repeat_are_reported_as_such() {
     let irregular = verdict.bands.iter().find(|band| matches!(band.kind, BandKind::Irregular { .. }));
     let [from, to] = irregular.expect("between 81 and 84 Hz").range;
     assert!((from - 81.0).abs() <= 2.0 && (to - 84.0).abs() <= 2.0, "{verdict}");
-    assert!(verdict.to_string().contains("not of one drive period from"), "{verdict}");
+    assert!(verdict.to_string().contains("does not repeat every drive period from"), "{verdict}");
 }
 
 #[test]

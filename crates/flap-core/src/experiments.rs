@@ -1,7 +1,8 @@
 //! Experiments on single points of a model: the implementation of [`Experiments`].
 //!
-//! A chirp is a drive whose frequency changes steadily: a chain of cycles. Each begins at phase zero with the frequency that
-//! the last one ended with, so every cycle can be measured like a drive period, and no growing phase loses digits.
+//! A chirp is a drive whose frequency changes at a constant rate. It is integrated as a chain of cycles. Each cycle
+//! begins at phase zero with the final frequency of the cycle before. Every cycle can then be measured like a drive
+//! period, and phases stay small, so they lose no digits.
 
 use core::ops::ControlFlow;
 
@@ -28,7 +29,7 @@ impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
         ask::<M, _, N>(&self.model, run, request)
     }
 
-    /// Nothing to integrate: forces are evaluated at equal distances from the first sample to the last.
+    /// Evaluates forces at equal distances from the first sample to the last. Nothing is integrated.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
         let ImposedMotion { stroke, pitch, samples } = motion;
         let (duration, other) = (stroke.duration(), pitch.duration());
@@ -76,7 +77,7 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
         let mut sampler = Sampler::new(samples_per_cycle);
         let mut rows = Vec::new();
         let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
-        // The frequency at the end is rounded: a chirp that has arrived but for that is over.
+        // The final frequency is rounded, so the loop ends within 1e-9 of it.
         while (to - frequency) * rate > 1e-9 * to * rate.abs() {
             // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
             let square = frequency * frequency + 2.0 * rate;
@@ -127,12 +128,12 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
     }
 }
 
-/// The measures that mean something in a cycle that is not periodic.
+/// Returns the measures that are meaningful in a cycle that is not periodic.
 fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
     of_signal.iter().copied().filter(|&measure| measure != Measure::First)
 }
 
-/// Names of the envelope's columns.
+/// Returns the names of the envelope's columns.
 fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut columns = ["begin_s", "end_s", "frequency_hz"].map(str::to_owned).to_vec();
     for signal in M::Signals::TABLE {
@@ -144,7 +145,7 @@ fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// The drive is held still.
+/// The drive voltage stays constant during the motion.
 impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
     type Answer = Result<Trajectory, Unfinished>;
 
@@ -156,13 +157,15 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
         let period = M::modes(&constants).first().map_or(f64::NAN, |mode| 1.0 / mode.frequency);
         let (model, constants, y) = model.released(&constants, stroke_rate);
 
-        // Absolute tolerances shrink with a small motion, so that it is as exact as a large one.
+        // Absolute tolerances shrink with a small motion, so that its relative accuracy is the same as for a large
+        // one.
         let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
         for scale in &mut scale {
             *scale *= largest.min(1.0);
         }
 
-        // A span is about a period and a whole number of intervals. The last may reach beyond the duration.
+        // A span is about one period long and contains a whole number of intervals. The last span may end after the
+        // duration.
         let interval = duration / f64::from(intervals);
         #[expect(
             clippy::cast_possible_truncation,
@@ -179,7 +182,7 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
     }
 }
 
-/// Checks that there is an impulse, and a motion to sample.
+/// Checks that the impulse is not zero, and that duration and intervals are more than zero.
 fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), RequestError> {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     if !(stroke_rate.is_finite() && stroke_rate != 0.0) {

@@ -4,14 +4,14 @@
 //!
 //! Each layer uses only those above it:
 //!
-//! - [`num`]: the numbers that models and integrators compute with, scalars or SIMD lanes
-//! - [`ode`]: Dormand-Prince 5(4), for one run or for many in lanes
-//! - [`parameter`]: names, units, ranges and meaning of a design point's numbers
-//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`]: components that models share
-//! - [`model`]: the papers' models: parameters → constants → equations of motion → signals
-//! - [`measure`]: measures of a motion, the same for every model
+//! - [`num`]: number types of models and integrators: scalars and SIMD lanes
+//! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
+//! - [`parameter`]: names, units, ranges and descriptions of a design point's numbers
+//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`]: components that several models use
+//! - [`model`]: the published models: parameters → constants → equations of motion → signals
+//! - [`measure`]: measures of a motion, for any model
 //! - [`simulate`]: design points in, rows out
-//! - `experiments`: chirps, impulses and given motions of a model
+//! - `experiments`: chirps, impulses and imposed motions of a model
 //! - [`vehicle`]: several wings, whose forces and torques add up
 
 pub mod aero;
@@ -29,5 +29,5 @@ pub mod quadrature;
 pub mod simulate;
 pub mod vehicle;
 
-/// A hash of the sources of this crate, in hexadecimal digits: builds with the same one compute the same rows.
+/// Hash of this crate's sources, in hexadecimal digits. Builds with equal hashes compute equal rows.
 pub const SOURCES: &str = env!("FLAP_SOURCES");

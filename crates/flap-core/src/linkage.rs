@@ -1,7 +1,8 @@
 //! Hinges and transmissions, and their losses.
 //!
-//! In the planar four-bar the input link L₁ turns about the origin, the output link L₃ about (L₀, 0); the coupler L₂ connects
-//! their ends A and B. The independent variable is the stroke angle θ: the output link stands at ψ = ψ_n + θ.
+//! In the planar four-bar the input link L₁ turns about the origin and the output link L₃ about (L₀, 0). The coupler
+//! L₂ connects their ends A and B. The independent variable is the stroke angle θ: the output link is at the angle ψ
+//! = ψ_n + θ.
 
 use core::f64::consts::PI;
 
@@ -9,10 +10,11 @@ use crate::num::Real;
 use crate::parameter::Kind::{Following, Number};
 use crate::parameter::Range::{NonNegative, Positive};
 
-/// Damping that stands for the loss factor γ of a spring of `stiffness` k, at the angular frequency `rate` ω (rad/s): γ k/ω.
+/// Returns the viscous damping γ k/ω equivalent to the loss factor γ of a spring.
 ///
-/// That is exact for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish 2021 measured such losses in
-/// insects' thoraxes and in robots' hinges.
+/// k is the spring's `stiffness`, ω the angular frequency `rate` (rad/s). The equivalence is exact for the first
+/// harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured such losses in insect thoraxes and
+/// robot hinges.
 pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
     loss_factor * stiffness / rate
 }
@@ -20,28 +22,30 @@ pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) ->
 crate::parameters! {
     /// Loss factor and size of the wing hinge.
     pub struct HingeParameters {
-        /// Loss factor of the wing hinge: a damping of loss factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the wing hinge. It acts as a damping of loss factor times stiffness over the drive's
+        /// angular frequency.
         hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Thickness of the hinge's flexure. For hinge_strain_max alone.
+        /// Thickness of the hinge's flexure. Affects hinge_strain_max alone.
         hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
-        /// Length of the hinge's flexure from one rigid part to the other. For hinge_strain_max alone.
+        /// Length of the hinge's flexure between the rigid parts. Affects hinge_strain_max alone.
         hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
     }
 }
 
 impl HingeParameters {
-    /// No loss, and no size.
+    /// A hinge without loss and without dimensions.
     pub(crate) const NONE: HingeParameters =
         HingeParameters { hinge_loss_factor: 0.0, hinge_thickness: None, hinge_length: None };
 
-    /// The damping (N·m·s) that stands for the loss factor of a hinge of this `stiffness` (N·m/rad) at the angular frequency
-    /// `rate` (rad/s).
+    /// Returns the equivalent damping (N·m·s) of the loss factor. `stiffness` is the hinge's (N·m/rad), `rate` the
+    /// angular frequency (rad/s).
     pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
         structural_damping(self.hinge_loss_factor, stiffness, rate)
     }
 
-    /// Strain of the flexure's faces per hinge angle (1/rad), bent to an arc of a circle: thickness over twice the length.
-    /// Zero if the size is not known.
+    /// Returns the strain of the flexure's faces per pitch (1/rad): thickness over twice the length.
+    ///
+    /// The flexure is assumed to bend to an arc of a circle. Zero if its dimensions are not set.
     pub(crate) fn strain_per_angle(&self) -> f64 {
         match (self.hinge_thickness, self.hinge_length) {
             (Some(thickness), Some(length)) => 0.5 * thickness / length,
@@ -51,7 +55,8 @@ impl HingeParameters {
 }
 
 crate::per_lane! {
-    /// A slider-crank: a crank at right angles to the slider's line at rest, and a rod along that line.
+    /// A slider-crank whose crank is perpendicular to the slider's line at rest, with the connecting rod along that
+    /// line.
     pub(crate) struct SliderCrank<R> {
         /// Radius of the crank L_c (m).
         pub(crate) crank: R,
@@ -60,7 +65,7 @@ crate::per_lane! {
     }
 }
 
-/// The slider's displacement from rest δ (m) and its derivatives with respect to the crank's angle (m).
+/// Displacement of the slider from rest δ (m), and its derivatives with respect to the crank's angle (m).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SliderMotion<R> {
     /// δ.
@@ -72,7 +77,7 @@ pub(crate) struct SliderMotion<R> {
 }
 
 impl<R: Real> SliderCrank<R> {
-    /// The slider when the crank has turned by η, given sine and cosine.
+    /// Returns the slider's motion at the crank angle η, given its sine and cosine.
     ///
     /// ```text
     /// e = L_c (1 − cos η)     g = √(L_s² − e²)     δ = L_c sin η + L_s − g
@@ -93,7 +98,7 @@ impl<R: Real> SliderCrank<R> {
 }
 
 crate::per_lane! {
-    /// A four-bar and the position in which its stroke angle is zero.
+    /// A four-bar, with the position that it has at zero stroke.
     pub struct FourBar<R> {
         /// Length of the ground link L₀ (m).
         ground: R,
@@ -107,32 +112,33 @@ crate::per_lane! {
         inverse_coupler_square: R,
         /// Angle of the output link at zero stroke ψ_n (rad).
         pub neutral: R,
-        /// The input link's direction at zero stroke, over its length: component along the ground link (1/m).
+        /// Direction of the input link at zero stroke, over its length: component along the ground link (1/m).
         direction_x: R,
-        /// The component across it (1/m).
+        /// Component of the same vector perpendicular to the ground link (1/m).
         direction_y: R,
     }
 }
 
-/// Positions at one stroke angle and their derivatives with respect to it: ( )′ = d/dθ.
+/// Positions at one stroke angle, and their derivatives with respect to it: ( )′ = d/dθ.
 #[derive(Clone, Copy, Debug)]
 pub struct FourBarMotion<R> {
     /// End of the input link A (m), A′, A″.
     pub a: [[R; 2]; 3],
     /// End of the output link B (m), B′, B″.
     pub b: [[R; 2]; 3],
-    /// Transmission θ₁′ of stroke to the input link's angle, and θ₁″.
+    /// Derivative θ₁′ of the input link's angle with respect to the stroke, and θ₁″.
     pub input: [R; 2],
-    /// Transmission θ₂′ of stroke to the coupler's angle, and θ₂″.
+    /// Derivative θ₂′ of the coupler's angle with respect to the stroke, and θ₂″.
     pub coupler: [R; 2],
     /// Sine and cosine of the angle η through which the input link has turned since zero stroke.
     pub turned: [R; 2],
 }
 
 impl FourBar<f64> {
-    /// The four-bar with ground, input, coupler and output link of these lengths (m), whose output link stands at `neutral` (rad) at zero stroke.
+    /// Returns the four-bar with these lengths (m) of ground, input, coupler and output link.
     ///
-    /// Numbers are NaN if it cannot be assembled there.
+    /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled there, the
+    /// numbers are NaN.
     pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBar<f64> {
         let [ground, input, coupler, output] = lengths;
         let mut four_bar = FourBar {
@@ -151,8 +157,10 @@ impl FourBar<f64> {
         four_bar
     }
 
-    /// The angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ of links of these lengths (m) is
-    /// stationary: θ₁″ = 0. `None` if θ₁″ does not change its sign there.
+    /// Returns the angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary
+    /// (θ₁″ = 0).
+    ///
+    /// `lengths` are in m. `None` if θ₁″ does not change its sign in this range.
     pub(crate) fn stationary_angle(lengths: [f64; 4]) -> Option<f64> {
         let four_bar = FourBar::new(lengths, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
@@ -161,7 +169,7 @@ impl FourBar<f64> {
 }
 
 impl<R: Real> FourBar<R> {
-    /// Positions and derivatives at the stroke angle `theta` (rad).
+    /// Returns positions and derivatives at the stroke angle `theta` (rad).
     ///
     /// ```text
     /// B = (L₀ + L₃ cos ψ, L₃ sin ψ)     A = (P B + Q B⊥)/|B|²     P = ½(|B|² + L₁² − L₂²)     Q² = L₁²|B|² − P²
@@ -170,7 +178,7 @@ impl<R: Real> FourBar<R> {
     /// θ₂′ = w×(B′ − A′) / L₂²     θ₂″ = w×(B″ − A″) / L₂²
     /// ```
     ///
-    /// If the links cannot be assembled, Q and all that follows is NaN.
+    /// If the links cannot be assembled, Q and all results are NaN.
     #[inline(always)]
     pub fn motion(&self, theta: R) -> FourBarMotion<R> {
         let (sin, cos) = (self.neutral + theta).sin_cos();
@@ -179,11 +187,11 @@ impl<R: Real> FourBar<R> {
         let b_p = turn(arm);
         let b_pp = scale(theta.lit(-1.0), arm);
 
-        // Q > 0: of the two ways to assemble the links, that with A to the left of the line from 0 to B.
+        // Q > 0 selects one of the two assemblies: A lies to the left of the line from 0 to B.
         let square = dot(b, b);
         let p = square * 0.5 + self.half_difference;
         let q = self.input_square.mul_add(square, -(p * p)).sqrt();
-        // One division for 1/|B|² and 1/(w·n).
+        // One division for both 1/|B|² and 1/(w·n).
         let inverse = theta.lit(1.0) / (square * q);
         let a = scale(inverse * q, scale_add(q, turn(b), scale(p, b)));
         let w = sub(b, a);
@@ -226,13 +234,14 @@ crate::per_lane! {
 }
 
 impl<R: Real> LinkInertias<R> {
-    /// The links' inertia as the stroke sees it G (kg·m²), and half its derivative G′/2; Arabagi 2013, (13).
+    /// Returns the links' inertia about the stroke axis G (kg·m²), and half of its derivative G′/2; Arabagi 2013,
+    /// (13).
     ///
     /// ```text
     /// G = Σ m_i |x_i′|² + Σ J_i θ_i′²     ½G′ = Σ m_i x_i′·x_i″ + Σ J_i θ_i′ θ_i″
     /// ```
     ///
-    /// The links are uniform: their centres are A/2, (A + B)/2 and the middle of the output link.
+    /// The links are uniform, so their centres are A/2, (A + B)/2 and the middle of the output link.
     #[inline(always)]
     pub(crate) fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
         let [_, a_p, a_pp] = motion.a;
@@ -251,9 +260,9 @@ impl<R: Real> LinkInertias<R> {
     }
 }
 
-/// The root of `f` in the bracket, to the last bit or so. `None` if `f` has the same sign at both ends.
+/// Returns the root of `f` in the bracket, to rounding. `None` if `f` has the same sign at both ends.
 ///
-/// Regula falsi after the Illinois rule, which halves the weight of an end that stays.
+/// The method is regula falsi with the Illinois rule.
 fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
     let [mut a, mut b] = bracket;
     let (mut f_a, mut f_b) = (f(a), f(b));

@@ -14,16 +14,17 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// Modes, given their names and natural frequencies (Hz).
+    /// Returns modes with these names and natural frequencies (Hz).
     pub(crate) fn of<const N: usize>(names: [&'static str; N], frequencies: [f64; N]) -> Vec<Mode> {
         names.into_iter().zip(frequencies).map(|(name, frequency)| Mode { name, frequency }).collect()
     }
 
-    /// The modes of M q̈ + diag(K) q = 0, the lower first.
+    /// Returns the modes of M q̈ + diag(K) q = 0, the lower one first.
     ///
-    /// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, the two entries of `stiffness` positive; otherwise frequencies are NaN.
+    /// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, and both entries of `stiffness` positive. Otherwise
+    /// frequencies are NaN.
     pub(crate) fn coupled([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> Vec<Mode> {
-        // M = L Lᵀ turns the problem into an ordinary symmetric one, L⁻¹ K L⁻ᵀ.
+        // M = L Lᵀ leads to an ordinary symmetric eigenvalue problem, L⁻¹ K L⁻ᵀ.
         let inverse =
             Matrix2::new(m11, m12, m12, m22).cholesky().and_then(|cholesky| cholesky.l().try_inverse());
         let mut frequencies = inverse.map_or([f64::NAN; 2], |inverse| {

@@ -1,9 +1,9 @@
-//! Components of piezoelectric actuators: laminates, and electrical losses.
+//! Components of piezoelectric actuators: laminates and electrical losses.
 
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
 
-/// The permittivity of free space (F/m), to the digits used for the presets.
+/// Permittivity of free space (F/m), to the digits used for the presets.
 pub(crate) const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// One layer of a laminate.
@@ -17,7 +17,7 @@ pub struct Layer {
     pub density: f64,
 }
 
-/// A beam of layers bonded from z = 0 upwards, which bends as one; Ozaki and Hamaguchi 2018.
+/// A beam of bonded layers from z = 0 upwards; Ozaki and Hamaguchi 2018.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laminate<const L: usize> {
     /// Heights of the layers' mid-planes (m): `z_i = Σ_{j≤i} t_j − t_i/2`.
@@ -31,7 +31,7 @@ pub struct Laminate<const L: usize> {
 }
 
 impl<const L: usize> Laminate<L> {
-    /// The laminate of these layers, the lowest first.
+    /// Returns the laminate of these layers, the lowest first.
     pub fn of(layers: [Layer; L]) -> Laminate<L> {
         let mut top = 0.0;
         let mid_planes = layers.map(|layer| {
@@ -55,11 +55,13 @@ impl<const L: usize> Laminate<L> {
 }
 
 crate::parameters! {
-    /// Dielectric loss, and what the supply recovers.
+    /// Dielectric loss and charge recovery.
     pub struct ElectricalParameters {
-        /// Dielectric loss of the actuator, tan delta: takes the current G (V - mean of V) with G = w C tan delta. Measured impedances of such plates give 0.13 to 0.16 at large signals.
+        /// Dielectric loss of the actuator, tan delta. It adds the current G (V - mean of V) with G = w C tan delta.
+        /// Measured impedances of such plates correspond to 0.13 to 0.16 at large signals.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
-        /// Share of the power returned by the actuator that the supply recovers. Acts on power_supply_mw alone. Ozaki and Ohta 2020 measured 0.58 on a capacitive load.
+        /// Share of the power returned by the actuator that the supply recovers. It affects power_supply_mw alone.
+        /// Ozaki and Ohta 2020 measured 0.58 on a capacitive load.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }
@@ -69,14 +71,15 @@ impl ElectricalParameters {
     pub(crate) const NONE: ElectricalParameters =
         ElectricalParameters { dielectric_loss: 0.0, charge_recovery: 0.0 };
 
-    /// Conductance (S) of a `capacitance` (F) at the angular frequency `rate` (rad/s).
+    /// Returns the equivalent conductance (S) of a `capacitance` (F) at the angular frequency `rate` (rad/s).
     pub(crate) fn conductance(&self, capacitance: f64, rate: f64) -> f64 {
         rate * capacitance * self.dielectric_loss
     }
 }
 
-/// Mean power (W) that a supply delivers: of the positive part, less a share of what it takes back. `mean` is the mean of
-/// both.
+/// Returns the mean power (W) of a supply: the mean positive part minus a share of the returned power.
+///
+/// `mean` is the mean of the whole power.
 pub(crate) fn supplied(positive_mean: f64, mean: f64, recovery: f64) -> f64 {
     positive_mean - recovery * (positive_mean - mean)
 }

@@ -8,19 +8,19 @@ use std::rc::Rc;
 /// A node in [0, 1] and its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Place at which the function is taken.
+    /// Position of the node.
     pub x: f64,
-    /// Weight of the value there. The weights of a rule add up to 1.
+    /// Weight of the function's value there. The weights of a rule add up to 1.
     pub weight: f64,
 }
 
-/// The middles of `n` equal parts: exact for straight lines.
+/// Returns the midpoints of `n` equal parts. The rule is exact for linear functions.
 pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()
 }
 
-/// The Gauss-Legendre rule of `n` nodes, in ascending order: exact for polynomials of degree 2n − 1.
+/// Returns the Gauss-Legendre rule of `n` nodes, in ascending order. It is exact for polynomials of degree 2n − 1.
 ///
 /// ```
 /// let rule = flap_core::quadrature::gauss_legendre(4);
@@ -29,7 +29,7 @@ pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
 /// ```
 pub fn gauss_legendre(n: usize) -> Rc<[Node]> {
     thread_local! {
-        // Every point of a sweep asks for the same rules.
+        // All points of a sweep use the same few rules.
         static RULES: RefCell<BTreeMap<usize, Rc<[Node]>>> = const { RefCell::new(BTreeMap::new()) };
     }
     RULES.with_borrow_mut(|rules| Rc::clone(rules.entry(n).or_insert_with(|| find_gauss_legendre(n))))
@@ -38,7 +38,7 @@ pub fn gauss_legendre(n: usize) -> Rc<[Node]> {
 fn find_gauss_legendre(n: usize) -> Rc<[Node]> {
     (0..n)
         .map(|i| {
-            // Newton's method from an approximation that lies closer to its own root than to any other.
+            // Newton's method from an approximation that is closer to its own root than to any other.
             let mut z = -libm::cos(PI * (i as f64 + 0.75) / (n as f64 + 0.5));
             let mut slope = 1.0;
             for _ in 0..8 {
@@ -55,7 +55,7 @@ fn find_gauss_legendre(n: usize) -> Rc<[Node]> {
         .collect()
 }
 
-/// The Legendre polynomial of degree `n` at `z` inside (−1, 1), and its derivative.
+/// Returns the Legendre polynomial of degree `n` at `z` inside (−1, 1), and its derivative.
 fn legendre(n: usize, z: f64) -> [f64; 2] {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 0..n {

@@ -1,4 +1,4 @@
-//! The damped sine A e^{−λt} sin(2πft + p) that fits a sampled motion best, in the sense of least squares.
+//! Least-squares fit of a damped sine A e^{−λt} sin(2πft + p) to a sampled motion.
 
 use core::f64::consts::{PI, TAU};
 
@@ -17,17 +17,17 @@ pub struct DampedSine {
     pub frequency: f64,
     /// Phase p at the first sample (rad), in (−π, π].
     pub phase: f64,
-    /// Root mean square of the fit's residual, relative to that of the samples.
+    /// Root mean square of the fit's residual, relative to the root mean square of the samples.
     pub relative_rms: f64,
 }
 
-/// Fits a damped sine to samples `interval` seconds apart.
+/// Returns the best fit of a damped sine to samples `interval` seconds apart.
 ///
-/// `None` if the samples do not cross zero three times, so that there is nothing to begin with, or if no fit is found.
+/// `None` if the samples cross zero fewer than three times, or if the fit does not converge.
 pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
     let size = samples.iter().fold(0.0_f64, |size, sample| size.max(sample.abs()));
     let crossings = Crossings::of(samples)?;
-    // In half periods and units of the largest sample, all parameters are about one.
+    // With times in half periods and samples in units of the largest one, all parameters are about one.
     let half_period = crossings.half_period;
     let problem = Problem {
         times: (0..samples.len()).map(|i| i as f64 / half_period).collect(),
@@ -40,7 +40,7 @@ pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
     if !found || !fitted.parameters.iter().all(|parameter| parameter.is_finite()) || rate == 0.0 {
         return None;
     }
-    // A rate that has turned negative is the same motion with the sine's sign changed.
+    // A negative rate is equivalent to a positive one with the sign of the sine changed.
     let sine = sine.copysign(sine * rate);
     let seconds = half_period * interval;
     let square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
@@ -53,11 +53,11 @@ pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
     })
 }
 
-/// Zero crossings of samples, from which a fit begins.
+/// Zero crossings of samples, for the initial values of a fit.
 struct Crossings {
     /// Mean distance between crossings, in samples.
     half_period: f64,
-    /// Logarithm of the ratio of successive extremes, mean.
+    /// Mean logarithm of the ratio of successive extrema.
     decay_per_half_period: f64,
 }
 
@@ -77,7 +77,7 @@ impl Crossings {
             }
         }
         let [first, .., last] = crossings[..] else { return None };
-        // Nothing is known about the extreme after the last crossing, which the end may cut off.
+        // The extremum after the last crossing is unknown, because the end may cut it off.
         let whole = crossings.len() - 1;
         if whole < 2 {
             return None;
@@ -87,7 +87,7 @@ impl Crossings {
     }
 }
 
-/// The least-squares problem of e^{−λt} (a sin ωt + b cos ωt), with the parameters [a, b, ω, λ].
+/// Least-squares problem of e^{−λt} (a sin ωt + b cos ωt), with the parameters [a, b, ω, λ].
 struct Problem {
     times: Vec<f64>,
     samples: Vec<f64>,
@@ -95,9 +95,9 @@ struct Problem {
 }
 
 impl Problem {
-    /// The same with those a and b that fit best with its ω and λ.
+    /// Returns the problem with the best a and b for its ω and λ.
     fn with_best_factors(mut self) -> Problem {
-        // Normal equations of the two factors.
+        // Normal equations of the two linear parameters.
         let (mut ss, mut sc, mut cc, mut sx, mut cx) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for (&time, &sample) in self.times.iter().zip(&self.samples) {
             let [sine, cosine] = self.waves(time);
@@ -113,14 +113,14 @@ impl Problem {
         self
     }
 
-    /// e^{−λt} sin ωt and e^{−λt} cos ωt.
+    /// Returns e^{−λt} sin ωt and e^{−λt} cos ωt.
     fn waves(&self, time: f64) -> [f64; 2] {
         let (sin, cos) = libm::sincos(self.parameters[2] * time);
         let envelope = libm::exp(-self.parameters[3] * time);
         [envelope * sin, envelope * cos]
     }
 
-    /// The residual of the fit, per sample.
+    /// Returns the residual of the fit, per sample.
     fn left_over(&self) -> Vec<f64> {
         let [a, b] = [self.parameters[0], self.parameters[1]];
         let left = |(&time, &sample): (&f64, &f64)| {

@@ -1,4 +1,4 @@
-//! The frequencies of the free motion after an impulse on the stroke.
+//! Frequencies of the free motion after an impulse on the stroke.
 
 use core::f64::consts::TAU;
 
@@ -10,63 +10,63 @@ use flap_core::simulate::{Experiments, ImpulseRequest, PointRun, Trajectory, Unf
 use crate::damped_sine::{self, DampedSine};
 use crate::spectrum::{Spectrum, SpectrumPeak};
 
-/// The most samples of one motion: they are held in memory.
+/// Largest number of samples of one motion, which are stored in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
 
-/// Peaks looked for in a spectrum.
+/// Largest number of peaks of a spectrum.
 const PEAKS: usize = 2;
 
-/// Settings of an examination of the free motion.
+/// Settings for the analysis of a free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeRequest {
-    /// The impulse, as the amplitude (rad) to be reached by a stroke of the first mode alone, undamped.
+    /// Size of the impulse: the amplitude (rad) that an undamped stroke of the first mode alone would reach.
     pub amplitude: f64,
-    /// Periods of the first mode that the damped sine is fitted to.
+    /// Number of periods of the first mode in the fit of the damped sine.
     pub fit_cycles: u32,
-    /// Length of the motion whose spectrum is taken (s).
+    /// Duration of the motion for the spectrum (s).
     pub spectrum_window: f64,
-    /// Samples per period of the first mode.
+    /// Number of samples per period of the first mode.
     pub samples_per_cycle: u32,
 }
 
-/// The frequencies of a free motion.
+/// Frequencies of a free motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
     /// Rate of the stroke right after the impulse (rad/s).
     pub stroke_rate: f64,
-    /// The damped sine that fits the signal that the impulse excites best, if there is one.
+    /// Best fit of a damped sine to the signal that the impulse excites, if there is one.
     pub fit: Option<DampedSine>,
-    /// The highest peaks of the spectra of the model's [free signals](Experiments::free_signals), with the signals' names.
+    /// Highest peaks of the spectra of the model's [free signals](Experiments::free_signals), with the signals'
+    /// names.
     pub spectra: Vec<(&'static str, Vec<SpectrumPeak>)>,
 }
 
-/// The rate (rad/s) that an impulse gives the stroke, from the amplitude (rad) of the first mode alone, undamped.
+/// Returns the stroke rate (rad/s) after an impulse that gives an undamped first mode this `amplitude` (rad).
 ///
 /// # Errors
-/// [`Invalid`] if the first mode does not swing: without a spring there is no frequency.
+/// [`Invalid`] if the first mode has no frequency, for lack of a spring.
 pub fn stroke_rate(modes: &[Mode], amplitude: f64) -> Result<f64, Invalid> {
     let Mode { name, frequency } = first(modes)?;
     if frequency.is_finite() && frequency > 0.0 {
         return Ok(TAU * frequency * amplitude);
     }
     Err(Invalid::new(format!(
-        "{name} has a frequency of {frequency} Hz, which an impulse cannot be sized by"
+        "{name} has a frequency of {frequency} Hz, so the size of the impulse is undefined"
     )))
 }
 
-/// The first mode.
+/// Returns the first mode.
 ///
 /// # Errors
-/// [`Invalid`] if there is none.
+/// [`Invalid`] if there is no mode.
 pub fn first(modes: &[Mode]) -> Result<Mode, Invalid> {
     modes.first().copied().ok_or_else(|| Invalid::new("the model has no natural frequencies"))
 }
 
-/// Gives a point's stroke an impulse and looks for the frequencies of the motion that follows.
+/// Applies an impulse to a point's stroke and computes the frequencies of the motion after it.
 ///
 /// # Errors
-/// [`Unfinished`] if it is interrupted, the values are impossible together, the request is, or the motion fails on the
-/// way.
+/// [`Unfinished`] if the run is interrupted, the values or the request are impossible, or the motion fails.
 pub fn examine(
     model: &dyn Experiments,
     run: &PointRun<'_>,
@@ -91,19 +91,19 @@ pub fn examine(
     let (interval, motion) = sampled(request.spectrum_window)?;
     let spectrum = |signal: &Signal| {
         let mut samples = column(&motion, &signal.column())?;
-        // The window holds whole intervals: its last sample is the first of the next.
+        // The window consists of whole intervals, so the last sample belongs to the next interval.
         samples.pop();
         Ok::<_, Invalid>((signal.name, Spectrum::of(interval, &samples).peaks(PEAKS)))
     };
     Ok(FreeMotion { stroke_rate, fit, spectra: signals.iter().map(spectrum).collect::<Result<_, _>>()? })
 }
 
-/// The number of intervals into which a motion of `duration` (s) is cut, for at least `rate` samples per second.
+/// Returns the number of intervals of a motion of `duration` (s), for at least `rate` samples per second.
 ///
 /// # Errors
-/// [`Invalid`] if there is nothing to cut, or it gives too many.
+/// [`Invalid`] if there are no intervals or too many.
 pub fn intervals(duration: f64, rate: f64) -> Result<u32, Invalid> {
-    // A product that is a whole number but for rounding is that number.
+    // A product that is a whole number except for rounding counts as this number.
     let intervals = (duration * rate * (1.0 - 1e-12)).ceil();
     if intervals >= 1.0 && intervals <= f64::from(INTERVALS_MAX) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "just checked")]
@@ -115,7 +115,7 @@ pub fn intervals(duration: f64, rate: f64) -> Result<u32, Invalid> {
     )))
 }
 
-/// A column of a motion.
+/// Returns a column of a motion.
 fn column(motion: &Trajectory, name: &str) -> Result<Vec<f64>, Invalid> {
     let index = motion.columns.iter().position(|column| column == name);
     let index = index.ok_or_else(|| Invalid::new(format!("the model has no signal {name}")))?;

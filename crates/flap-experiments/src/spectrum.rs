@@ -1,14 +1,15 @@
-//! The amplitude spectrum of a sampled motion, and its peaks.
+//! Amplitude spectrum of a sampled motion, and its peaks.
 
 use core::f64::consts::PI;
 
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
-/// Zeros appended, in lengths of the motion less one: bins are this many times closer than the motion can resolve.
+/// Length of the motion padded with zeros, in lengths of the motion. Bins are closer than its resolution by this
+/// factor.
 const PADDING: usize = 8;
 
-/// Peaks lower than this share of the largest are not looked for.
+/// Smallest peak, relative to the largest peak.
 const LOWEST: f64 = 1e-3;
 
 /// A peak of an amplitude spectrum.
@@ -16,14 +17,14 @@ const LOWEST: f64 = 1e-3;
 pub struct SpectrumPeak {
     /// Frequency (Hz).
     pub frequency: f64,
-    /// Amplitude, in the unit of the samples: that of a steady sine of this frequency which fills the window.
+    /// Amplitude, in the unit of the samples, of a steady sine of this frequency over the whole window.
     pub amplitude: f64,
 }
 
-/// The amplitude spectrum of a motion, through a rectangular window and padded with zeros to eight times its length.
+/// Amplitude spectrum of a motion with a rectangular window, padded with zeros to eight times its length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    /// Distance between bins (Hz); the first is at 0 Hz.
+    /// Distance between bins (Hz). The first bin is at 0 Hz.
     pub bin: f64,
     /// Distance between the samples (s).
     pub interval: f64,
@@ -34,7 +35,7 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// The spectrum of samples `interval` seconds apart.
+    /// Returns the spectrum of samples `interval` seconds apart.
     pub fn of(interval: f64, samples: &[f64]) -> Spectrum {
         let count = samples.len();
         let mut padded = samples.to_vec();
@@ -43,7 +44,7 @@ impl Spectrum {
         if count > 0 {
             let transform = RealFftPlanner::new().plan_fft_forward(padded.len());
             bins = transform.make_output_vec();
-            // The lengths fit each other by construction.
+            // The lengths are equal by construction, so this error does not occur.
             if transform.process(&mut padded, &mut bins).is_err() {
                 bins.clear();
             }
@@ -58,10 +59,10 @@ impl Spectrum {
         }
     }
 
-    /// The highest peaks, at most `count`, the highest first, each refined by the parabola through the bins around it.
+    /// Returns at most `count` peaks, the highest first. A parabola through three bins gives frequency and amplitude.
     ///
-    /// A window that cuts a motion short surrounds each peak with side lobes and ripples. A top is a peak only if it stands
-    /// out from the ground towards each higher peak by more than these can.
+    /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is higher
+    /// than these, relative to the minimum between it and each higher peak.
     pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();
@@ -76,7 +77,7 @@ impl Spectrum {
             }
             let refined = self.refined(top);
             let leaked: f64 = peaks.iter().map(|(_, peak)| self.leaked(peak, refined.frequency)).sum();
-            // A ripple goes down by as much as it goes up.
+            // A ripple lowers the spectrum by as much as it raises it, hence the factor 2.
             if peaks.iter().all(|(higher, _)| self.height_towards(top, *higher) > 2.0 * leaked) {
                 peaks.push((top, refined));
             }
@@ -84,8 +85,9 @@ impl Spectrum {
         peaks.into_iter().map(|(_, peak)| peak).collect()
     }
 
-    /// The height of a top above the lowest ground between it and the next higher amplitude, in the direction of a higher
-    /// peak.
+    /// Returns the height of a local maximum above the lowest amplitude on the way to a higher peak.
+    ///
+    /// The way ends at the next amplitude that exceeds the local maximum.
     fn height_towards(&self, top: usize, higher: usize) -> f64 {
         let height = self.amplitudes[top];
         let lowest = |ground: &mut dyn Iterator<Item = &f64>| {
@@ -99,7 +101,7 @@ impl Spectrum {
         height - lowest
     }
 
-    /// The vertex of the parabola through a top and its neighbours.
+    /// Returns the vertex of the parabola through a local maximum and its neighbours.
     fn refined(&self, top: usize) -> SpectrumPeak {
         let [before, at, after] = [top - 1, top, top + 1].map(|i| self.amplitudes[i]);
         let slope = 0.5 * (after - before);
@@ -108,8 +110,9 @@ impl Spectrum {
         SpectrumPeak { frequency: self.bin * (top as f64 + shift), amplitude: at + 0.5 * slope * shift }
     }
 
-    /// The largest amplitude that a peak of amplitude A can add at a distance d in frequency: A/(N sin πdΔ) for N samples
-    /// at distances Δ, and the same for its mirror image at negative frequencies.
+    /// Returns the largest side lobe of a peak of amplitude A at a distance d in frequency: A/(N sin πdΔ).
+    ///
+    /// N is the number of samples and Δ their distance. The peak's mirror image at negative frequencies is included.
     fn leaked(&self, peak: &SpectrumPeak, frequency: f64) -> f64 {
         let of = |distance: f64| {
             peak.amplitude / (self.samples as f64 * libm::sin(PI * distance * self.interval).abs())

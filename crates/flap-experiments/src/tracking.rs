@@ -1,11 +1,11 @@
 //! Stroke and pitch from points tracked in images of a flapping wing.
 //!
-//! Ozaki and Hamaguchi 2018, section 3.2 and (42), (43). Points are in the image's plane, which the stroke axis
-//! crosses at right angles; any unit of length.
+//! Ozaki and Hamaguchi 2018, section 3.2 and (42), (43). Points are in the image plane, which is perpendicular to the
+//! stroke axis. Any unit of length is allowed.
 
 use flap_core::parameter::Invalid;
 
-/// A tracked wing in one image: root and tip of its leading edge.
+/// Leading edge of a wing in one image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeadingEdge {
     /// Root (x, y).
@@ -15,28 +15,29 @@ pub struct LeadingEdge {
 }
 
 impl LeadingEdge {
-    /// Unit vector from root to tip; not a number if they coincide.
+    /// Returns the unit vector from root to tip; NaN if both coincide.
     fn direction(&self) -> [f64; 2] {
         let [x, y] = [self.tip[0] - self.root[0], self.tip[1] - self.root[1]];
         let length = libm::hypot(x, y);
         [x / length, y / length]
     }
 
-    /// Stroke angle (rad): that of the line from root to tip against the x-axis.
+    /// Returns the stroke (rad): the angle between the line from root to tip and the x-axis.
     pub fn stroke(&self) -> f64 {
         let [x, y] = self.direction();
         libm::atan2(y, x)
     }
 
-    /// Distance of a point from the leading edge's line, positive to its left.
+    /// Returns the distance of a point from the line of the leading edge, positive to its left.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let [x, y] = self.direction();
         x * (point[1] - self.root[1]) - y * (point[0] - self.root[0])
     }
 }
 
-/// Pitch angle (rad) of a wing whose lower edge appears at a `distance` from its leading edge, where the chord is
-/// `chord` long, (42).
+/// Returns the pitch (rad) of a wing with its lower edge at a projected `distance` from its leading edge, (42).
+///
+/// `chord` is the length of the chord at this position.
 ///
 /// ```text
 /// ψ = arcsin(d/c_edge)
@@ -45,20 +46,20 @@ impl LeadingEdge {
 /// The pitch has the sign of the distance.
 ///
 /// # Errors
-/// If the distance is longer than the chord, or the chord is not a positive number.
+/// If the distance is larger than the chord, or the chord is not a positive number.
 pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> {
     if !(chord.is_finite() && chord > 0.0) {
         return Err(Invalid::new(format!("the chord must be more than zero, not {chord}")));
     }
     if distance.is_nan() || distance.abs() > chord {
         return Err(Invalid::new(format!(
-            "the lower edge appears {distance} away from the leading edge, which is more than the chord of {chord}"
+            "the lower edge is at a distance of {distance} from the leading edge, which is more than the chord of {chord}"
         )));
     }
     Ok(libm::asin(distance / chord))
 }
 
-/// The point nearest to the lines of all leading edges: the centre of the stroke's rotation, (43).
+/// Returns the centre of the stroke's rotation, (43): the point closest to the lines of all leading edges.
 ///
 /// ```text
 /// minimise over p: Σ |e_i × (p − p_tip,i)|²     e_i = (p_root,i − p_tip,i)/|p_root,i − p_tip,i|
@@ -84,10 +85,10 @@ pub fn rotation_centre(edges: &[LeadingEdge]) -> Result<[f64; 2], Invalid> {
     }
     let determinant = xx * yy - xy * xy;
     let count = edges.len() as f64;
-    // The determinant of n lines that differ by an angle of δ is about (n δ/2)².
+    // The determinant for n lines whose directions differ by an angle of δ is about (n δ/2)².
     if edges.len() < 2 || determinant <= 1e-12 * count * count {
         return Err(Invalid::new(
-            "the leading edges are parallel: a centre of rotation needs two images at different strokes",
+            "the leading edges are parallel: the centre of rotation requires two images at different strokes",
         ));
     }
     Ok([(yy * right_x - xy * right_y) / determinant, (xx * right_y - xy * right_x) / determinant])

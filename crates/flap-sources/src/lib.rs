@@ -5,17 +5,18 @@ use std::{env, fs, io};
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// Packages whose code decides bytes of rows.
+/// Packages whose code affects the bytes of rows.
 const PACKAGES: [&str; 8] =
     ["chacha20", "fearless_simd", "itoa", "libm", "nalgebra", "rand", "rand_core", "zmij"];
 
-/// The lock file: a published package has one of its own, this repository one for all.
+/// Possible lock files: of a published package, and of the repository.
 const LOCKS: [&str; 2] = ["Cargo.lock", "../../Cargo.lock"];
 
-/// Prints the hash of the package that is being built, for cargo: as `FLAP_SOURCES`, in 16 hexadecimal digits.
+/// Prints the hash of the current package for cargo, as the environment variable `FLAP_SOURCES` of 16 hexadecimal
+/// digits.
 ///
 /// # Errors
-/// A source or the lock file cannot be read.
+/// The error of the operating system if a source or the lock file cannot be read.
 #[expect(clippy::print_stdout, reason = "a build script talks to cargo so")]
 pub fn print() -> io::Result<()> {
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
@@ -32,7 +33,8 @@ pub fn print() -> io::Result<()> {
     Ok(())
 }
 
-/// The lines `name version` of the packages that decide bytes of rows, in the order of a lock file: that of the names.
+/// Returns the lines `name version` of the packages that affect rows, in the order of a lock file, which is
+/// alphabetical.
 pub fn versions(lock: &str) -> Vec<String> {
     let value = |line: Option<&str>, key: &str| {
         let value = line?.strip_prefix(key)?.strip_prefix(" = \"")?.strip_suffix('"')?;
@@ -46,10 +48,10 @@ pub fn versions(lock: &str) -> Vec<String> {
     lock.split("[[package]]").filter_map(version).collect()
 }
 
-/// The hash of all Rust files in `folder`, and of the `versions` of other packages.
+/// Returns the hash of all Rust files in `folder` and of the `versions` of other packages.
 ///
 /// # Errors
-/// A file cannot be read.
+/// The error of the operating system if a file cannot be read.
 pub fn hash(folder: &Path, versions: &[String]) -> io::Result<u64> {
     let mut files = Vec::new();
     list(folder, "", &mut files)?;
@@ -59,7 +61,7 @@ pub fn hash(folder: &Path, versions: &[String]) -> io::Result<u64> {
         let text = fs::read_to_string(path)?;
         hash.update(name.as_bytes());
         for line in text.lines() {
-            // No line begins with what ends the one before.
+            // A separator that no line contains.
             hash.update(b"\n");
             hash.update(line.as_bytes());
         }
@@ -69,7 +71,7 @@ pub fn hash(folder: &Path, versions: &[String]) -> io::Result<u64> {
     Ok(hash.digest())
 }
 
-/// Adds the files in `folder` and below with their names as seen from the first folder, with `/` on every system.
+/// Adds the files in `folder` and its subfolders, with their relative names. Names use `/` on every system.
 fn list(folder: &Path, name: &str, files: &mut Vec<(String, PathBuf)>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;

@@ -1,4 +1,4 @@
-//! The text of input files: files of limited size, which end.
+//! Text of input files, with a limit on their size.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
@@ -6,13 +6,14 @@ use std::path::Path;
 
 use crate::notation::text::position;
 
-/// Most bytes of a file that people write or an instrument records: grids, devices, outlines, waveforms, motions, points in images.
+/// Largest number of bytes of a file written by a person or an instrument: grids, devices, outlines, waveforms,
+/// motions, image points.
 pub const MOST_BYTES: u64 = 16 << 20;
 
-/// Most bytes of a file that programs write: lists of points, sidecars.
+/// Largest number of bytes of a file written by a program: lists of points, sidecars.
 pub const MOST_LISTED: u64 = 256 << 20;
 
-/// The reason why a file has no text to be used.
+/// Reason for an unusable input file.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
     /// There is no such file.
@@ -21,13 +22,13 @@ pub enum InputError {
     /// The path is a folder.
     #[error("this is a folder, not a file")]
     Folder,
-    /// The path is a device, a named pipe or a socket, which may never end.
-    #[error("this is a device or a pipe, which may never end, not a file")]
+    /// The path is a device, a named pipe or a socket, which may be endless.
+    #[error("this is a device or a pipe, not a file")]
     Endless,
     /// The file is too large.
-    #[error("the file has more than {} MiB, the most that it may have", .0 >> 20)]
+    #[error("the file is too large: at most {} MiB are allowed", .0 >> 20)]
     TooLarge(u64),
-    /// The operating system refuses to read the file.
+    /// The operating system cannot read the file.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
     /// The file is not text.
@@ -35,14 +36,14 @@ pub enum InputError {
     NotUtf8 {
         /// Offset of the first byte that is not UTF-8, from 0.
         byte: usize,
-        /// Its line, from 1.
+        /// Line of this byte, from 1.
         line: usize,
-        /// Its column in characters, from 1.
+        /// Column of this byte in characters, from 1.
         column: usize,
     },
 }
 
-/// The error of the operating system, or [`io::ErrorKind::InvalidData`] with the reason.
+/// Converts to the error of the operating system, or to [`io::ErrorKind::InvalidData`] with the reason.
 impl From<InputError> for io::Error {
     fn from(error: InputError) -> io::Error {
         let kind = match error {
@@ -57,27 +58,29 @@ impl From<InputError> for io::Error {
     }
 }
 
-/// The text of the file at `path`, which has at most `most` bytes.
+/// Returns the text of the file at `path`, which may have at most `most` bytes.
 ///
 /// # Errors
-/// [`InputError`] if the path is no file, or the file is too large, cannot be read or is not text.
+/// [`InputError`] if the path is not a file, or the file is too large, unreadable or not text.
 pub fn text(path: &Path, most: u64) -> Result<String, InputError> {
     of_bytes(beginning(open(path)?, most)?, most)
 }
 
-/// The bytes of the file at `path`, which are at most `most`.
+/// Returns the bytes of the file at `path`, at most `most`.
 ///
 /// # Errors
-/// [`InputError`] if the path is no file, or the file is too large or cannot be read.
+/// [`InputError`] if the path is not a file, or the file is too large or unreadable.
 pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
     within(beginning(open(path)?, most)?, most)
 }
 
-/// The file at `path`. A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) counts as a file: its writer ends
-/// with the command line.
+/// Opens the file at `path`.
+///
+/// A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) counts as a file, because it ends with
+/// the command line.
 ///
 /// # Errors
-/// [`InputError`] if the path is no file, or cannot be opened.
+/// [`InputError`] if the path is not a file, or cannot be opened.
 pub fn open(path: &Path) -> Result<File, InputError> {
     let metadata = fs::metadata(path).map_err(|cause| match cause.kind() {
         io::ErrorKind::NotFound => InputError::Missing,
@@ -92,7 +95,7 @@ pub fn open(path: &Path) -> Result<File, InputError> {
     File::open(path).map_err(InputError::Unreadable)
 }
 
-/// All bytes of `source`; of more than `most`, the first `most + 1`.
+/// Returns all bytes of `source`, or the first `most + 1` if there are more.
 ///
 /// # Errors
 /// [`InputError::Unreadable`] if the source cannot be read.
@@ -102,7 +105,7 @@ pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
-/// The text that [`beginning`] has read.
+/// Returns the text of the bytes from [`beginning`].
 ///
 /// # Errors
 /// [`InputError`] if there are more than `most` bytes, or they are not text.

@@ -1,19 +1,19 @@
 #![doc = include_str!("../README.md")]
 //!
-//! # Rooms
+//! # Modules
 //!
-//! Each room uses only those above it:
+//! Each module uses only modules above it:
 //!
 //! - [`notation`]: numbers, units, times and formulas as text
-//! - [`input`]: the text of input files, which have a largest size
-//! - [`resonance`]: rows of designs that are each run at their own resonance
+//! - [`input`]: text of input files, with a limit on their size
+//! - [`resonance`]: rows of designs, each at its own resonance
 //! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections
-//! - [`table`]: the columns of rows, rows as text, formats of files
-//! - [`picture`]: the choices that pictures of the command and of Python share
-//! - [`grid`]: grid files into plans, with diagnostics
-//! - [`run`]: the parallel runner, which hands rows to sinks in point order
-//! - [`study`]: response curves, deviations of parameters, strongest parameters, surveys of a plan
-//! - [`files`]: result files: formats, sidecars, journals, checksums; resumed, merged, run again
+//! - [`table`]: columns of rows, rows as text, formats of files
+//! - [`picture`]: choices that the pictures of the command and of Python share
+//! - [`grid`]: grid files to plans, with diagnostics
+//! - [`run`]: the parallel runner, which passes rows to sinks in the order of the points
+//! - [`study`]: response curves, deviations of parameters, most important parameters, surveys of a plan
+//! - [`files`]: result files: formats, sidecars, journals, checksums; resuming, merging, running again
 
 pub mod files;
 pub mod grid;

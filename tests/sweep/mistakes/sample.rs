@@ -94,11 +94,11 @@ hinge_stiffness = 5
 10:28 |-1| `drive_frequency` must be more than zero, not -1 Hz
 10:40 |V| `V` is a voltage, but `drive_frequency` is in Hz
   help: use Hz, kHz
-11:33 |"5 %"| `relative_sd` must come to more than zero, not 0
+11:33 |"5 %"| `relative_sd` must give a standard deviation of more than zero, not 0
   help: the mean is zero: give `sd` in the unit of the parameter
 12:28 |relative_sd| a normal distribution takes `sd` or `relative_sd`, not both
   help: keep one of them
-13:15 |{ relative_sd = "5 %" }| `plate_width` has no value of its own to be the mean
+13:15 |{ relative_sd = "5 %" }| `plate_width` is not set, so it has no value for the mean
   help: give the distribution a `mean`
 14:8 |{ from = 0, to = 1 }| `arms` is a choice and has no such distribution
   help: list the options to choose from at random, such as ["printed", "axis"]
@@ -120,7 +120,7 @@ hinge_position = { mean = 1, scale = "log" }
 drive_frequency = { mean = 1, form = 2 }
 "#,
         r#"
-6:13 |{ mean = 1, sd = 0.1, from = 9 }| nothing of the normal distribution lies between `from` and `to`
+6:13 |{ mean = 1, sd = 0.1, from = 9 }| the normal distribution has no values between `from` and `to`
 7:17 |{ from = -1, to = 1, scale = "log" }| a logarithmic scale needs ends that are not zero and have the same sign
 8:30 |scale| a normal distribution has no `scale`
   help: remove it, or give `from` and `to` alone

@@ -1,4 +1,6 @@
-//! The chord of a wing as a table, for wings that no polynomial describes.
+//! The chord of a wing as a table.
+//!
+//! Use it for wings whose chord no polynomial describes.
 
 use super::wing::Outline;
 use crate::parameter::Invalid;
@@ -11,17 +13,17 @@ pub const STATIONS: usize = 11;
 crate::choice! {
     /// Use of the table.
     pub enum Tabulated {
-        /// The chord is that of the model's own shape.
+        /// The model's own chord shape.
         Off = "off",
-        /// The chord is that of the table.
+        /// The table of chords.
         On = "on",
     }
 }
 
 crate::parameters! {
-    /// The chord at stations along the span, straight between them.
+    /// Chords at stations along the span, interpolated linearly in between.
     pub struct ChordTable {
-        /// Chord of the wing: by the model's own shape, or by the table chord_0 to chord_10.
+        /// Source of the wing's chord: the model's own shape, or the table chord_0 to chord_10.
         chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
         /// Chord at 0 % of the wing's length, the root. Only for chord_table = "on".
         chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
@@ -49,14 +51,14 @@ crate::parameters! {
 }
 
 impl ChordTable {
-    /// A table of chords (m).
+    /// Returns a table of chords (m), one per station from root to tip.
     pub fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
         let mut values = vec![f64::from(chord_table as u8)];
         values.extend(chords);
         ChordTable::from_values(&values)
     }
 
-    /// No table.
+    /// Returns a table that is switched off.
     pub(crate) fn off() -> ChordTable {
         ChordTable::new(Tabulated::Off, [0.0; STATIONS])
     }
@@ -66,12 +68,12 @@ impl ChordTable {
         self.to_values().split_off(1)
     }
 
-    /// True if the table is to be used.
+    /// Returns true if the model reads its chord from the table.
     pub(crate) fn is_on(&self) -> bool {
         self.chord_table == Tabulated::On
     }
 
-    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is not used.
+    /// Returns the chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is off.
     pub(crate) fn chord(&self, x: f64) -> Option<f64> {
         if !self.is_on() {
             return None;
@@ -83,29 +85,29 @@ impl ChordTable {
         Some(chords[before] + share * (chords[before + 1] - chords[before]))
     }
 
-    /// The mean chord (m) of the table.
+    /// Returns the mean chord (m) of the table.
     pub fn mean(&self) -> f64 {
         let chords = self.chords();
         let ends = 0.5 * (chords[0] + chords[STATIONS - 1]);
         (ends + chords[1..STATIONS - 1].iter().sum::<f64>()) / (STATIONS - 1) as f64
     }
 
-    /// Refuses a table without a chord.
+    /// Checks that the table contains a chord.
     ///
     /// # Errors
-    /// [`Invalid::Together`] if the table is used and all of it is zero.
+    /// [`Invalid::Together`] if the table is on and all its chords are zero.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.is_on() && self.mean() <= 0.0 {
             return Err(Invalid::together(
                 &["chord_table", "chord_0", "chord_5", "chord_10"],
-                "chord_table is \"on\", but chord_0 to chord_10 are all zero: `flap device wing OUTLINE.csv` writes them",
+                "chord_table is \"on\", but chord_0 to chord_10 are all zero: set them, for example with `flap device wing OUTLINE.csv`",
             ));
         }
         Ok(())
     }
 }
 
-/// The parameters of the table for an outline, switched on.
+/// Returns the parameters of the table for an outline, with the table switched on.
 pub(crate) fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
     for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {

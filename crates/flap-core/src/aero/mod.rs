@@ -1,4 +1,4 @@
-//! Aerodynamics that models share: the wing as a row of strips, its chord as a table, its outline and mass.
+//! Aerodynamics that several models use: strips of the wing, the chord table, the wing's outline and mass.
 
 mod chord_table;
 mod strips;

@@ -1,4 +1,4 @@
-//! The wing as a row of strips, and the sums over them.
+//! Strips of a wing, and sums over them.
 
 use crate::num::{Lanes, PerLane, Real};
 use crate::parameter::Invalid;
@@ -15,8 +15,10 @@ pub(crate) struct Cut {
     pub(crate) width: f64,
 }
 
-/// Cuts a wing of a `length` (m), which begins at `offset` (m), into strips at the nodes of a rule. `chord` is that (m) at a
-/// place from 0 at the root to 1 at the tip.
+/// Cuts a wing of this `length` (m) into one strip for each node of a quadrature rule.
+///
+/// The wing begins at the distance `offset` (m) from the stroke axis. `chord` returns the chord (m) at a position
+/// from 0 at the root to 1 at the tip.
 pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -> f64) -> Vec<Cut> {
     let cut = |node: &Node| Cut {
         radius: offset + length * node.x,
@@ -26,7 +28,7 @@ pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -
     rule.iter().map(cut).collect()
 }
 
-/// Refuses a chord that is negative somewhere. `parameters` describe it, in the order of their numbers.
+/// Checks that no chord is negative. `parameters` are the names of the chord's parameters, for the error message.
 pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) -> Result<(), Invalid> {
     let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
@@ -34,7 +36,7 @@ pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) ->
     Err(Invalid::together(
         parameters,
         format!(
-            "the chord is negative {place} m from the stroke axis: {first} to {last} do not describe a wing"
+            "the chord is negative {place} m from the stroke axis: {first} to {last} must give a chord of zero or more"
         ),
     ))
 }
@@ -44,20 +46,22 @@ pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
     cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
 }
 
-/// The strips of a wing, of which there are at most `MAX`.
+/// The strips of a wing, at most `MAX`.
 ///
-/// All lanes run through as many strips as the one that has the most. A strip that a lane does not have weighs nothing:
-/// it adds zeros, which change no bit of the sums.
+/// All lanes loop over as many strips as the lane that has the most. Surplus strips have weight zero: they add zeros,
+/// which change no bit of the sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,
-    /// √a r and √a κc, the weighted velocities per stroke rate and per sweep rate, with a = ½ρcΔr; radius r and chord c (m).
+    /// √a r and √a κc: weighted velocities per stroke rate and per sweep rate, with a = ½ρcΔr. Then radius r and
+    /// chord c (m).
     strips: [[R; 4]; MAX],
 }
 
 impl<const MAX: usize> Strips<f64, MAX> {
-    /// The strips of a wing in air of a density (kg/m³); at most `MAX`. The velocity is taken κ chords (`lever`)
-    /// from the axis of pitch.
+    /// Returns the strips of a wing in air of this density (kg/m³); at most `MAX`.
+    ///
+    /// The velocity of a strip is taken `lever` chords (κ) from the pitch axis.
     pub(crate) fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
         let mut strips = [[0.0; 4]; MAX];
         for (strip, &Cut { radius, chord, width }) in strips.iter_mut().zip(cuts) {
@@ -80,13 +84,14 @@ pub struct StripSums<R> {
 }
 
 impl<R: Real, const MAX: usize> Strips<R, MAX> {
-    /// The sums at a stroke rate and a sweep rate, which is the pitch rate times the cosine of the pitch.
+    /// Returns the sums at a stroke rate and a sweep rate, both in rad/s. The sweep rate is the pitch rate times the
+    /// cosine of the pitch.
     ///
     /// ```text
     /// u = r · stroke rate + κ c · sweep rate
     /// ```
     ///
-    /// As every term carries u|u|, the sums serve both directions of flow at once, strip by strip.
+    /// Every term contains u|u|, so one sum covers both directions of flow, strip by strip.
     #[inline(always)]
     pub fn sums(&self, stroke_rate: R, sweep_rate: R) -> StripSums<R> {
         let zero = stroke_rate.lit(0.0);

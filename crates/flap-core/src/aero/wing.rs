@@ -1,8 +1,8 @@
-//! A wing of one's own: integrals over an outline and its mass.
+//! A user-defined wing: integrals over its outline and its mass.
 
 use crate::quadrature::gauss_legendre;
 
-/// The outline at a distance from the wing's root (m).
+/// One station of the outline (m).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Distance from the root along the span.
@@ -13,16 +13,16 @@ pub struct Station {
     pub trailing: f64,
 }
 
-/// Stations that are no outline.
+/// Error in the stations of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// An outline has at least two stations.
+    /// Fewer than two stations.
     #[error("an outline has at least two stations, not {0}")]
     TooFew(usize),
-    /// The stations do not begin at the root.
+    /// The first station is not at the root.
     #[error("the first station is at {0} m along the span: an outline begins at 0, the wing's root")]
     NotAtRoot(f64),
-    /// The stations do not go outwards.
+    /// The stations are not in order of increasing distance from the root.
     #[error("station {0} is not farther out than the one before")]
     NotOutwards(usize),
     /// The chord is negative.
@@ -33,37 +33,37 @@ pub enum OutlineError {
     NoArea,
 }
 
-/// The outline of a wing, straight between stations.
+/// The outline of a wing, with straight edges between stations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     stations: Vec<Station>,
 }
 
-/// The mass of a wing: a membrane of uniform areal density, and a spar along the leading edge.
+/// The material of a wing: a membrane of uniform areal density and a spar along the leading edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
     /// Areal density of the membrane (kg/m²).
     pub membrane: f64,
     /// Mass of the spar per length (kg/m).
     pub spar: f64,
-    /// Mass of the whole wing as weighed (kg), to which both are scaled; `None` if they are taken as they are.
+    /// Mass of the whole wing (kg), if it was weighed. Membrane and spar are then scaled to this mass.
     pub weighed: Option<f64>,
 }
 
-/// A wing, and the air around it.
+/// A wing and the density of the air around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wing {
     /// Its outline.
     pub outline: Outline,
     /// Distance of its root from the stroke axis (m).
     pub offset: f64,
-    /// Its mass, if that is known.
+    /// Mass distribution, if it is known.
     pub material: Option<Material>,
     /// Density of the air (kg/m³).
     pub air_density: f64,
 }
 
-/// Mass, and moments of mass about the stroke axis (r) and the hinge's axis (z, positive behind it).
+/// Mass and moments of mass. Distances are r from the stroke axis and z behind the hinge's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Masses {
     /// ∫ dm (kg).
@@ -81,7 +81,7 @@ pub struct Masses {
 }
 
 impl Masses {
-    /// [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm] about the centre of mass (kg·m²).
+    /// Returns the moments about the centre of mass (kg·m²): [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm].
     pub(crate) fn about_centre(&self) -> [f64; 3] {
         let Masses { mass, radius, depth, rr, rz, zz } = *self;
         [rr - mass * radius * radius, rz - mass * radius * depth, zz - mass * depth * depth]
@@ -89,10 +89,10 @@ impl Masses {
 }
 
 impl Outline {
-    /// The outline through stations that go outwards from the root.
+    /// Returns the outline through `stations`, in order of increasing distance from the root.
     ///
     /// # Errors
-    /// [`OutlineError`] if they do not, or if they are no wing.
+    /// [`OutlineError`] if the stations are out of order or enclose no area.
     pub fn new(stations: Vec<Station>) -> Result<Outline, OutlineError> {
         let [first, .., _] = stations[..] else { return Err(OutlineError::TooFew(stations.len())) };
         if first.span != 0.0 {
@@ -112,12 +112,13 @@ impl Outline {
         }
     }
 
-    /// Distance from root to tip (m).
+    /// Returns the distance from root to tip (m).
     pub fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1].span
     }
 
-    /// Leading and trailing edge (m), as in [`Station`], at a distance from the root (m) within the wing.
+    /// Returns the positions of leading and trailing edge (m), as in [`Station`]. `span` is the distance from the
+    /// root (m).
     fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);
@@ -126,12 +127,12 @@ impl Outline {
         [a.leading + share * (b.leading - a.leading), a.trailing + share * (b.trailing - a.trailing)]
     }
 
-    /// The chord (m) at a distance from the root (m).
+    /// Returns the chord (m) at a distance from the root (m).
     pub(crate) fn chord(&self, span: f64) -> f64 {
         self.edges(span).iter().sum()
     }
 
-    /// Largest distance from the hinge's axis (m).
+    /// Returns the largest distance of an edge from the hinge's axis (m).
     pub fn width(&self) -> f64 {
         self.stations
             .iter()
@@ -139,12 +140,12 @@ impl Outline {
             .fold(0.0, f64::max)
     }
 
-    /// ∫ f(span, leading, trailing) d span: exact where f is a polynomial of at most 11th degree.
+    /// Returns ∫ f(span, leading, trailing) d span. The result is exact if f is a polynomial of degree 11 or less.
     pub(crate) fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
         self.lengths(|span, leading, trailing, _| f(span, leading, trailing))
     }
 
-    /// The same with the length of the leading edge per span as another argument.
+    /// Returns the same integral with another argument of f: the length of the leading edge per span.
     fn lengths(&self, f: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let rule = gauss_legendre(6);
         let piece = |ends: &[Station]| {
@@ -162,24 +163,24 @@ impl Outline {
 }
 
 impl Wing {
-    /// Area (m²).
+    /// Returns the area (m²).
     pub fn area(&self) -> f64 {
         self.outline.integral(|_, leading, trailing| leading + trailing)
     }
 
-    /// ∫ rⁿ c d span, r being the distance from the stroke axis (m^(n+2)).
+    /// Returns ∫ rⁿ c d span (m^(n+2)), with the distance r from the stroke axis.
     pub(crate) fn area_moment(&self, power: i32) -> f64 {
         self.outline
             .integral(|span, leading, trailing| (self.offset + span).powi(power) * (leading + trailing))
     }
 
-    /// ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
+    /// Returns ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
     pub(crate) fn width_moment(&self, power: i32) -> f64 {
         let one_side = |edge: f64| edge.signum() * edge.abs().powi(power + 1) / f64::from(power + 1);
         self.outline.integral(|_, leading, trailing| one_side(leading) + one_side(trailing))
     }
 
-    /// Inertia of the air that moves with the wing about the stroke axis (kg·m²), by strips: ∫ π/4 ρ c² r² d span.
+    /// Returns the added inertia about the stroke axis (kg·m²), by strip theory: ∫ π/4 ρ c² r² d span.
     pub(crate) fn added_inertia(&self) -> f64 {
         let strips = self.outline.integral(|span, leading, trailing| {
             let (chord, radius) = (leading + trailing, self.offset + span);
@@ -188,10 +189,10 @@ impl Wing {
         core::f64::consts::FRAC_PI_4 * self.air_density * strips
     }
 
-    /// Mass and moments of mass, if the material is known.
+    /// Returns mass and moments of mass, if the material is known.
     pub fn masses(&self) -> Option<Masses> {
         let Material { membrane, spar, weighed } = self.material?;
-        // Of a piece of the span: the membrane between the edges, and the spar on the leading edge.
+        // Integrand per span: the membrane between the edges, and the spar on the leading edge.
         let moment = |power_r: i32, power_z: i32| {
             self.outline.lengths(|span, leading, trailing, edge| {
                 let n = power_z + 1;

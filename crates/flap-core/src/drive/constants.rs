@@ -1,11 +1,13 @@
-//! The drive of a point, and the waveforms. All begin to rise through zero (but for harmonics) at the beginning of a period.
+//! The drive of a point, and the waveforms.
+//!
+//! Sine, square wave and chirp begin a period at zero and rise.
 
 use core::f64::consts::PI;
 
 use super::parameters::{Shape, WaveformParameters};
 use crate::num::Real;
 
-/// A quantity at a time: a wave of unit amplitude, a voltage (V), or a prescribed stroke (rad).
+/// A quantity at one time: a wave of unit amplitude, a voltage (V), or a prescribed stroke (rad).
 #[derive(Clone, Copy, Debug)]
 pub struct Wave<R> {
     /// Value.
@@ -17,13 +19,13 @@ pub struct Wave<R> {
 }
 
 impl<R: Real> Wave<R> {
-    /// A quantity whose second derivative does not matter, such as a voltage.
+    /// Returns a quantity without second derivative, such as a voltage.
     #[inline(always)]
     pub fn with_rate(value: R, rate: R) -> Wave<R> {
         Wave { value, rate, bend: value.lit(0.0) }
     }
 
-    /// The quantity `bias + amplitude · self`.
+    /// Returns `bias + amplitude · self`.
     #[inline(always)]
     pub(crate) fn scaled(&self, bias: R, amplitude: R) -> Wave<R> {
         Wave {
@@ -35,7 +37,7 @@ impl<R: Real> Wave<R> {
 }
 
 impl<R> From<[R; 3]> for Wave<R> {
-    /// The quantity with this value, rate and second derivative.
+    /// Returns the quantity with this value, rate and second derivative.
     fn from([value, rate, bend]: [R; 3]) -> Wave<R> {
         Wave { value, rate, bend }
     }
@@ -48,9 +50,9 @@ crate::per_lane! {
         pub bias: R,
         /// Amplitude of the voltage (V), or of the prescribed stroke (rad).
         pub amplitude: R,
-        /// Angular frequency (rad/s); of a chirp, at the beginning.
+        /// Angular frequency (rad/s). For a chirp: at the beginning.
         pub rate: R,
-        /// Rate of change of the angular frequency (rad/s²), zero but for a chirp.
+        /// Rate of change of the angular frequency (rad/s²); zero except for a chirp.
         pub growth: R,
         /// Second harmonic: factors of sin 2θ and cos 2θ.
         pub second: [R; 2],
@@ -66,7 +68,8 @@ crate::per_lane! {
 }
 
 impl DriveConstants<f64> {
-    /// A drive of `frequency` (Hz) with this constant part and amplitude, of a voltage (V) or a prescribed stroke (rad).
+    /// Returns a drive of `frequency` (Hz) with this constant part and amplitude. Units: V for a voltage, rad for a
+    /// prescribed stroke.
     pub fn new(
         frequency: f64,
         waveform: &WaveformParameters,
@@ -94,7 +97,8 @@ impl DriveConstants<f64> {
         constants
     }
 
-    /// A sine in place of the waveform, which begins at `frequency` (Hz) and changes by `rate` (Hz/s).
+    /// Returns the drive with a chirped sine as waveform, which begins at `frequency` (Hz) and changes by `rate`
+    /// (Hz/s).
     #[must_use]
     pub(crate) fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
         let levels = [self.bias, self.amplitude];
@@ -102,31 +106,31 @@ impl DriveConstants<f64> {
         DriveConstants { growth: 2.0 * PI * rate, ..sine }
     }
 
-    /// A voltage (V) that stays as it is.
+    /// Returns the drive with a constant `voltage` (V).
     #[must_use]
     pub(crate) fn still(&self, voltage: f64) -> DriveConstants<f64> {
         DriveConstants { bias: voltage, amplitude: 0.0, rate: 0.0, ..*self }
     }
 
-    /// Length of a period (s).
+    /// Returns the length of a period (s).
     pub fn period(&self) -> f64 {
         2.0 * self.half_period
     }
 
-    /// Frequency (Hz).
+    /// Returns the frequency (Hz).
     pub(crate) fn frequency(&self) -> f64 {
         self.rate / (2.0 * PI)
     }
 
     fn range_of_harmonics(&self) -> [f64; 2] {
-        // Sampled finely enough for five digits: between samples a third harmonic moves by 1e-5 of its size.
+        // 2,000 samples give five digits: between samples a third harmonic changes by 1e-5 of its amplitude.
         let values = (0..2000).map(|i| self.harmonics(self.period() * f64::from(i) / 2000.0).value);
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     }
 }
 
 impl<R: Real> DriveConstants<R> {
-    /// The phase θ (rad) at time `t` (s).
+    /// Returns the phase θ (rad) at time `t` (s).
     #[inline(always)]
     pub fn phase(&self, t: R) -> R {
         (self.growth * t).mul_add(t.lit(0.5), self.rate) * t
@@ -161,7 +165,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Edges at 0, at half the period and at its end, each a sine from −90° to 90°.
+    /// Returns the square wave, with edges at 0, at half the period and at its end. Each edge is a sine from −90° to
+    /// 90°.
     #[inline(always)]
     pub(super) fn square(&self, t: R) -> Wave<R> {
         let zero = t.lit(0.0);
@@ -169,7 +174,7 @@ impl<R: Real> DriveConstants<R> {
         let from_middle = t - self.half_period;
         let first_half = from_middle.lt(zero);
         let level = R::select(first_half, one, -one);
-        // Distance to the nearest edge, and the sign with which it changes over time.
+        // Distance to the nearest edge, and the sign of its rate of change.
         let to_outer = self.half_period - from_middle.abs();
         let to_middle = from_middle.abs();
         let outer_nearer = to_outer.lt(to_middle);
@@ -186,8 +191,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// The next time after `t` at which a derivative of the square wave jumps: its edges begin and end there. Infinite if
-    /// there is none.
+    /// Returns the next time after `t` at which a derivative of the square wave jumps: where an edge begins or ends.
+    /// Infinite if there is none.
     #[inline(always)]
     pub(super) fn next_edge(&self, t: R) -> R {
         let period = self.half_period * 2.0;

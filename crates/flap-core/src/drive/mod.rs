@@ -1,4 +1,4 @@
-//! The drive of a wing: a voltage that follows a waveform, or the stroke itself.
+//! The drive of a wing: a voltage that follows a waveform, or a prescribed stroke.
 //!
 //! A model has a [`Drive`], common to the lanes of an ensemble, and [`DriveConstants`] of each point. Its parameter table
 //! contains [`WaveformParameters`], and [`StrokeParameters`] if its stroke can be prescribed.

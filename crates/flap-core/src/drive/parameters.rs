@@ -16,11 +16,11 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// The quantity that the drive sets.
+    /// Quantity that the drive prescribes.
     pub enum StrokeMode {
         /// The voltage: the stroke follows from the equations of motion.
         Free = "free",
-        /// The stroke itself, which follows the waveform whatever that takes; the pitch answers.
+        /// The stroke: it follows the waveform exactly. Only the pitch follows from the equations of motion.
         Prescribed = "prescribed",
     }
 }
@@ -32,11 +32,11 @@ crate::parameters! {
         drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
         /// Amplitude of the second harmonic relative to the first. Only for drive_shape = "harmonics".
         drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the second harmonic, by which it leads the sine of twice the drive's phase.
+        /// Phase by which the second harmonic leads the sine of twice the drive's phase.
         drive_second_phase: f64 = ("rad", "", Number(Any)),
         /// Amplitude of the third harmonic relative to the first. Only for drive_shape = "harmonics".
         drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase of the third harmonic, by which it leads the sine of three times the drive's phase.
+        /// Phase by which the third harmonic leads the sine of three times the drive's phase.
         drive_third_phase: f64 = ("rad", "", Number(Any)),
         /// Rise and fall time of the square wave, as a fraction of the period, up to 0.5. Only for drive_shape = "square".
         drive_rise: f64 = ("", "", Number(Positive)),
@@ -47,7 +47,7 @@ impl WaveformParameters {
     /// A sine.
     pub const SINE: WaveformParameters = WaveformParameters::new(Shape::Sine);
 
-    /// A waveform without harmonics, whose edges take a twentieth of the period.
+    /// Returns a waveform without harmonics. The edges of a square wave take a twentieth of the period.
     pub const fn new(drive_shape: Shape) -> WaveformParameters {
         WaveformParameters {
             drive_shape,
@@ -61,9 +61,10 @@ impl WaveformParameters {
 }
 
 crate::parameters! {
-    /// Parameters of a stroke that can be prescribed.
+    /// Parameters of a prescribed stroke.
     pub struct StrokeParameters {
-        /// Motion of the stroke: driven by the actuator, or prescribed as stroke_amplitude times the drive's waveform, whatever force that takes. The pitch is free in both.
+        /// Motion of the stroke: driven by the actuator, or prescribed as stroke_amplitude times the drive's waveform
+        /// (the force that this takes is not limited). The pitch is free in both.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
         /// Amplitude of the prescribed stroke. Only for stroke_mode = "prescribed".
         stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
@@ -71,16 +72,16 @@ crate::parameters! {
 }
 
 impl StrokeParameters {
-    /// A stroke that is driven; if it is to be prescribed, by 10°.
+    /// A stroke that is driven by the actuator. The amplitude, 10°, applies if `stroke_mode` is set to prescribed.
     pub const FREE: StrokeParameters =
         StrokeParameters { stroke_mode: StrokeMode::Free, stroke_amplitude: 10.0_f64.to_radians() };
 
-    /// A prescribed stroke of this amplitude (rad).
+    /// Returns a prescribed stroke of this amplitude (rad).
     pub const fn prescribed(stroke_amplitude: f64) -> StrokeParameters {
         StrokeParameters { stroke_mode: StrokeMode::Prescribed, stroke_amplitude }
     }
 
-    /// Constant part and amplitude of the quantity that the drive sets: of the `voltage` (V), or of the prescribed stroke (rad).
+    /// Returns constant part and amplitude of the driven quantity: the `voltage` (V), or the prescribed stroke (rad).
     pub fn levels(&self, voltage: [f64; 2]) -> [f64; 2] {
         match self.stroke_mode {
             StrokeMode::Free => voltage,

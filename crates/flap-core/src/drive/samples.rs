@@ -1,25 +1,25 @@
-//! Waveforms and motions given as samples, joined by a cubic spline.
+//! Waveforms and motions given as samples, interpolated by a cubic spline.
 
 use std::sync::Arc;
 
 use crate::num::Real;
 
-/// The fewest samples of a record.
+/// Smallest number of samples in a record.
 const FEWEST: usize = 4;
 
 /// Continuation of a record after its last sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
-    /// It begins again: the last sample is the first of the next period.
+    /// The record repeats: its last sample is also the first sample of the next period.
     Periodic,
-    /// It ends.
+    /// The record ends.
     Once,
 }
 
-/// Samples that are no record.
+/// Error in the samples of a record.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SamplesError {
-    /// A record has at least four samples.
+    /// Fewer than four samples.
     #[error("{count} samples are too few: a record has at least {FEWEST}")]
     TooFew {
         /// Number of samples.
@@ -28,23 +28,21 @@ pub enum SamplesError {
     /// A time or a value is infinite or not a number.
     #[error("sample {sample} is not a number")]
     NotANumber {
-        /// Number of the sample, from 1.
+        /// Position of the sample, from 1.
         sample: usize,
     },
     /// Times do not increase.
     #[error("times do not increase: sample {sample} is at {time} s, the one before at {before} s")]
     TimesNotIncreasing {
-        /// Number of the later sample, from 1.
+        /// Position of the later sample, from 1.
         sample: usize,
-        /// Its time (s).
+        /// Time of this sample (s).
         time: f64,
         /// Time of the sample before it (s).
         before: f64,
     },
-    /// A periodic record does not end with the value that it begins with.
-    #[error(
-        "a periodic record ends with the value that it begins with: this one begins with {first} and ends with {last}"
-    )]
+    /// First and last value of a periodic record differ.
+    #[error("the first and last value of a periodic record must be equal, not {first} and {last}")]
     NotClosed {
         /// First value.
         first: f64,
@@ -53,10 +51,10 @@ pub enum SamplesError {
     },
 }
 
-/// A record of samples over a time, as a smooth function of the phase from 0 (first sample) to 1 (last sample).
+/// A record of samples as a smooth function of the phase, from 0 (first sample) to 1 (last sample).
 ///
-/// A cubic spline: value, rate and second derivative are continuous, and the second derivative is linear between
-/// samples. Copies share the samples; two records are equal if they are copies.
+/// The function is a cubic spline: value, rate and second derivative are continuous, and the second derivative is
+/// linear between samples. Clones share the samples. Two records are equal only if one is a clone of the other.
 #[derive(Clone, Debug)]
 pub struct Samples(Arc<Record>);
 
@@ -79,12 +77,14 @@ impl PartialEq for Samples {
 }
 
 impl Samples {
-    /// Joins samples at increasing `times` (s).
+    /// Returns the record of samples at increasing `times` (s).
     ///
     /// # Errors
-    /// `TooFew` if there are fewer than four samples, `NotANumber` if a number is not finite, `TimesNotIncreasing` if times
-    /// do not increase, `NotClosed` if a periodic record does not end with the value that it begins with (within a
-    /// thousandth of its range; then it is taken to).
+    /// - `TooFew` if there are fewer than four samples.
+    /// - `NotANumber` if a time or value is not finite.
+    /// - `TimesNotIncreasing` if times do not increase.
+    /// - `NotClosed` if first and last value of a periodic record differ by more than a thousandth of its range. A
+    ///   smaller difference is removed.
     pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, SamplesError> {
         let count = times.len().min(values.len());
         if count < FEWEST {
@@ -112,39 +112,41 @@ impl Samples {
         Ok(Samples(Arc::new(Record { duration, phases, values, mean, bends })))
     }
 
-    /// Time from the first to the last sample (s).
+    /// Returns the time from the first to the last sample (s).
     pub fn duration(&self) -> f64 {
         self.0.duration
     }
 
-    /// Mean value over the duration.
+    /// Returns the mean value over the duration.
     #[inline(always)]
     pub(super) fn mean(&self) -> f64 {
         self.0.mean
     }
 
-    /// Value, first and second derivative at a phase.
+    /// Returns value, first and second derivative at a phase.
     #[inline(always)]
     pub(super) fn at<R: Real>(&self, phase: R) -> [R; 3] {
         self.0.at(phase)
     }
 
-    /// Value, first and second derivative with respect to time (1/s) at `time` (s) after the first sample.
+    /// Returns value, first and second derivative with respect to time (1/s, 1/s²) at `time` (s) after the first
+    /// sample.
     pub fn motion(&self, time: f64) -> [f64; 3] {
         let duration = self.0.duration;
         let [value, rate, bend] = self.0.at(time / duration);
         [value, rate / duration, bend / (duration * duration)]
     }
 
-    /// The smallest and largest sample.
+    /// Returns the smallest and the largest sample.
     pub(super) fn range(&self) -> [f64; 2] {
         range(&self.0.values)
     }
 }
 
 impl Record {
-    /// Value, first and second derivative with respect to phase. Without fused operations: one result for all
-    /// arithmetic classes.
+    /// Returns value, first and second derivative with respect to phase.
+    ///
+    /// The formula uses no fused operations, so all arithmetic classes give the same result.
     #[inline(always)]
     fn at<R: Real>(&self, phase: R) -> [R; 3] {
         let piece = phase.look_up(|phase| self.piece(phase));
@@ -162,7 +164,7 @@ impl Record {
         ]
     }
 
-    /// The samples on both sides of a phase: phases, values and second derivatives.
+    /// Returns phases, values and second derivatives of the two samples around a phase.
     fn piece(&self, phase: f64) -> [f64; 6] {
         let after = self.phases.partition_point(|&knot| knot <= phase).clamp(1, self.phases.len() - 1);
         let (i, j) = (after - 1, after);
@@ -171,7 +173,7 @@ impl Record {
     }
 }
 
-/// The mean of a cubic spline over phases from 0 to 1.
+/// Returns the mean of a cubic spline over phases from 0 to 1.
 fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
     let pieces = (1..phases.len()).map(|i| {
         let width = phases[i] - phases[i - 1];
@@ -180,7 +182,7 @@ fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
     pieces.sum()
 }
 
-/// The smallest and largest of some values.
+/// Returns the smallest and the largest of `values`.
 fn range(values: &[f64]) -> [f64; 2] {
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
 }
@@ -194,8 +196,9 @@ fn check_closed(values: &[f64]) -> Result<(), SamplesError> {
     Err(SamplesError::NotClosed { first, last })
 }
 
-/// The equations of a spline for its second derivatives: lower, middle and upper diagonal, right-hand side, for the
-/// samples between the ends.
+/// Returns the tridiagonal equations for the second derivatives of a spline at the inner samples.
+///
+/// The arrays are the lower, middle and upper diagonal and the right-hand side.
 fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
     let mut rows: [Vec<f64>; 4] = Default::default();
     for i in 1..x.len() - 1 {
@@ -208,12 +211,14 @@ fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
     rows
 }
 
-/// Second derivatives of the spline whose third derivative is continuous at the samples next to the ends
-/// ("not-a-knot"): the ends go on as the record does.
+/// Returns the second derivatives of a "not-a-knot" spline.
+///
+/// Its third derivative is continuous at the second and at the last but one sample.
 fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, mut middle, upper, right] = equations(x, y);
     let n = middle.len();
-    // The ends' second derivatives, extrapolated from the two samples next to them, are put into the equations.
+    // The second derivatives at the ends are extrapolated from the two nearest samples and substituted into the
+    // equations.
     let (first, second) = (x[1] - x[0], x[2] - x[1]);
     let (last, before) = (x[n + 1] - x[n], x[n] - x[n - 1]);
     let (start, end) = (first / second, last / before);
@@ -229,13 +234,13 @@ fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     bends
 }
 
-/// Second derivatives of the periodic spline, whose first and last sample are the same.
+/// Returns the second derivatives of the periodic spline, whose first and last sample are the same point.
 fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, middle, upper, right] = equations(x, y);
     let n = middle.len();
     let (first, last) = (x[1] - x[0], x[n + 1] - x[n]);
     let slope = (y[1] - y[0]) / first - (y[n + 1] - y[n]) / last;
-    // The unknown at the seam, s, enters the equations of its neighbours: bends = plain + s · unit.
+    // The unknown s at the seam of the period enters the equations of its two neighbours: bends = plain + s · unit.
     let mut coupling = vec![0.0; n];
     coupling[0] -= lower[0];
     coupling[n - 1] -= upper[n - 1];
@@ -249,7 +254,8 @@ fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     bends
 }
 
-/// Solves a tridiagonal system (Thomas algorithm). `lower[0]` and the last of `upper` are not used.
+/// Returns the solution of a tridiagonal system (Thomas algorithm). `lower[0]` and the last entry of `upper` are not
+/// used.
 fn tridiagonal(lower: &[f64], middle: &[f64], upper: &[f64], right: &[f64]) -> Vec<f64> {
     let n = middle.len();
     let mut factor = vec![0.0; n];

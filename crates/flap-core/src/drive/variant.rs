@@ -1,4 +1,4 @@
-//! The drive as the lanes of an ensemble share it: its waveform, and the quantity that it sets.
+//! The part of the drive that all lanes of an ensemble share: the waveform, and the quantity that it prescribes.
 
 use super::constants::{DriveConstants, Wave};
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
@@ -6,23 +6,23 @@ use super::samples::Samples;
 use crate::num::Real;
 use crate::parameter::Invalid;
 
-/// A course over time.
+/// Shape of the drive over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Waveform {
     /// A periodic shape.
     Shape(Shape),
-    /// Samples of a period.
+    /// Samples of one period.
     Samples(Samples),
-    /// sin θ with a frequency that changes steadily.
+    /// sin θ with a frequency that changes at a constant rate.
     Chirp,
 }
 
 /// The part of a drive that all points in the lanes of an ensemble share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// Its course over time.
+    /// Shape over time.
     pub waveform: Waveform,
-    /// The quantity that it sets.
+    /// Quantity that the drive prescribes.
     pub stroke: StrokeMode,
 }
 
@@ -40,7 +40,8 @@ impl Drive {
     /// A prescribed stroke.
     pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
-    /// The drive of a point, with this one's samples if it has any.
+    /// Returns the drive of a point with this shape and stroke mode. If this drive has samples, they replace the
+    /// shape.
     #[must_use]
     pub fn of_point(&self, shape: Shape, stroke: StrokeMode) -> Drive {
         let waveform = match &self.waveform {
@@ -50,23 +51,23 @@ impl Drive {
         Drive { waveform, stroke }
     }
 
-    /// The drive with another waveform.
+    /// Returns the drive with another waveform.
     #[must_use]
     pub(crate) fn with_waveform(&self, waveform: Waveform) -> Drive {
         Drive { waveform, stroke: self.stroke }
     }
 
-    /// True if the drive sets the stroke, not the voltage.
+    /// Returns true if the drive prescribes the stroke instead of the voltage.
     #[inline(always)]
     pub fn prescribes_stroke(&self) -> bool {
         self.stroke == StrokeMode::Prescribed
     }
 
-    /// Refuses a rise time that leaves a square wave no time to be flat, and a prescribed stroke with jumps in its
-    /// acceleration.
+    /// Checks that a square wave has a flat part, and that a prescribed stroke has a continuous acceleration.
     ///
     /// # Errors
-    /// `Together` if the waveform is a square wave, and rises in more than 0.5 of its period or is to be the stroke.
+    /// `Together` if the waveform is a square wave, and either takes more than 0.5 of the period to rise or is
+    /// prescribed for the stroke.
     pub fn check(&self, waveform: &WaveformParameters) -> Result<(), Invalid> {
         if self.waveform != Waveform::Shape(Shape::Square) {
             return Ok(());
@@ -74,20 +75,20 @@ impl Drive {
         if self.prescribes_stroke() {
             return Err(Invalid::together(
                 &["stroke_mode", "drive_shape"],
-                "stroke_mode is \"prescribed\": a wing cannot follow a square wave; choose another drive_shape",
+                "stroke_mode is \"prescribed\": the stroke cannot jump as a square wave does: choose another drive_shape",
             ));
         }
         if waveform.drive_rise > 0.5 {
             let rise = waveform.drive_rise;
             return Err(Invalid::together(
                 &["drive_rise", "drive_shape"],
-                format!("drive_rise is {rise}; a square wave rises in at most 0.5 of its period"),
+                format!("drive_rise is {rise}: a square wave allows at most 0.5"),
             ));
         }
         Ok(())
     }
 
-    /// The waveform, of unit amplitude, at time `t` (s) of its period, from 0 to its end.
+    /// Returns the waveform of unit amplitude at time `t` (s), from 0 to the end of the period.
     #[inline(always)]
     pub(crate) fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         match &self.waveform {
@@ -103,14 +104,16 @@ impl Drive {
         }
     }
 
-    /// The voltage (V), or the prescribed stroke (rad), at time `t` (s) of a period.
+    /// Returns the voltage (V), or the prescribed stroke (rad), at time `t` (s) of a period.
     #[inline(always)]
     pub fn at<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         self.wave(c, t).scaled(c.bias, c.amplitude)
     }
 
-    /// The next time after `t` (s) at which a derivative of the waveform jumps; infinite if there is none. Between samples
-    /// the second derivative is continuous: that is smooth enough for the step-size control.
+    /// Returns the next time after `t` (s) at which a derivative of the waveform jumps; infinite if there is none.
+    ///
+    /// Samples have no such times: their second derivative is continuous, which is smooth enough for the step-size
+    /// control.
     #[inline(always)]
     pub fn next_break<R: Real>(&self, c: &DriveConstants<R>, t: R) -> R {
         match &self.waveform {
@@ -121,7 +124,7 @@ impl Drive {
         }
     }
 
-    /// True if the second half of each period is the negative of the first.
+    /// Returns true if the second half of each period is the negative of the first.
     pub(crate) fn is_symmetric(&self, c: &DriveConstants<f64>) -> bool {
         match &self.waveform {
             Waveform::Shape(Shape::Sine | Shape::Square) => true,
@@ -130,7 +133,7 @@ impl Drive {
         }
     }
 
-    /// The mean of the waveform over a period: zero but for samples.
+    /// Returns the mean of the waveform over a period. Only samples can have a mean other than zero.
     #[inline(always)]
     pub(crate) fn mean(&self) -> f64 {
         match &self.waveform {
@@ -139,13 +142,13 @@ impl Drive {
         }
     }
 
-    /// The mean voltage (V), or prescribed stroke (rad), over a period.
+    /// Returns the mean voltage (V), or the mean prescribed stroke (rad), over a period.
     #[inline(always)]
     pub fn mean_voltage<R: Real>(&self, c: &DriveConstants<R>) -> R {
         c.bias + c.amplitude * self.mean()
     }
 
-    /// The smallest and largest value of the waveform over a period.
+    /// Returns the smallest and the largest value of the waveform over a period.
     pub(crate) fn range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         match &self.waveform {
             Waveform::Shape(_) | Waveform::Chirp => c.range,
@@ -153,7 +156,7 @@ impl Drive {
         }
     }
 
-    /// The smallest and largest voltage (V) over a period; not numbers where the stroke is prescribed.
+    /// Returns the smallest and the largest voltage (V) over a period; NaN if the stroke is prescribed.
     pub(crate) fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         if self.prescribes_stroke() {
             return [f64::NAN; 2];
@@ -161,7 +164,7 @@ impl Drive {
         self.range(c).map(|wave| c.bias + c.amplitude * wave)
     }
 
-    /// The largest magnitude of the voltage (V) over a period; not a number where the stroke is prescribed.
+    /// Returns the largest magnitude of the voltage (V) over a period; NaN if the stroke is prescribed.
     pub(crate) fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
         let [low, high] = self.voltage_range(c);
         high.max(-low)

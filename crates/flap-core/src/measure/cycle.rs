@@ -1,9 +1,9 @@
-//! Signals over one drive period: means, extrema, first harmonics.
+//! Measures of signals over one drive period: means, extrema, first harmonics.
 //!
-//! Means and harmonics are quadratures advanced with the stages of each step: exact to the order of the
-//! integration, not sums over samples. They stand outside the error norm. Extrema come from the polynomial through a
-//! signal's values at five places of each step; the positive part of a signal, in steps where it changes sign, from
-//! parabolas through three of them each. Of each signal, only what its measures need is found.
+//! Means and harmonics are quadratures that advance with the stages of each step. They have the order of the
+//! integration and do not enter the error norm. Extrema come from a polynomial through five values of the signal in
+//! each step. The positive part of a signal that changes sign comes from two parabolas, each through three of these
+//! values. Each signal gets only the quantities that its measures need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Taken, Totals};
@@ -13,7 +13,7 @@ use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Replaces the sums that are taken by others, in the lanes in which the step was `accepted`.
+/// Replaces those sums in `total` that `taken` names, in the lanes in which the step was `accepted`.
 #[inline(always)]
 fn replace<R: Lanes>(total: &mut Totals<R>, taken: Taken, accepted: R::Mask, sum: &Totals<R>) {
     total.integral = R::select(accepted, sum.integral, total.integral);
@@ -33,12 +33,15 @@ fn replace<R: Lanes>(total: &mut Totals<R>, taken: Taken, accepted: R::Mask, sum
     }
 }
 
-/// Sums over the signals `S` so far, and the time integrals of the load at the wing's shoulder, see
-/// [`Load::at_shoulder`](crate::model::Load::at_shoulder).
+/// Sums over the signals `S`, and the time integrals of the load at the wing's shoulder.
+///
+/// For the load see [`Load::at_shoulder`](crate::model::Load::at_shoulder).
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
-/// Sums over a period, from those over its first half, where the signals have sums over the second half that follow from
-/// them as `second_half` says. The wing of a mirrored stroke is loaded by the mirrored force and moment.
+/// Returns the sums over a period, given the sums over its first half.
+///
+/// `second_half` computes the signals' sums over the second half. The mirrored stroke has the mirrored force and
+/// moment.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,
@@ -51,35 +54,34 @@ pub(crate) fn over_both_halves<S: SignalSet>(
 /// Sums over the signals of the model `M` on one lane.
 pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
-/// Sums up the signals of a model along a run.
+/// Observer that sums up the signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Signals<'a, M> {
     model: &'a M,
-    /// True to look for largest and smallest values and positive parts, which takes most of the work. If false, they have
-    /// no meaning.
+    /// True to find extrema and positive parts, which is most of the work. If false, these quantities are undefined.
     extrema: bool,
     /// True to integrate the load too. If false, it is zero.
     loads: bool,
 }
 
 impl<'a, M> Signals<'a, M> {
-    /// Sums up everything.
+    /// Returns an observer that computes all sums.
     pub fn all(model: &'a M) -> Self {
         Signals { model, extrema: true, loads: false }
     }
 
-    /// Sums up means and first harmonics.
+    /// Returns an observer that computes means and first harmonics only.
     pub(crate) fn means(model: &'a M) -> Self {
         Signals { model, extrema: false, loads: false }
     }
 
-    /// The same, with the load if `loads` says so.
+    /// Returns the observer with or without the load.
     #[must_use]
     pub(crate) fn with_loads(self, loads: bool) -> Self {
         Signals { loads, ..self }
     }
 
-    /// Adds a step as [`Observer::add`] does. Returns the ranges of the signals within the step, if they are looked for.
+    /// Adds a step as [`Observer::add`] does. Returns the signals' ranges within the step, if extrema are enabled.
     #[inline(always)]
     pub(super) fn add_step<R: Lanes, const N: usize>(
         &self,
@@ -98,7 +100,7 @@ impl<'a, M> Signals<'a, M> {
         let mut positive = M::Signals::all(zero);
         let mut begin = M::Signals::all(zero);
 
-        // Quadrature: B has no weight on stages 2 and 7.
+        // Stages 2 and 7 have weight zero in B.
         for stage in [0, 2, 3, 4, 5] {
             let at = h.mul_add(h.lit(C[stage]), t);
             let weight = h * B[stage];
@@ -220,7 +222,7 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Signals<'_, M> {
     }
 }
 
-/// The time integral of the load over a step. In a function of its own, see [`slope`].
+/// Returns the time integral of the load over a step. Kept out of line for the reason given at [`slope`].
 #[inline(always)]
 fn impulse<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -245,7 +247,7 @@ fn impulse<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// The smallest and the largest value of a signal within a step, with their places as fractions of the step, and the mean of
+/// Smallest and largest value of a signal within a step, their positions as fractions of the step, and the mean of
 /// its positive part.
 #[derive(Clone, Copy)]
 pub(super) struct Within<R> {
@@ -254,8 +256,9 @@ pub(super) struct Within<R> {
     positive_mean: R,
 }
 
-/// Ranges and positive parts of the signals within a step, found part by part (see [`Model::parts`]), given the signals
-/// at its beginning.
+/// Returns ranges and positive parts of the signals within a step, given the signals at its beginning.
+///
+/// The step is searched part by part, see [`Model::parts`].
 #[inline(always)]
 fn within<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -304,7 +307,7 @@ fn within<M: Model<N>, R: Lanes, const N: usize>(
     all
 }
 
-/// The signals at the fraction `theta` of a step.
+/// Returns the signals at the fraction `theta` of a step.
 #[inline(always)]
 fn between<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -320,7 +323,7 @@ fn between<M: Model<N>, R: Lanes, const N: usize>(
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })
 }
 
-/// The signals at an instant. Called here for the sake of the compiler, see [`slope`].
+/// Returns the signals at an instant. Kept out of line for the reason given at [`slope`].
 #[inline(always)]
 fn signals<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -333,10 +336,10 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// The signals `S` over a cycle of `period` seconds, from their sums.
+/// Returns the measures of the signals `S` over a cycle of `period` seconds, given their sums.
 pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
     S::map(totals, |taken, total: Totals<f64>| {
-        // An unknown signal has no extremes and no positive part: maxima leave out values that are not numbers.
+        // A signal that is not a number has no extrema and no positive part: `max` alone would skip NaN.
         let known =
             |taken: bool, value: f64| if taken && !total.integral.is_nan() { value } else { f64::NAN };
         SignalCycle {

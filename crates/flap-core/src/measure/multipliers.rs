@@ -3,35 +3,37 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Iterations for the eigenvalues of a matrix after which they are given up: some ten are usual.
+/// Largest number of iterations for the eigenvalues of a matrix. About ten are usual.
 const LONGEST: usize = 200;
 
-/// Squarings of a matrix after which its eigenvalues decide whether it is stable: usually some three show that it is.
+/// Largest number of squarings in the stability test. About three are usual; after these, the eigenvalues decide.
 const STABILITY_SQUARINGS: u32 = 8;
 
-/// Squarings of a matrix after which its powers tell its spectral radius to rounding.
+/// Squarings of a matrix after which its powers give the spectral radius to rounding.
 const SQUARINGS: u32 = 54;
 
-/// A matrix of N rows and columns, row by row.
+/// A matrix of N rows and columns, in row-major order.
 pub type Matrix<const N: usize> = [[f64; N]; N];
 
-/// The monodromy matrix, given the responses over a period to changes by `scale`. Column j: response to a change of component j
-/// by its scale, in units of the scales.
+/// Returns the monodromy matrix, in units of the scales.
+///
+/// `responses` are the responses over a period to changes by `scale`. Column j is the response to a change of
+/// component j by its scale.
 pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }
 
-/// The identity matrix.
+/// Returns the identity matrix.
 pub(crate) fn identity<const N: usize>() -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| f64::from(u8::from(i == j))))
 }
 
-/// The product `second * first`.
+/// Returns the product `second * first`.
 pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 
-/// True if every eigenvalue is less than 1 in magnitude. The powers of such a matrix go to zero.
+/// Returns true if every eigenvalue is less than 1 in magnitude. The powers of such a matrix converge to zero.
 pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     let mut power = *m;
     for _ in 0..STABILITY_SQUARINGS {
@@ -44,7 +46,7 @@ pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     spectral_radius(m) < 1.0
 }
 
-/// Largest modulus of the eigenvalues; infinite if one of the matrix's components is, NaN if one is not a number.
+/// Returns the largest modulus of the eigenvalues: infinite if an entry is infinite, NaN if an entry is NaN.
 pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
     if m.iter().flatten().any(|x| x.is_nan()) {
         return f64::NAN;
@@ -53,7 +55,7 @@ pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
         return f64::INFINITY;
     }
     let matrix = DMatrix::from_fn(N, N, |i, j| m[i][j]);
-    // For some matrices the iteration for the eigenvalues does not end.
+    // For some matrices the iteration does not converge.
     let Some(schur) = Schur::try_new(matrix, f64::EPSILON, LONGEST) else {
         return spectral_radius_by_powers(m);
     };
@@ -61,8 +63,10 @@ pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
     eigenvalues.iter().fold(0.0, |radius, value| libm::hypot(value.re, value.im).max(radius))
 }
 
-/// The [`spectral_radius`] of a finite matrix by Gelfand's formula: the limit of the n-th root of the norm of the n-th power,
-/// by repeated squaring. It serves where the iteration for the eigenvalues does not end.
+/// Returns the [`spectral_radius`] of a finite matrix by Gelfand's formula, with repeated squaring.
+///
+/// The radius is the limit of the n-th root of the norm of the n-th power. This is the fallback where the iteration
+/// for the eigenvalues does not converge.
 pub fn spectral_radius_by_powers<const N: usize>(m: &Matrix<N>) -> f64 {
     let mut power = *m;
     let mut logarithm = 0.0;

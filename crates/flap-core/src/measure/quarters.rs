@@ -1,7 +1,7 @@
-//! Extrema of the signals in each quarter of a drive period, beside their sums over all of it.
+//! Extrema of the signals in each quarter of a drive period, together with their sums over the whole period.
 //!
-//! Signals of a symmetric motion reach their extrema in both half strokes. A change that breaks the symmetry raises one of
-//! two such extrema more than the other, so that the larger of both has a kink. Such extrema lie in opposite quarters.
+//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry raises
+//! one of them more than the other, so the larger of both has a kink. Such extrema lie in opposite quarters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,17 +12,18 @@ use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 
-/// The phase at which the first quarter begins (rad): one that is unlikely for extrema, of which two that are half a period
-/// apart have to be in opposite quarters.
+/// Phase at which the first quarter begins (rad).
+///
+/// Extrema are unlikely at this phase, so two extrema half a period apart lie in opposite quarters.
 const BEGIN: f64 = -0.37;
 
 /// Smallest and largest value of a signal in a quarter.
 type Range<R> = [R; 2];
 
-/// Sums over the signals `S`, and the ranges of each in the quarters of the period.
+/// Sums over the signals `S`, and the range of each signal in the four quarters of the period.
 pub type InQuarters<S, R> = (Sums<S, R>, Each<S, [Range<R>; 4]>);
 
-/// Sums up the signals of a model, and finds their extrema in each quarter.
+/// Observer that sums up the signals of a model and finds their extrema in each quarter.
 #[derive(Clone, Copy, Debug)]
 pub struct Quarters<'a, M>(pub Signals<'a, M>);
 
@@ -45,7 +46,7 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
     ) {
         let Attempt { t, h, .. } = *attempt;
         let Some(within) = self.0.add_step(c, attempt, accepted, sums) else { return };
-        // In the order of the phase: opposite quarters are two apart.
+        // Quarters in order of the phase: opposite quarters are two apart.
         let quarters = |extremum: Extremum<R>| {
             let phase = M::drive(c).phase(h.mul_add(extremum.place, t)) - h.lit(BEGIN);
             let [first, second, third, all] =
@@ -69,19 +70,19 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
     }
 }
 
-/// The shifts that make the extrema of a signal equal.
+/// Corrections that make nearly equal extrema of a signal equal.
 #[derive(Clone, Copy)]
 struct Shifts {
-    /// The quarter opposite to that of the largest value, and the difference of both largest values.
+    /// Index of the quarter opposite to the largest value, and the difference of the two largest values.
     max: Option<(usize, f64)>,
-    /// The same of the smallest values.
+    /// Index of the quarter opposite to the smallest value, and the difference of the two smallest values.
     min: Option<(usize, f64)>,
-    /// The difference of the magnitudes of the largest and the smallest value.
+    /// Difference of the magnitudes of the largest and the smallest value.
     gap: Option<f64>,
 }
 
 impl Shifts {
-    /// The shifts of extrema that differ by less than an `error`, as a share of them.
+    /// Returns the corrections for extrema that differ by less than the relative `error`.
     fn of(total: &Totals<f64>, ranges: &[Range<f64>; 4], error: f64) -> Shifts {
         let gap = total.max + total.min;
         Shifts {
@@ -98,14 +99,16 @@ impl Shifts {
         if let Some((quarter, lag)) = self.min {
             total.min = total.min.min(ranges[quarter][0] - lag);
         }
-        // Largest magnitudes are those of the largest or of the smallest value.
+        // The largest magnitude is the magnitude of either the largest or the smallest value.
         total.min -= self.gap.unwrap_or(0.0);
         total
     }
 }
 
-/// The sums of `runs` whose first is a motion and the others slight changes of it; but extrema that differ by less than an
-/// `error`, as a share of them, are made equal in the motion, and shifted by as much in the others. `None` if there are no such.
+/// Returns the sums of `runs` with nearly equal extrema corrected; `None` if there are none.
+///
+/// The first run is a motion, the others slight changes of it. Extrema that differ by less than the relative `error`
+/// are made equal in the first run. The other runs get the same corrections.
 pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,
@@ -123,7 +126,8 @@ pub(crate) fn with_equal_extrema<S: SignalSet>(
     Some(equal.collect())
 }
 
-/// The quarter opposite to that of the largest value, and the difference of both largest values, if it is less than an `error`.
+/// Returns the quarter opposite to the largest value and the difference of both values, if it is below the relative
+/// `error`.
 fn other_half(largest: [f64; 4], error: f64) -> Option<(usize, f64)> {
     let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
     let opposite = (quarter + 2) % 4;

@@ -1,11 +1,11 @@
-//! The size of a motion: the largest magnitude that each state reaches.
+//! Largest magnitude that each state reaches in a motion.
 
 use crate::num::Lanes;
 use crate::ode::Ode;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 
-/// Keeps the largest magnitude of each of the N states at the ends of the steps of a run.
+/// Observer of the largest magnitude of each state at the ends of the steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size;
 

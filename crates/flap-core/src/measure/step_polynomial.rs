@@ -1,8 +1,8 @@
-//! A signal between the ends of a step, from its values at five places.
+//! Interpolation of a signal within a step, from five values.
 
 use crate::num::Real;
 
-/// A signal within a step or a part of it: its values at five equal distances, and the polynomial of fourth degree through them.
+/// A signal within a step or a part of it: five equidistant values and the quartic polynomial through them.
 pub(super) struct StepPolynomial<R> {
     values: [R; 5],
     /// middle + a x + b x² + c x³ + d x⁴, with x from −2 to 2.
@@ -13,7 +13,7 @@ impl<R: Real> StepPolynomial<R> {
     #[inline(always)]
     pub(super) fn through(values: [R; 5]) -> StepPolynomial<R> {
         let [f0, f1, f2, f3, f4] = values;
-        // Odd and even parts, and differences of them.
+        // Odd and even parts, and their differences.
         let (odd_1, odd_2) = ((f3 - f1) * 0.5, (f4 - f0) * 0.5);
         let (even_1, even_2) = ((f3 + f1) * 0.5 - f2, (f4 + f0) * 0.5 - f2);
         let polynomial = [
@@ -25,16 +25,18 @@ impl<R: Real> StepPolynomial<R> {
         StepPolynomial { values, polynomial }
     }
 
-    /// The value at x.
+    /// Returns the value at x.
     #[inline(always)]
     fn at(&self, x: R) -> R {
         let [a, b, c, d] = self.polynomial;
         x.mul_add(x.mul_add(x.mul_add(x.mul_add(d, c), b), a), self.values[2])
     }
 
-    /// The smallest and the largest value: at the five points, or where the slope vanishes next to one of them.
+    /// Returns the smallest and the largest value. Candidates are the five points and the stationary points next to
+    /// them.
     ///
-    /// A zero of the slope is looked for on the parabolas of both halves. An error of that place counts as its square.
+    /// Stationary points are located on the parabolas of both halves. The extremum's error is quadratic in the error
+    /// of this position.
     #[inline(always)]
     pub(super) fn extrema(&self) -> [Extremum<R>; 2] {
         let [first, second] = self.halves();
@@ -57,7 +59,7 @@ impl<R: Real> StepPolynomial<R> {
         [min, max]
     }
 
-    /// The mean of the positive part.
+    /// Returns the mean of the positive part.
     #[inline(always)]
     pub(super) fn positive_mean(&self) -> R {
         let [first, second] = self.halves();
@@ -71,7 +73,7 @@ impl<R: Real> StepPolynomial<R> {
     }
 }
 
-/// The smallest or the largest value of a signal, and its place: x of the polynomial, or in units of a whole.
+/// An extremum of a signal: its value and its position, as x of the polynomial or as a fraction of the whole.
 #[derive(Clone, Copy)]
 pub(super) struct Extremum<R> {
     pub(super) value: R,
@@ -79,20 +81,21 @@ pub(super) struct Extremum<R> {
 }
 
 impl<R: Real> Extremum<R> {
-    /// Its place in units of a whole, of which the polynomial covers a `share` around the place `middle`.
+    /// Returns the extremum with its position as a fraction of the whole. The polynomial covers `share` around
+    /// `middle`.
     #[inline(always)]
     pub(super) fn within(self, middle: f64, share: f64) -> Extremum<R> {
         Extremum { place: self.place * (0.25 * share) + middle, ..self }
     }
 
-    /// The one with the smaller value; the `other` one, if both are equal or one is not a number.
+    /// Returns the extremum with the smaller value; `other` if both are equal or one is NaN.
     #[inline(always)]
     pub(super) fn or_smaller(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(self.value.lt(other.value), self.place, other.place);
         Extremum { value: self.value.min(other.value), place }
     }
 
-    /// The one with the larger value; the `other` one, if both are equal or one is not a number.
+    /// Returns the extremum with the larger value; `other` if both are equal or one is NaN.
     #[inline(always)]
     pub(super) fn or_larger(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(other.value.lt(self.value), self.place, other.place);
@@ -100,10 +103,10 @@ impl<R: Real> Extremum<R> {
     }
 }
 
-/// A signal within one half: middle + slope x + ½ curvature x², with x from −1 to 1.
+/// A parabola through three values of a signal: middle + slope x + ½ curvature x², with x from −1 to 1.
 #[derive(Clone, Copy)]
 struct Parabola<R> {
-    /// The place of its middle on the whole, whose x goes from −2 to 2.
+    /// Position of its middle on the whole, whose x goes from −2 to 2.
     centre: f64,
     middle: R,
     slope: R,
@@ -116,7 +119,7 @@ impl<R: Real> Parabola<R> {
         Parabola { centre, middle, slope: (end - begin) * 0.5, curvature: begin + end - middle * 2.0 }
     }
 
-    /// The place of the vertex on the whole if it lies within the parabola, otherwise the middle.
+    /// Returns the position of the vertex on the whole if it lies within the parabola, otherwise the middle.
     #[inline(always)]
     fn vertex(&self) -> R {
         let inside = self.slope.abs().lt(self.curvature.abs());
@@ -125,14 +128,14 @@ impl<R: Real> Parabola<R> {
         R::select(inside, -self.slope / curvature, zero) + self.centre
     }
 
-    /// The mean of the positive part.
+    /// Returns the mean of the positive part.
     #[inline(always)]
     fn positive_mean(&self) -> R {
         let Parabola { middle, slope, curvature, .. } = *self;
         let (zero, one) = (middle.lit(0.0), middle.lit(1.0));
         let discriminant = slope * slope - curvature * middle * 2.0;
-        // The roots, without cancellation. If there are none, both are the place of the vertex. The first root of a straight
-        // line is infinite.
+        // Roots without cancellation. Without real roots, both are the vertex. For a straight line the first root is
+        // infinite.
         let q = -(slope + discriminant.max(zero).sqrt().copysign(slope));
         let first = q / curvature;
         let second = R::select(discriminant.lt(zero), first, middle * 2.0 / q);

@@ -1,43 +1,43 @@
-//! Decides when a run has become periodic, from its state at the end of each drive period alone.
+//! Test for a periodic motion, from the state at the end of each drive period.
 //!
-//! It knows no model and no waveform, so a new model needs no change here.
+//! The test depends on neither model nor waveform.
 
-/// Longest orbit that is looked for, in drive periods.
+/// Longest orbit that is detected, in drive periods.
 const LONGEST_PERIOD: u32 = 8;
 
 const LONGEST: usize = LONGEST_PERIOD as usize;
 
-/// Strobed states closer together than this, in units of their typical size, are not the separate points of
-/// a subharmonic: a run that spirals slowly into a period-1 orbit passes near itself too.
+/// Smallest distance between the points of a subharmonic orbit, in units of the states' typical sizes.
+///
+/// A run that spirals slowly into a period-1 orbit also passes close to its own points.
 const SEPARATE: f64 = 1e-2;
 
-/// The state at the ends of the last few drive periods.
+/// The states at the ends of the last drive periods.
 #[derive(Clone, Copy, Debug)]
 pub struct Strobe<const N: usize> {
     scale: [f64; N],
     tolerance: f64,
-    /// The latest state first; then those 1, 2, … periods ago.
+    /// States at the ends of periods, the latest first.
     states: [[f64; N]; LONGEST + 1],
-    /// Numbers of period ends in a row at which the state equalled that of 1, 2, … periods ago.
+    /// Numbers of consecutive period ends at which the state equalled the state 1, 2, … periods before.
     repeats: [u32; LONGEST],
     cycles: u32,
 }
 
 impl<const N: usize> Strobe<N> {
-    /// A strobe that has seen the initial state only.
+    /// Returns a strobe that contains the initial state only.
     ///
-    /// Changes of a component count in units of its `scale`, but in a motion smaller than its scales relative to
-    /// the motion's own size: a wing that hardly moves is not for that reason settled. A change up to
-    /// `tolerance` counts as none.
+    /// Changes of a component count in units of its `scale`. In a motion smaller than the scales, they count relative
+    /// to the motion's own size. Otherwise a wing that hardly moves would always count as settled. A change of up to
+    /// `tolerance` counts as zero.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
 
-    /// Takes the state at the end of a period. Returns the orbit's length in periods once it has settled.
+    /// Adds the state at the end of a period. Returns the orbit's length in periods once it has settled.
     ///
-    /// An orbit of p periods has settled when p + 1 period ends in a row brought the state back to where it
-    /// was p periods before: every point of the orbit has then returned. For p > 1 the points must also lie
-    /// apart.
+    /// An orbit of p periods has settled if the state returned to its value p periods before at p + 1 consecutive
+    /// period ends. Every point of the orbit has then returned. For p > 1 the points must also be separate.
     pub fn period_end(&mut self, y: &[f64; N]) -> Option<u32> {
         self.states.rotate_right(1);
         self.states[0] = *y;
@@ -56,7 +56,8 @@ impl<const N: usize> Strobe<N> {
         settled
     }
 
-    /// Largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
+    /// Returns the largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
+    ///
     /// NaN before that many periods have passed.
     pub fn change(&self, periods: u32) -> f64 {
         if self.cycles < periods {
@@ -72,17 +73,17 @@ impl<const N: usize> Strobe<N> {
         if change == 0.0 { 0.0 } else { change / size.min(1.0) }
     }
 
-    /// The latest state.
+    /// Returns the latest state.
     pub fn state(&self) -> &[f64; N] {
         &self.states[0]
     }
 
-    /// The state a period before the latest.
+    /// Returns the state one period before the latest.
     pub(crate) fn before(&self) -> &[f64; N] {
         &self.states[1]
     }
 
-    /// Periods seen.
+    /// Returns the number of periods added.
     pub fn cycles(&self) -> u32 {
         self.cycles
     }

@@ -1,4 +1,4 @@
-//! The definition of a model: all that rows of a sweep need.
+//! The definition of a model: everything that the rows of a sweep require.
 
 use super::load::Load;
 use super::signal::{OverWings, SignalCycle};
@@ -10,16 +10,16 @@ use crate::num::Real;
 use crate::ode::{Ode, Start};
 use crate::parameter::{Invalid, Parameter, Preset};
 
-/// Name, meaning and parameters of a model.
+/// Name, description and parameters of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Description {
     /// Name in grid files, such as `direct-drive`.
     pub name: &'static str,
-    /// One line: the mechanism, and the paper.
+    /// Description in one line: the mechanism and the paper.
     pub doc: &'static str,
     /// The parameter table.
     pub parameters: &'static [Parameter<'static>],
-    /// The published parameter sets.
+    /// Published parameter sets.
     pub presets: &'static [Preset],
 }
 
@@ -33,17 +33,20 @@ pub struct Derived<M, C, S: SignalSet> {
     pub name: &'static str,
     /// Unit in words.
     pub unit: &'static str,
-    /// Meaning in one line.
+    /// Description in one line.
     pub doc: &'static str,
-    /// The value in `unit`, from the model, the point's constants and the signals over the orbit's drive period. A signal
-    /// has its mean, and what its own [measures](super::Signal::measures) need; the rest is NaN.
+    /// Computes the value in `unit` from the model, the point's constants and the signals over the orbit's drive
+    /// period.
+    ///
+    /// A signal has its mean and the quantities that its own [measures](super::Signal::measures) require. The others
+    /// are NaN.
     pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
-    /// The way in which the rows of a vehicle have it.
+    /// Form of this column in the rows of a vehicle.
     pub over_wings: OverWings,
 }
 
 impl<M, C, S: SignalSet> Derived<M, C, S> {
-    /// A column with this name, unit, meaning and value.
+    /// Returns a column with this name, unit, description and value.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -53,133 +56,147 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
         Derived { name, unit, doc, value, over_wings: OverWings::Omitted }
     }
 
-    /// The same column, which the rows of a vehicle have in this way.
+    /// Returns the same column with this form in the rows of a vehicle.
     #[must_use]
     pub const fn over_wings(self, over_wings: OverWings) -> Derived<M, C, S> {
         Derived { over_wings, ..self }
     }
 }
 
-/// The symmetry of a point with signals `S`: from half a drive period later on, its motions can go on as they began, mirrored.
-/// If y(t) solves its equations, so does 2 · centre − y(t + T/2). A switching function changes its sign as well.
+/// The symmetry of a point with signals `S`: if y(t) solves its equations, so does 2 · centre − y(t + T/2).
 ///
-/// A constant part of the drive or an even harmonic breaks the symmetry, unless it only shifts the centre. The search compares
-/// the equations at two states, and integrates whole periods where they differ. It does not check `second_half`: compare rows
-/// with and without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
+/// T is the drive period. A switching function changes its sign under this map. A constant part of the drive or an
+/// even harmonic breaks the symmetry, unless it only shifts the centre. The search compares the equations at two
+/// states, and integrates whole periods where they differ. It does not check `second_half`: compare rows with and
+/// without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
 #[derive(Clone, Copy, Debug)]
 pub struct Symmetry<S: SignalSet, const N: usize> {
-    /// The state about which motions are mirrored.
+    /// State about which motions are mirrored.
     pub centre: [f64; N],
-    /// The sums of the signals over the second half of a mirrored period, from those over the first: [`Totals::negated`] of
-    /// signals that change their sign, such as angles, and [`Totals::repeated`] of others, such as lift and power. `None` if they
-    /// do not follow from these; then whole periods are measured.
+    /// Computes the sums of the signals over the second half of a mirrored period from the sums over the first half.
+    ///
+    /// Use [`Totals::negated`] for signals that change their sign, such as angles, and [`Totals::repeated`] for
+    /// others, such as lift and power. `None` if the sums do not follow from the first half: then whole periods are
+    /// measured.
     pub second_half: Option<SecondHalf<S>>,
 }
 
-/// Sums of the signals `S` over the second half of a period, from those over the first.
+/// Function from the sums of the signals `S` over the first half of a period to the sums over the second half.
 pub type SecondHalf<S> = fn(&SignalsOf<S, Totals<f64>>) -> SignalsOf<S, Totals<f64>>;
 
 /// An instant of a motion of N states, with inputs `I`.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a, R, I, const N: usize> {
-    /// The inputs, see [`Ode::input`].
+    /// Inputs, see [`Ode::input`].
     pub input: &'a I,
-    /// The side of the switching surface, see [`Ode::rhs`].
+    /// Side of the switching surface, see [`Ode::rhs`].
     pub side: R,
-    /// The states.
+    /// States.
     pub y: &'a [R; N],
-    /// Their derivatives.
+    /// Derivatives of the states.
     pub dy: &'a [R; N],
 }
 
 /// A periodically driven model with N states, whose signals are measured over a drive period.
 pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
-    /// The measured signals, see [`signals!`](crate::signals).
+    /// Measured signals, see [`signals!`](crate::signals).
     type Signals: SignalSet;
 
-    /// Name, meaning and parameters.
+    /// Name, description and parameters.
     const DESCRIPTION: Description;
-    /// Names of the states with their units, as trajectory columns.
+    /// Names of the states with their units: columns of trajectories.
     const STATES: [&'static str; N];
     /// Columns computed from the signals.
     const DERIVED: &'static [Derived<Self, Self::Constants<f64>, Self::Signals>];
-    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If not, they may be NaN between the
-    /// stages of a step.
+    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If false, these derivatives may
+    /// be NaN between the stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
-    /// 1 if the trailing edge lags a wing that moves to positive stroke at a positive pitch, -1 if it leads: pictures of the
-    /// wing need it.
+    /// Sign of the pitch convention, for pictures of the wing.
+    ///
+    /// 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke; −1 if it leads.
     const PITCH_SIGN: i8 = 1;
-    /// True if the [`load`](Model::load) of the wing is known.
+    /// True if the model computes the [`load`](Model::load) of the wing.
     const LOADS: bool = false;
 
-    /// The model for a point: choices on which its equations branch, in all lanes alike, such as the shape of the drive.
+    /// Returns the variant of the model for a point: the choices on which its equations branch, such as the shape of
+    /// the drive.
+    ///
     /// Points of equal variants share lanes.
     fn variant(&self, values: &[f64]) -> Self {
         let _ = values;
         self.clone()
     }
 
-    /// The variant that has the most terms among those of equal choices. Its equations are those of this one where the other
-    /// terms are zero, and so it serves for small changes of them.
+    /// Returns the variant with the most terms among variants of equal choices.
+    ///
+    /// If the additional terms are zero, its equations equal the equations of this variant. Derivatives with respect
+    /// to these terms use it.
     fn with_all_terms(&self) -> Self {
         self.clone()
     }
 
-    /// The run of a point, given one value per parameter: constants, initial state, drive period, and a typical size of each
-    /// state, see [`Start::scale`].
+    /// Returns the start of a point's run: constants, initial state, drive period, and typical sizes of the states.
     ///
-    /// Grid files check each value against its [`Range`](crate::parameter::Range). If a program takes values from
-    /// elsewhere, it checks them itself, or this function does with [`Invalid::unless_within`].
+    /// `values` contains one value per parameter. For the sizes see [`Start::scale`].
+    ///
+    /// Grid files check each value against its [`Range`](crate::parameter::Range). A program that reads values from
+    /// elsewhere must check them, or this function does so with [`Invalid::unless_within`].
     ///
     /// # Errors
     /// [`Invalid`] if parameters are impossible together, or a derived constant is not finite: see
     /// [`Invalid::together`] and [`Invalid::unless_finite`].
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
-    /// The symmetry of a point with these constants. By default there is none; then all periods are integrated to their end.
+    /// Returns the symmetry of a point with these constants. By default there is none, and all periods are integrated
+    /// in full.
     fn symmetry(&self, c: &Self::Constants<f64>) -> Option<Symmetry<Self::Signals, N>> {
         let _ = c;
         None
     }
 
-    /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
+    /// Returns the parameters that depend on a user-defined wing, by name, in SI units; none if the model does not
+    /// support one.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let _ = wing;
         Vec::new()
     }
 
-    /// The drive of a point, to whose phase the signals' harmonics refer.
+    /// Returns the drive of a point. The signals' harmonics refer to its phase.
     fn drive<R: Real>(c: &Self::Constants<R>) -> &DriveConstants<R>;
 
-    /// The signals at an instant, in SI units.
+    /// Returns the signals at an instant, in SI units.
     fn signals<R: Real>(
         &self,
         c: &Self::Constants<R>,
         at: Instant<'_, R, Self::Input<R>, N>,
     ) -> SignalsOf<Self::Signals, R>;
 
-    /// Replaces the means of powers by those of their losses over a periodic orbit, see [`SignalCycle::balance`].
-    /// By default all means stay.
+    /// Replaces the means of powers by the sums of their losses over a periodic orbit, see [`SignalCycle::balance`].
+    ///
+    /// By default all means remain.
     fn balance_energy(cycle: &mut SignalsOf<Self::Signals, SignalCycle>) {
         let _ = cycle;
     }
 
-    /// The relative difference of two means of a power after [`Model::balance_energy`], zero but for the integration's error.
-    /// Points whose audit is larger than `accuracy` are integrated again. By default 0.
+    /// Returns the relative difference of two means of a power after [`Model::balance_energy`]. Only integration
+    /// errors make it nonzero.
+    ///
+    /// Points with an audit above `accuracy` are integrated again. By default 0.
     fn energy_audit(cycle: &SignalsOf<Self::Signals, SignalCycle>) -> f64 {
         let _ = cycle;
         0.0
     }
 
-    /// The load of the air on the wing at an instant, for vehicles.
+    /// Returns the load of the air on the wing at an instant, for vehicles.
     #[inline(always)]
     fn load<R: Real>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
         let _ = c;
         Load::unknown(at.side)
     }
 
-    /// Number of parts into which each step is divided to find the largest and smallest values of the signals. More than one
-    /// if signals change faster than the motion, which chooses the steps.
+    /// Returns the number of parts into which each step is divided to find extrema of the signals.
+    ///
+    /// Choose more than one if signals change faster than the motion, which determines the steps.
     #[inline(always)]
     fn parts(&self) -> u32 {
         1

@@ -4,7 +4,7 @@ use crate::num::Real;
 
 /// The load of the air on a wing at an instant, in directions that move with the wing.
 ///
-/// The shoulder is the point where the span axis crosses the stroke axis. Moments count from there.
+/// The shoulder is the intersection of span axis and stroke axis. It is the reference point of the moments.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<R> {
     /// Stroke angle (rad).
@@ -22,7 +22,7 @@ pub struct Load<R> {
 }
 
 impl<R: Real> Load<R> {
-    /// A load of which nothing is known.
+    /// Returns a load of unknown components. `number` is NaN.
     pub(crate) fn unknown(number: R) -> Load<R> {
         let unknown = number.lit(f64::NAN);
         Load {
@@ -35,8 +35,10 @@ impl<R: Real> Load<R> {
         }
     }
 
-    /// Force (N) and moment (N·m) at the shoulder in axes that do not move: x in the direction of a positive stroke, y along
-    /// the span at zero stroke, z along the stroke axis upwards. That is a right-handed system for a left wing.
+    /// Returns force (N) and moment (N·m) at the shoulder in fixed axes.
+    ///
+    /// x points in the direction of a positive stroke, y along the span at zero stroke, z upwards along the stroke
+    /// axis. For a left wing this system is right-handed.
     ///
     /// ```text
     /// span e_s = (sin φ, cos φ, 0)     motion e_t = (cos φ, −sin φ, 0)

@@ -1,14 +1,14 @@
-//! The papers' models: parameters in SI units → constants of a point → equations of motion → signals.
+//! The published models: parameters in SI units → constants of a point → equations of motion → signals.
 //!
-//! Each paper has a folder of its own. A model consists of:
+//! Each paper has its own folder. A model consists of:
 //!
 //! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
-//! - the signals to be measured, a struct with one field for each ([`crate::signals!`]),
+//! - the signals, a struct with one field for each ([`crate::signals!`]),
 //! - equations of motion ([`crate::ode::Ode`]) and the values of the signals ([`Model`]), written once for scalars and lanes,
-//! - for single motions, the states and drives with which they begin ([`Motions`]).
+//! - for single motions, the states and drives at their beginning ([`Motions`]).
 //!
-//! [`Runner`](crate::simulate::Runner) computes the rows of a model. Its page has a complete model of your own.
+//! [`Runner`](crate::simulate::Runner) computes the rows of a model. Its page contains a complete user-defined model.
 
 pub mod bimorph;
 mod definition;

@@ -1,4 +1,4 @@
-//! Single motions of a model that contains the drive component: chirped, sampled, released, imposed.
+//! Single motions of a model that contains the drive component: chirp, sampled waveform, impulse, imposed motion.
 
 use super::definition::{Instant, Model};
 use super::signal::Signal;
@@ -6,56 +6,58 @@ use super::signals::SignalsOf;
 use crate::drive::{Drive, DriveConstants, Samples, Waveform};
 use crate::modes::Mode;
 
-/// A motion that is given: states, their derivatives, and the inputs that go with them.
+/// An imposed motion at one time: states, their derivatives, and the inputs that go with them.
 pub type Imposed<I, const N: usize> = ([f64; N], [f64; N], I);
 
-/// A model of which single motions are followed, not only rows computed.
+/// A model whose single motions can be computed, besides rows.
 pub trait Motions<const N: usize>: Model<N> {
-    /// The signals whose frequencies describe a free motion; first the one that an impulse excites.
+    /// Signals whose frequencies describe a free motion. The first one is the signal that an impulse excites.
     const FREE_SIGNALS: &'static [Signal];
 
-    /// The model with another drive, common to all points of the variant.
+    /// Returns the model with another drive, common to all points of the variant.
     #[must_use]
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Self;
 
-    /// The constants of a point with another drive.
+    /// Returns the constants of a point with another drive.
     fn with_drive_constants(c: &Self::Constants<f64>, drive: DriveConstants<f64>) -> Self::Constants<f64>;
 
-    /// Small undamped motions; first the one that an impulse on the stroke is to excite.
+    /// Returns the small undamped motions. The first one is the motion that an impulse on the stroke excites.
     fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
 
-    /// The voltage (V) in whose rest position all angles are zero.
+    /// Returns the voltage (V) at whose rest position all angles are zero.
     fn rest_voltage(c: &Self::Constants<f64>) -> f64;
 
-    /// The state in that position right after a torque impulse on the stroke that gives it `stroke_rate` (rad/s).
+    /// Returns the state in that position right after a torque impulse that gives the stroke the rate `stroke_rate`
+    /// (rad/s).
     fn struck(c: &Self::Constants<f64>, stroke_rate: f64) -> [f64; N];
 
-    /// The states of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Inputs of the
-    /// actuator are not numbers.
+    /// Returns the states of a wing with imposed stroke and pitch: value (rad), rate, second derivative. Inputs of
+    /// the actuator are NaN.
     fn placed(c: &Self::Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Self::Input<f64>, N>;
 
-    /// The model with samples for a waveform.
+    /// Returns the model with samples as its waveform.
     #[must_use]
     fn sampled(&self, samples: Samples) -> Self {
         self.with_drive(|drive| drive.with_waveform(Waveform::Samples(samples)))
     }
 
-    /// The model and constants for one cycle of a chirp, which begins at `frequency` (Hz) and phase zero and
-    /// changes by `rate` (Hz/s).
+    /// Returns model and constants for one cycle of a chirp.
+    ///
+    /// The cycle begins at phase zero and `frequency` (Hz), which changes by `rate` (Hz/s).
     fn chirped(&self, c: &Self::Constants<f64>, frequency: f64, rate: f64) -> (Self, Self::Constants<f64>) {
         let c = Self::with_drive_constants(c, Self::drive(c).chirped(frequency, rate));
         (self.with_drive(|drive| drive.with_waveform(Waveform::Chirp)), c)
     }
 
-    /// The model and constants with the drive held still at [`Motions::rest_voltage`], and the state
+    /// Returns model and constants with the constant drive voltage [`Motions::rest_voltage`], and the state
     /// [`Motions::struck`].
     fn released(&self, c: &Self::Constants<f64>, stroke_rate: f64) -> (Self, Self::Constants<f64>, [f64; N]) {
         let still = Self::with_drive_constants(c, Self::drive(c).still(Self::rest_voltage(c)));
         (self.with_drive(|_| Drive::SINE), still, Self::struck(c, stroke_rate))
     }
 
-    /// State and signals of a wing whose stroke and pitch are given: value (rad), rate, second derivative. Signals of
-    /// the actuator are not numbers.
+    /// Returns state and signals of a wing with imposed stroke and pitch: value (rad), rate, second derivative.
+    /// Signals of the actuator are NaN.
     fn imposed(
         &self,
         c: &Self::Constants<f64>,

@@ -1,38 +1,38 @@
 //! Signals of a model, and their measures over a drive period.
 
-/// A quantity followed along the motion.
+/// A quantity over time.
 #[derive(Clone, Copy, Debug)]
 pub struct Signal {
     /// Name, the first part of its column names.
     pub name: &'static str,
     /// Unit of its columns.
     pub unit: Unit,
-    /// Meaning, to follow words such as "mean of".
+    /// Description that continues words such as "mean".
     pub doc: &'static str,
-    /// Its measures over a drive period. A signal without measures serves derived columns alone, and has no column in
-    /// trajectories either.
+    /// Measures over a drive period, one column each. A signal without measures serves derived columns alone and has
+    /// no column in trajectories.
     pub measures: &'static [Measure],
-    /// Measures that only derived columns use.
+    /// Measures that derived columns alone use.
     pub needed: &'static [Measure],
-    /// The measure whose error counts for the error of a row, if there is one. A model has at least one such signal.
+    /// Measure whose error contributes to the error of a row, if any. A model has at least one such signal.
     pub principal: Option<Principal>,
-    /// Measures of a force that rows of a vehicle have of each wing.
+    /// Measures of a force for which the rows of a vehicle have one column per wing.
     pub of_wings: &'static [Measure],
 }
 
-/// The way in which the rows of a vehicle have a column of its wings.
+/// Form of a wing's column in the rows of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverWings {
     /// The sum over the wings.
     Sum,
-    /// A column of each wing.
+    /// One column per wing.
     Each,
     /// No column.
     Omitted,
 }
 
 impl Signal {
-    /// A signal of which all `measures` are taken over a drive period.
+    /// Returns a signal with these `measures` over a drive period.
     pub const fn new(
         name: &'static str,
         unit: Unit,
@@ -42,10 +42,10 @@ impl Signal {
         Signal { name, unit, doc, measures, needed: &[], principal: None, of_wings: &[] }
     }
 
-    /// The way in which the rows of a vehicle have a measure of this signal.
+    /// Returns the form of a measure of this signal in the rows of a vehicle.
     ///
-    /// Mean powers add up. The extrema and the root mean square of a sum depend on the times at which the wings have theirs,
-    /// so rows have them of each wing. Vehicles have columns of their own for forces.
+    /// Mean powers add up. Extrema and root mean squares of a sum depend on the phases between the wings, so each
+    /// wing has its own column. Forces of a vehicle have separate columns.
     pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
         match (self.unit.name, measure) {
             _ if self.of_wings.contains(&measure) => OverWings::Each,
@@ -55,7 +55,7 @@ impl Signal {
         }
     }
 
-    /// The name of its column in a trajectory.
+    /// Returns the name of its column in a trajectory.
     pub fn column(&self) -> String {
         if self.unit.suffix.is_empty() {
             self.name.to_owned()
@@ -64,25 +64,26 @@ impl Signal {
         }
     }
 
-    /// True if it has columns of its own.
+    /// Returns true if it has columns.
     pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 
-    /// The quantities that the measures of the signal and the error of a row require.
+    /// Returns the quantities that the measures of the signal and the error of a row require.
     pub const fn taken(&self) -> Taken {
         let Signal { measures, needed, principal, .. } = *self;
         let mut taken = Taken::of(measures).and(Taken::of(needed));
         if let Some(principal) = principal {
             taken = taken.and(Taken::of(&[principal.measure()]));
-            // The error is relative to the size of the signal: its root mean square, if its range is not known.
+            // The error is relative to the size of the signal, which is its root mean square if its range is not
+            // computed.
             taken.squared |= !taken.ranged;
         }
         taken
     }
 }
 
-/// Quantities of a signal that are integrated or searched for over a drive period, besides the mean.
+/// Quantities of a signal that are integrated or searched for over a drive period, besides its mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is independent of the others")]
 pub struct Taken {
@@ -97,7 +98,7 @@ pub struct Taken {
 }
 
 impl Taken {
-    /// The quantities that the `measures` require. The sign of a positive part requires the range.
+    /// Returns the quantities that the `measures` require. The positive part also requires the range.
     const fn of(measures: &[Measure]) -> Taken {
         let mut taken = Taken { squared: false, rectified: false, harmonic: false, ranged: false };
         let mut i = 0;
@@ -112,7 +113,7 @@ impl Taken {
         taken
     }
 
-    /// The quantities of both.
+    /// Returns the union of both sets of quantities.
     const fn and(self, other: Taken) -> Taken {
         Taken {
             squared: self.squared | other.squared,
@@ -123,8 +124,10 @@ impl Taken {
     }
 }
 
-/// A measure whose error counts for the error of a row: one that a second integration at coarser tolerances computes too.
-/// That integration leaves out extrema and positive parts.
+/// Measure whose error contributes to the error of a row.
+///
+/// The second integration at coarser tolerances computes means and first harmonics, but no extrema and positive
+/// parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Principal {
     /// Mean.
@@ -134,7 +137,7 @@ pub enum Principal {
 }
 
 impl Principal {
-    /// The measure.
+    /// Returns the measure.
     pub(crate) const fn measure(self) -> Measure {
         match self {
             Principal::Mean => Measure::Mean,
@@ -169,7 +172,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// The middle part of column names.
+    /// Returns the middle part of column names.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Measure::Amplitude => "amplitude",
@@ -185,7 +188,7 @@ impl Measure {
         }
     }
 
-    /// In words, to be followed by the signal's description.
+    /// Returns the measure in words that the signal's description continues.
     pub(crate) fn describe(self) -> &'static str {
         match self {
             Measure::Amplitude => "half of largest minus smallest",
@@ -202,7 +205,8 @@ impl Measure {
     }
 }
 
-/// A signal over one drive period, in SI units: its mean, and what its measures need. The rest is NaN.
+/// Measures of a signal over one drive period, in SI units: its mean and the quantities that its measures require.
+/// The others are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
     /// Mean.
@@ -220,28 +224,29 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
-    /// Replaces the mean of this power by the sum of the means of its `losses`. A mean that is not a number stays so.
+    /// Replaces the mean of this power by the sum of the means of its `losses`. A mean that is NaN remains NaN.
     ///
-    /// Both means are equal over a periodic orbit, since capacitance, springs and inertia give back all energy. In a motion
-    /// of small losses, or far from resonance, the error of the quadrature of that exchange may exceed the mean of the power.
+    /// Both means are equal over a periodic orbit, because capacitance, springs and inertia return all their energy.
+    /// If losses are small or the motion is far from resonance, the quadrature error of this exchange can exceed the
+    /// mean power.
     pub fn balance(&mut self, losses: &[SignalCycle]) {
         if !self.mean.is_nan() {
             self.mean = losses.iter().map(|loss| loss.mean).sum();
         }
     }
 
-    /// The relative difference of another signal's mean from this one's.
+    /// Returns the relative difference between the means of this signal and `other`.
     pub fn audit(&self, other: &SignalCycle) -> f64 {
         (other.mean - self.mean) / self.mean
     }
 
-    /// The size of the signal: the largest magnitude of what is known of it.
+    /// Returns the size of the signal: its largest known magnitude.
     pub(crate) fn size(&self) -> f64 {
         let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
         known.iter().fold(0.0, |size, value| value.abs().max(size))
     }
 
-    /// The measure in SI units.
+    /// Returns the measure in SI units.
     pub fn measure(&self, measure: Measure) -> f64 {
         match measure {
             Measure::Amplitude => 0.5 * (self.max - self.min),
@@ -257,18 +262,18 @@ impl SignalCycle {
         }
     }
 
-    /// Phase of the first harmonic (rad), in (−π, π].
+    /// Returns the phase of the first harmonic (rad), in (−π, π].
     pub fn phase(&self) -> f64 {
         libm::atan2(self.first[1], self.first[0])
     }
 }
 
-/// A unit of columns. Besides the constants below, a model may declare its own.
+/// A unit of columns. A model may declare more units than the constants below.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
-    /// Its name in words, such as `mN`.
+    /// Unit in words, such as `mN`.
     pub name: &'static str,
-    /// Its name as the last part of column names, such as `mn`.
+    /// Last part of column names, such as `mn`.
     pub suffix: &'static str,
     /// Factor from the SI unit.
     pub factor: f64,

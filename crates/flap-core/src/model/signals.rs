@@ -5,34 +5,34 @@ use crate::num::{Lanes, PerLane};
 
 /// A set of signals, declared by [`signals!`](crate::signals).
 pub trait SignalSet: Copy + 'static {
-    /// A `T` for each signal, as the field of its name.
+    /// One `T` for each signal, in the field of its name.
     type Of<T: Copy>: Copy;
 
     /// The signals, in the order of their columns.
     const TABLE: &'static [Signal];
 
-    /// The same value for each signal.
+    /// Returns the same value for each signal.
     fn all<T: Copy>(value: T) -> Self::Of<T>;
 
-    /// The results of `f` for each signal, from the quantities that are taken of it and two values.
+    /// Returns the results of `f` for each signal. `f` gets the quantities to compute for it and two values.
     fn zip<A: Copy, B: Copy, C: Copy>(
         one: &Self::Of<A>,
         other: &Self::Of<B>,
         f: impl FnMut(Taken, A, B) -> C,
     ) -> Self::Of<C>;
 
-    /// Calls `f` for each signal, with the quantities that are taken of it, its value in `of` to be changed, and its values
-    /// in `from`.
+    /// Calls `f` for each signal, with the quantities to compute for it, a mutable reference to its value in `of`,
+    /// and its values in `from`.
     fn update<A: Copy, B: Copy, const L: usize>(
         of: &mut Self::Of<A>,
         from: [&Self::Of<B>; L],
         f: impl FnMut(Taken, &mut A, [B; L]),
     );
 
-    /// Each signal with its value, in the order of [`SignalSet::TABLE`].
+    /// Returns each signal with its value, in the order of [`SignalSet::TABLE`].
     fn each<T: Copy>(of: &Self::Of<T>) -> impl Iterator<Item = (&'static Signal, T)>;
 
-    /// The results of `f` for each signal, from the quantities that are taken of it and one value.
+    /// Returns the results of `f` for each signal. `f` gets the quantities to compute for it and one value.
     #[inline(always)]
     fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Taken, A) -> B) -> Self::Of<B> {
         Self::zip(
@@ -44,10 +44,10 @@ pub trait SignalSet: Copy + 'static {
     }
 }
 
-/// A `T` for each signal of the set `S`: the struct that [`signals!`](crate::signals) declares.
+/// One `T` for each signal of the set `S`: the struct that [`signals!`](crate::signals) declares.
 pub type SignalsOf<S, T> = <S as SignalSet>::Of<T>;
 
-/// [`SignalsOf`] for totals of a cycle, of which every lane has its own.
+/// [`SignalsOf`] as a group of numbers with one set per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Each<S: SignalSet, T: Copy>(pub S::Of<T>);
 
@@ -90,13 +90,16 @@ impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
 
 /// Declares the signals of a model: a struct with one field per signal.
 ///
-/// Each line gives the name, then unit, meaning and [measures](crate::model::Measure), each a column of rows. Behind them may stand
-/// `principal Mean` or `principal First` for the [measure](crate::model::Principal) whose error counts for the error of a
-/// row, `needs [...]` for measures that only derived columns use, and `of_wings [...]` for measures of a force that rows of a
-/// vehicle have of each wing.
+/// Each line consists of name, unit, description and [measures](crate::model::Measure). Each measure is a column of
+/// rows. These options may follow:
 ///
-/// `Signals<T>` has a `T` for each signal: `Signals<R>` the values at an instant, `Signals<SignalCycle>` those over a drive
-/// period. `Signals` alone stands for the set, as [`Model::Signals`](crate::model::Model::Signals).
+/// - `principal Mean` or `principal First`: the [measure](crate::model::Principal) whose error contributes to the
+///   error of a row
+/// - `needs [...]`: measures that derived columns alone use
+/// - `of_wings [...]`: measures of a force for which the rows of a vehicle have one column per wing
+///
+/// `Signals<T>` contains one `T` for each signal: `Signals<R>` values at an instant, `Signals<SignalCycle>` measures
+/// over a drive period. `Signals` alone represents the set, as [`Model::Signals`](crate::model::Model::Signals).
 ///
 /// ```
 /// use flap_core::model::{SignalSet, Unit};
@@ -128,7 +131,7 @@ macro_rules! signals {
         }
 
         impl $Name {
-            /// The description of each signal.
+            /// Description of each signal.
             pub const SIGNALS: $Name<$crate::model::Signal> = $Name {
                 $($signal: $crate::model::Signal {
                     $(principal: Some($crate::model::Principal::$principal),)?

@@ -1,7 +1,7 @@
 //! Models with the states `[stroke, pitch, stroke rate, pitch rate]`, whose stroke can be prescribed.
 //!
-//! Stroke and pitch are coupled by a mass matrix. Where the stroke is free, the equations of motion are solved for both;
-//! where it is prescribed, for the pitch alone.
+//! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion are solved for both. If it
+//! is prescribed, they are solved for the pitch alone.
 
 use super::motions::Imposed;
 use crate::drive::{Drive, DriveConstants, Wave};
@@ -29,7 +29,7 @@ pub struct Balance<R> {
 }
 
 impl<R: Real> Balance<R> {
-    /// The derivative of the state `y` under a moment of the drive about the stroke axis (N·m).
+    /// Returns the derivative of the state `y` for a moment of the drive about the stroke axis (N·m).
     #[inline(always)]
     pub fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
         let [m11, m12, m22] = self.mass;
@@ -40,10 +40,10 @@ impl<R: Real> Balance<R> {
         [y[2], y[3], stroke, pitch]
     }
 
-    /// The derivative of the state `y` where the stroke is prescribed: pitch from the second equation.
+    /// Returns the derivative of the state `y` with a prescribed stroke. The pitch follows from the second equation.
     ///
-    /// The stroke's own states follow it; their deviation from it by integration errors decays at the rate `forgetting`
-    /// (1/s), so that it cannot add up.
+    /// The stroke's own states follow the prescribed stroke. Integration errors in these states decay at the rate
+    /// `forgetting` (1/s), so they do not add up.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;
@@ -56,20 +56,23 @@ impl<R: Real> Balance<R> {
     }
 }
 
-/// The state `y`, with the stroke of the drive in place of its own where that is prescribed.
+/// Returns the state `y`. If the stroke is prescribed, the drive's stroke replaces the state's own stroke.
 #[inline(always)]
 pub fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
 }
 
-/// The derivative `dy` of a state, with that of the stroke of the drive in place of its own where that is prescribed.
+/// Returns the derivative `dy` of a state. If the stroke is prescribed, the drive's stroke replaces the state's own
+/// stroke.
 #[inline(always)]
 pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
-/// The run of a point that begins at rest, on the stroke of the drive where that is prescribed: for
-/// [`Model::start`](super::Model::start). `sizes` are typical amplitudes of stroke and pitch (rad).
+/// Returns the start of a point at rest, for [`Model::start`](super::Model::start).
+///
+/// If the stroke is prescribed, the start lies on the drive's stroke. `sizes` are typical amplitudes of stroke and
+/// pitch (rad).
 pub fn start<C>(
     drive: &Drive,
     drive_constants: &DriveConstants<f64>,
@@ -82,14 +85,17 @@ pub fn start<C>(
     Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
-/// State, derivative and drive of a wing whose stroke and pitch are given: value (rad), rate (rad/s), second derivative
-/// (rad/s²). For [`Motions::placed`](super::Motions::placed).
+/// Returns state, derivative and drive of a wing with imposed stroke and pitch. For
+/// [`Motions::placed`](super::Motions::placed).
+///
+/// `stroke` and `pitch` contain value (rad), rate (rad/s) and second derivative (rad/s²).
 pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
 }
 
-/// The error of a mass matrix that is not positive definite, because the first two of these inertias are too large for the
-/// last two.
+/// Returns the error of a mass matrix that is not positive definite.
+///
+/// The first two of the inertias are too large relative to the last two.
 pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
     let [a, b, c, d] = parameters;
     let reason = format!(
@@ -99,8 +105,10 @@ pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid 
     Invalid::together(parameters, reason)
 }
 
-/// The state at rest right after an impulse that gives the stroke a rate (rad/s), for a mass matrix
-/// [M₁₁, M₁₂, M₂₂] (kg·m²): `pitch rate = −(M₁₂/M₂₂) stroke rate`. For [`Motions::struck`](super::Motions::struck).
+/// Returns the state at rest right after an impulse that gives the stroke a rate (rad/s). For
+/// [`Motions::struck`](super::Motions::struck).
+///
+/// For a mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), `pitch rate = −(M₁₂/M₂₂) stroke rate`.
 pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
     [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate]
 }

@@ -1,4 +1,4 @@
-//! Sums over a signal, and those over the second half of a period that mirrors the first.
+//! Sums over a signal, and the sums over the second half of a period that mirrors the first.
 
 crate::per_lane! {
     /// Sums over a signal in a part of a drive period.
@@ -21,12 +21,13 @@ crate::per_lane! {
 }
 
 impl Totals<f64> {
-    /// The sums over the second half of a period of a signal that repeats itself in it, from those over the first half.
+    /// Returns the sums over the second half of a period, for a signal whose second half equals its first half.
     pub fn repeated(self) -> Self {
         Totals { cosine: -self.cosine, sine: -self.sine, ..self }
     }
 
-    /// The sums over the second half of a period of a signal that is the negative of the first half there.
+    /// Returns the sums over the second half of a period, for a signal whose second half is the negative of its first
+    /// half.
     pub fn negated(self) -> Self {
         Totals {
             integral: -self.integral,
@@ -37,7 +38,7 @@ impl Totals<f64> {
         }
     }
 
-    /// The sums over both halves of a period.
+    /// Returns the sums over both halves of a period.
     pub(crate) fn with(self, second: Self) -> Self {
         Totals {
             integral: self.integral + second.integral,

@@ -1,7 +1,7 @@
 //! One AVX-512 register of `f64`.
 //!
-//! `fearless_simd` has AVX-512 for processors from Ice Lake and Zen 4 on. The instructions needed here are those of the
-//! first server processors with AVX-512 (Skylake-SP, 2017), of which many clusters consist.
+//! `fearless_simd` supports AVX-512 on processors from Ice Lake and Zen 4 on. This file needs only the instructions
+//! of the first server processors with AVX-512 (Skylake-SP, 2017), which are common in clusters.
 
 #![expect(unsafe_code, reason = "an Avx512 exists only where its instructions do, and they touch no memory")]
 
@@ -27,7 +27,7 @@ use super::real::Real;
 pub(super) struct Avx512(());
 
 impl Avx512 {
-    /// The proof, if the processor has the instructions.
+    /// Returns the proof, if the processor has the instructions.
     pub(super) fn detect() -> Option<Avx512> {
         let has = is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")
@@ -58,9 +58,10 @@ impl Simd for Avx512 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct F64x8(__m512d);
 
-/// Wraps an intrinsic.
+/// Wraps an intrinsic as a method.
 ///
-/// SAFETY: every value of [`F64x8`] comes of [`F64x8::splat`], which takes a proof that the instructions exist.
+/// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`], which requires a proof that the instructions
+/// exist.
 macro_rules! intrinsic {
     ($call:expr) => {
         unsafe { $call }
@@ -75,7 +76,7 @@ impl F64x8 {
 
     #[inline(always)]
     fn to_array(self) -> [f64; 8] {
-        // SAFETY: both are eight numbers, whatever their bits.
+        // SAFETY: both types consist of eight numbers, for which all bits are valid.
         unsafe { transmute(self.0) }
     }
 
@@ -127,7 +128,8 @@ impl Real for F64x8 {
 
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
-        // The bits of the first where the third are set, else those of the second.
+        // Truth table of a bitwise select: bits of the first operand where the third is set, otherwise bits of the
+        // second.
         const CHOOSE: i32 = 0xE4;
         let (magnitude, sign) = (self.to_bits(), sign.to_bits());
         Self::from_bits(intrinsic!(_mm512_ternarylogic_epi64::<CHOOSE>(sign, magnitude, Self::all(SIGN_BIT))))
@@ -172,7 +174,8 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
-        // SAFETY: both are eight numbers of the same size, whatever their bits. Through `to_array`, all lanes would be copied.
+        // SAFETY: both types consist of eight numbers of the same size, for which all bits are valid. `to_array`
+        // would copy all lanes.
         let lanes = unsafe { &mut *(&raw mut self.0).cast::<[f64; 8]>() };
         lanes[lane] = value;
     }
@@ -184,7 +187,7 @@ impl Lanes for F64x8 {
 
     #[inline(always)]
     fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        // A value is proof enough, see `intrinsic`.
+        // The value `self` is proof enough, see `intrinsic`.
         Avx512(()).vectorize(work)
     }
 

@@ -1,4 +1,4 @@
-//! The backend of computations, and the one place that chooses between instructions and arithmetics.
+//! The backend of computations. This is the only place that chooses instructions and arithmetic.
 
 use core::fmt;
 
@@ -13,7 +13,7 @@ use super::avx512::Avx512;
 use super::register::Instructions;
 use super::{Lanes, Simd, Vector};
 
-/// The rounding of `mul_add`: once or twice. Results are equal to the last bit within a class.
+/// Rounding of `mul_add`: once or twice. Within a class, results are equal to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Fused multiply-add: AVX2, AVX-512, NEON.
@@ -23,7 +23,7 @@ pub enum Arithmetic {
 }
 
 impl Arithmetic {
-    /// The name in the provenance of a run.
+    /// Returns the name that a run's sidecar records.
     pub fn name(self) -> &'static str {
         match self {
             Arithmetic::Fused => "fma",
@@ -34,8 +34,8 @@ impl Arithmetic {
 
 /// Computing hardware of this machine: its processor with one set of SIMD instructions.
 ///
-/// Whoever starts a computation asks for a backend once, with [`Backend::best`] or [`Backend::by_name`], and hands it on.
-/// Work that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
+/// Choose a backend once at the beginning of a computation, with [`Backend::best`] or [`Backend::by_name`], and pass
+/// it on. Code that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
 /// [`Arithmetic`] with the same bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend {
@@ -44,12 +44,12 @@ pub struct Backend {
     proof: Proof,
 }
 
-/// Work that is generic over SIMD instructions.
+/// A computation that is generic over SIMD instructions.
 pub trait Kernel {
-    /// The result of the work.
+    /// Result of the computation.
     type Output;
 
-    /// Does the work with the instructions of `S`. Mark implementations `#[inline(always)]`.
+    /// Computes with the instructions of `S`. Mark implementations `#[inline(always)]`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -69,12 +69,12 @@ enum Proof {
 }
 
 impl Backend {
-    /// The fastest of this machine.
+    /// Returns the fastest backend of this machine.
     pub fn best() -> Backend {
         Self::available().swap_remove(0)
     }
 
-    /// All backends of this machine, the fastest first.
+    /// Returns all backends of this machine, the fastest first.
     pub fn available() -> Vec<Backend> {
         let level = Level::new();
         #[cfg(target_arch = "x86_64")]
@@ -93,22 +93,22 @@ impl Backend {
         proofs.into_iter().filter_map(backend).collect()
     }
 
-    /// The available backend with this [name](Backend::name).
+    /// Returns the available backend with this [name](Backend::name).
     pub fn by_name(name: &str) -> Option<Backend> {
         Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
-    /// The name in the provenance of a run: `avx512`, `avx2`, `sse2` or `neon`.
+    /// Returns the name that a run's sidecar records: `avx512`, `avx2`, `sse2` or `neon`.
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// The class of its arithmetic.
+    /// Returns the class of its arithmetic.
     pub fn arithmetic(self) -> Arithmetic {
         self.arithmetic
     }
 
-    /// The number of SIMD lanes: two registers of `f64`.
+    /// Returns the number of SIMD lanes: two registers of `f64`.
     pub fn lanes(self) -> usize {
         struct Count;
 

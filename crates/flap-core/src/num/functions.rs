@@ -1,13 +1,13 @@
-//! Elementary functions on lanes: polynomials, the same bits on every machine of an arithmetic class.
+//! Elementary functions on lanes, as polynomials. All machines of an arithmetic class compute the same bits.
 //!
-//! Sine and cosine are minimax polynomials, the logarithm is that of FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993),
-//! the exponential a minimax polynomial on |r| ≤ ½ ln 2.
+//! Sine, cosine and exponential are minimax polynomials, the latter on |r| ≤ ½ ln 2. The logarithm follows FreeBSD's
+//! msun (`e_log.c`; Sun Microsystems, 1993).
 
 use super::lanes::{Bits, ROUND};
 use super::real::Real;
 
-/// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact; the second
-/// makes their sum right to 10^-26.
+/// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact. The
+/// sum of both is accurate to 10^-26.
 const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
 
 /// Coefficients of z, z², … in sin √z / √z − 1 up to a quarter turn; errors below 4·10^-17.
@@ -33,8 +33,10 @@ const COS: [f64; 7] = [
     4.646_422_837_808_079_4e-14,
 ];
 
-/// c₀ + c₁ x + c₂ x² + …, given x²: by Horner's rule in x², over pairs of coefficients. It takes as many operations as the
-/// rule in x, and half of their waiting for each other.
+/// Returns c₀ + c₁ x + c₂ x² + …, given x².
+///
+/// The method is Horner's rule in x², over pairs of coefficients. It needs as many operations as the rule in x, but
+/// its chain of dependent operations is half as long.
 #[inline(always)]
 fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     let pair = |i: usize| {
@@ -50,8 +52,9 @@ fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     sum
 }
 
-/// The half turns of an angle and the rest: a number whose lowest bit is set if the half turns are odd, and r with
-/// |r| ≤ π/2.
+/// Returns the number of half turns of an angle, and the remainder r with |r| ≤ π/2.
+///
+/// The first is a number whose lowest bit is set if the half turns are odd.
 #[inline(always)]
 fn half_turns<R: Bits>(x: R) -> (R, R) {
     let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
@@ -61,7 +64,7 @@ fn half_turns<R: Bits>(x: R) -> (R, R) {
     (rounded, r)
 }
 
-/// Sine of `x` (rad), for |x| up to 10^6.
+/// Returns the sine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
 pub(super) fn sin<R: Bits>(x: R) -> R {
     let (odd, r) = half_turns(x);
@@ -69,7 +72,7 @@ pub(super) fn sin<R: Bits>(x: R) -> R {
     (z * r).mul_add(polynomial(z, z * z, &SIN), r).flip_sign_by_lowest_bit(odd)
 }
 
-/// Sine and cosine of `x` (rad), for |x| up to 10^6.
+/// Returns sine and cosine of `x` (rad), for |x| up to 10^6.
 #[inline(always)]
 pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
     let (odd, r) = half_turns(x);
@@ -83,8 +86,9 @@ pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
 /// ln 2 in two parts; the first has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// Coefficients of 1, r, r², … in (e^r − 1)/r up to ½ ln 2; errors below 3·10^-17. The first is 1, so that small numbers stay
-/// right.
+/// Coefficients of 1, r, r², … in (e^r − 1)/r up to ½ ln 2; errors below 3·10^-17.
+///
+/// The first coefficient is exactly 1, which makes the result accurate for small r.
 const EXP: [f64; 11] = [
     1.0,
     0.500_000_000_000_000_7,
@@ -99,7 +103,7 @@ const EXP: [f64; 11] = [
     2.516_134_467_493_302_5e-8,
 ];
 
-/// A whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
+/// Returns a whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
 #[inline(always)]
 fn reduce<R: Bits>(x: R) -> (R, R) {
     let k = x.mul_add(x.lit(core::f64::consts::LOG2_E), x.lit(ROUND)) - ROUND;
@@ -108,10 +112,10 @@ fn reduce<R: Bits>(x: R) -> (R, R) {
     (k, r)
 }
 
-/// Smallest argument whose exponential is infinite: ln(2^1024), rounded up.
+/// Smallest argument with an infinite exponential: ln(2^1024), rounded up.
 const EXP_MAX: f64 = 709.782_712_893_384_1;
 
-/// Smallest argument whose exponential is a normal number: ln(2^-1022).
+/// Smallest argument with a normal number as its exponential: ln(2^-1022).
 const EXP_MIN: f64 = -708.396_418_532_264_1;
 
 /// [`Real::exp`].
@@ -133,9 +137,9 @@ pub(super) fn exp_of_ordinary<R: Bits>(x: R) -> R {
 /// [`Real::exp_m1`].
 #[inline(always)]
 pub(super) fn exp_m1<R: Bits>(x: R) -> R {
-    // Below −40 the result rounds to −1. NaN stays.
+    // Below −40 the result rounds to −1. NaN remains NaN.
     let (k, r) = reduce(x.lit(-40.0).max(x));
-    // Half of 2^k, which is finite for every finite result.
+    // Half of 2^k, because 2^k itself may overflow although the result is finite.
     let half = r.lit(0.5).times_power_of_two(k);
     let power = (polynomial(r, r * r, &EXP) * r).mul_add(half, half - 0.5) * 2.0;
     R::select(x.lt(x.lit(EXP_MAX)), power, x * f64::INFINITY)
@@ -166,7 +170,7 @@ const LN: [f64; 7] = [
 pub(super) fn ln<R: Bits>(x: R) -> R {
     let none = R::select(x.lt(x.lit(0.0)), x.lit(f64::NAN), x.lit(f64::NEG_INFINITY));
     let finite = R::select(x.lt(x.lit(f64::MIN_POSITIVE)), none, ln_of_normal(x));
-    // Infinity and NaN are their own logarithms.
+    // The logarithm of infinity is infinity, of NaN NaN.
     R::select(x.lt(x.lit(f64::INFINITY)), finite, x)
 }
 
@@ -174,7 +178,7 @@ pub(super) fn ln<R: Bits>(x: R) -> R {
 #[inline(always)]
 pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
     let (e, m) = x.exponent_and_mantissa();
-    // m to [√½, √2), so that f = m − 1 is small and the two parts of the sum do not cancel.
+    // m is scaled to [√½, √2). Then f = m − 1 is small, and the two parts of the sum do not cancel.
     let large = m.lit(core::f64::consts::SQRT_2).lt(m);
     let m = R::select(large, m * 0.5, m);
     let e = R::select(large, e + 1.0, e);
@@ -184,7 +188,7 @@ pub(super) fn ln_of_normal<R: Bits>(x: R) -> R {
     let z = s * s;
     let rest = z * polynomial(z, z * z, &LN);
     let half_square = f * f * 0.5;
-    // ln m = f − (f²/2 − s (f²/2 + rest)), with e ln 2 added from its small part up.
+    // ln m = f − (f²/2 − s (f²/2 + rest)). e ln 2 is added starting with its small part.
     let small = s.mul_add(half_square + rest, e * LN_2[1]);
     e.mul_add(e.lit(LN_2[0]), f - (half_square - small))
 }
@@ -205,7 +209,7 @@ pub(super) fn ln_1p_of_normal<R: Bits>(x: R) -> R {
     let s = (x - (power - 1.0)) / (x + (power + 1.0));
     let z = s * s;
     let rest = z * polynomial(z, z * z, &LN);
-    // 2s + s rest, with e ln 2 added from its small part up.
+    // 2s + s rest. e ln 2 is added starting with its small part.
     let small = s.mul_add(rest, e * LN_2[1]);
     e.mul_add(e.lit(LN_2[0]), s.mul_add(s.lit(2.0), small))
 }

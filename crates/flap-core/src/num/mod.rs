@@ -1,18 +1,18 @@
-//! The numbers that models and integrators compute with.
+//! Number types of models and integrators.
 //!
-//! A model's equations are written once, generic over [`Real`]. They then run on
-//! `f64` (one point at a time) and on [`Vector`] (one point per SIMD lane), with the same bits from both:
+//! A model's equations are generic over [`Real`]. They run on `f64` (one point at a time) and on [`Vector`] (one
+//! point per SIMD lane), with the same bits from both:
 //!
 //! - no operation mixes lanes, so a lane never depends on its neighbours;
-//! - elementary functions are polynomials of this crate, never those of std or the C library;
+//! - elementary functions are polynomials of this crate, never calls of std or the C library;
 //! - Rust neither reassociates nor contracts floating-point expressions.
 //!
-//! [`Real`] has all that equations use, [`Lanes`] adds the access to single lanes that the integrator needs, and
-//! [`PerLane`] is a group of numbers. A [`Backend`] chooses the instructions.
+//! [`Real`] contains all operations of the equations. [`Lanes`] adds the access to single lanes that the integrator
+//! needs. [`PerLane`] is a group of numbers. A [`Backend`] chooses the instructions.
 //!
-//! `mul_add` rounds once where the processor has a fused multiply-add (AVX2, AVX-512, NEON) and twice where
-//! it has not. Results of the two [arithmetic classes](Arithmetic) differ at the level of the integration
-//! tolerance; within a class they are equal to the last bit.
+//! `mul_add` rounds once on processors with a fused multiply-add (AVX2, AVX-512, NEON), otherwise twice. Results of
+//! the two [arithmetic classes](Arithmetic) differ by about the integration tolerance. Within a class they are equal
+//! to the last bit.
 
 #[cfg(target_arch = "x86_64")]
 mod avx512;

@@ -1,7 +1,7 @@
-//! Two of a kind: twice the lanes.
+//! A pair of groups of lanes: twice the number of lanes.
 //!
-//! A right-hand side is a long chain of dependent operations. A second, independent chain fills the processor's waiting
-//! time.
+//! A right-hand side is a long chain of dependent operations. A second, independent chain keeps the processor busy
+//! between them.
 
 use core::ops::{BitAnd, BitOr, Not};
 
@@ -9,7 +9,7 @@ use super::lanes::{Bits, Lanes};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_both, operator};
 use super::real::Real;
 
-/// Two groups of lanes that go side by side.
+/// Two groups of lanes that are computed side by side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair<L> {
     lo: L,

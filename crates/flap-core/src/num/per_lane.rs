@@ -1,30 +1,30 @@
-//! Groups of numbers of which every lane has its own: constants of a point, totals of a cycle.
+//! Groups of numbers with one set per lane, such as constants of a point or totals of a cycle.
 
 use super::lanes::Lanes;
 use super::real::Real;
 
 /// A group of numbers, one set per lane.
 ///
-/// Implemented by numbers, by [`per_lane!`](crate::per_lane) for structs of groups, by arrays and pairs of groups, and
-/// by `()` for none at all.
+/// Numbers implement it, and structs declared by [`per_lane!`](crate::per_lane), arrays and pairs of groups. `()` is
+/// the empty group.
 pub trait PerLane<R: Real>: Copy {
-    /// One lane's set.
+    /// Set of one lane.
     type One: Copy;
 
-    /// The same set in every lane, in numbers of the kind of `like`.
+    /// Returns the same set in every lane, in numbers of the type of `like`.
     fn fill(like: R, one: &Self::One) -> Self;
 
-    /// Replaces one lane's set.
+    /// Replaces the set of one lane.
     fn set(&mut self, lane: usize, one: &Self::One)
     where
         R: Lanes;
 
-    /// One lane's set.
+    /// Returns the set of one lane.
     fn get(&self, lane: usize) -> Self::One
     where
         R: Lanes;
 
-    /// True if no number of a set is infinite or NaN.
+    /// Returns true if no number of a set is infinite or NaN.
     fn is_finite(one: &Self::One) -> bool;
 }
 
@@ -146,8 +146,9 @@ impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
     }
 }
 
-/// Declares a struct of which every lane has its own: its fields are numbers `R` or groups of them, and
-/// `Name<f64>` is one lane's set. The struct and its fields have the visibilities that stand before them.
+/// Declares a struct with one set of numbers per lane. Its fields are numbers `R` or groups of them.
+///
+/// `Name<f64>` is the set of one lane. Struct and fields have the visibilities written before them.
 ///
 /// ```
 /// flap_core::per_lane! {

@@ -1,13 +1,13 @@
-//! The numbers of models' equations.
+//! Numbers in the equations of models.
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// A real number, or one real number per SIMD lane: all that a model's equations use.
+/// A real number, or one real number per SIMD lane, with all operations that a model's equations need.
 ///
-/// Equations are written with the ordinary operators; literals go on the right (`x * 0.5 + 1.0`). Comparisons give a mask,
-/// masks are combined with `&`, `|` and `!`, and [`Real::select`] takes the place of `if`.
+/// Write equations with the ordinary operators, with literals on the right (`x * 0.5 + 1.0`). Comparisons return a
+/// mask. Combine masks with `&`, `|` and `!`, and use [`Real::select`] instead of `if`.
 ///
-/// Other types may implement it, for example dual numbers, which carry derivatives along.
+/// Other types may implement it, such as dual numbers for automatic differentiation.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -19,89 +19,92 @@ pub trait Real:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// The truth of a comparison, lane by lane.
+    /// Result of a comparison, lane by lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
-    /// The constant `c`, of the same kind as `self`.
+    /// Returns the constant `c`, of the same type as `self`.
     fn lit(self, c: f64) -> Self;
 
-    /// `self * a + b`, rounded once where the processor can (see [`super::Arithmetic`]).
+    /// Returns `self * a + b`, rounded once if the processor supports it (see [`super::Arithmetic`]).
     fn mul_add(self, a: Self, b: Self) -> Self;
 
-    /// Absolute value.
+    /// Returns the absolute value.
     fn abs(self) -> Self;
 
-    /// Square root.
+    /// Returns the square root.
     fn sqrt(self) -> Self;
 
-    /// The magnitude of `self` with the sign of `sign`.
+    /// Returns the magnitude of `self` with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
 
-    /// The nearest whole number, the even one of two, for |x| up to 2^51.
+    /// Returns the nearest whole number, for |x| up to 2^51. Ties are rounded to the even number.
     fn round_ties_even(self) -> Self;
 
-    /// Sine and cosine of an angle in radians, for |x| up to 10^6; errors stay below 10^-15.
+    /// Returns sine and cosine of an angle (rad), for |x| up to 10^6, with errors below 10^-15.
     fn sin_cos(self) -> (Self, Self);
 
-    /// e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
+    /// Returns e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
     fn exp(self) -> Self;
 
-    /// e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
+    /// Returns e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
     fn exp_m1(self) -> Self;
 
-    /// Natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
+    /// Returns the natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
     fn ln(self) -> Self;
 
-    /// ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
+    /// Returns ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
     fn ln_1p(self) -> Self;
 
-    /// The mask of `self < other`; false if either is NaN.
+    /// Returns the mask of `self < other`; false if either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
 
-    /// `yes` where `mask` holds, `no` elsewhere.
+    /// Returns `yes` where `mask` is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// The entries of a table at `self`, lane by lane. They are constants: a table has steps, no slopes.
+    /// Returns the entries of a table at `self`, lane by lane. The entries are constants without derivatives.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
-    /// The smaller of two numbers; `other` if either is NaN.
+    /// Returns the smaller of two numbers; `other` if either is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
 
-    /// The larger of two numbers; `other` if either is NaN.
+    /// Returns the larger of two numbers; `other` if either is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(other.lt(self), self, other)
     }
 
-    /// Sine of an angle in radians, with the bits of [`Real::sin_cos`].
+    /// Returns the sine of an angle (rad), with the bits of [`Real::sin_cos`].
     #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
 
-    /// [`Real::exp`] of a number from −708 to 709. Beyond, the bits have no meaning: no instruction checks the range.
+    /// Returns [`Real::exp`] of a number from −708 to 709. Beyond this range, which is not checked, the result is
+    /// unspecified.
     #[inline(always)]
     fn exp_of_ordinary(self) -> Self {
         self.exp()
     }
 
-    /// [`Real::exp_m1`] of a number from −708 to 709. Beyond, the bits have no meaning: no instruction checks the range.
+    /// Returns [`Real::exp_m1`] of a number from −708 to 709. Beyond this range, which is not checked, the result is
+    /// unspecified.
     #[inline(always)]
     fn exp_m1_of_ordinary(self) -> Self {
         self.exp_m1()
     }
 
-    /// [`Real::ln`] of a normal positive number. For other numbers the bits have no meaning: no instruction checks them.
+    /// Returns [`Real::ln`] of a normal positive number. For other numbers, which are not checked, the result is
+    /// unspecified.
     #[inline(always)]
     fn ln_of_normal(self) -> Self {
         self.ln()
     }
 
-    /// [`Real::ln_1p`] of x > −1 with 1 + x a normal number up to 10^300. For other numbers the bits have no meaning: no
-    /// instruction checks them.
+    /// Returns [`Real::ln_1p`] of x > −1 with 1 + x a normal number up to 10^300. For other numbers, which are not
+    /// checked, the result is unspecified.
     #[inline(always)]
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()

@@ -1,4 +1,4 @@
-//! One SIMD register of `f64`, of the sets of instructions that `fearless_simd` knows.
+//! One SIMD register of `f64`, for the instruction sets that `fearless_simd` supports.
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
@@ -68,7 +68,8 @@ impl<S: Simd> Real for Register<S> {
         Register(mask.select(yes.0, no.0))
     }
 
-    // One instruction each, with the very meaning; those of other architectures treat NaN in other ways.
+    // These compile to one instruction each, with the required result for NaN. Other architectures treat NaN
+    // differently.
     #[cfg(target_arch = "x86_64")]
     of_inner!(Register: min(other), max(other));
 }

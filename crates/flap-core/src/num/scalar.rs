@@ -1,4 +1,4 @@
-//! One number at a time.
+//! Scalars: one number at a time.
 
 use core::marker::PhantomData;
 
@@ -9,15 +9,15 @@ use super::lanes::{
 use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operator};
 use super::real::Real;
 
-/// One number at a time: `f64`, or [`Unfused`] for machines without fused multiply-add.
+/// A scalar: `f64`, or [`Unfused`] for machines without fused multiply-add.
 pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
-    /// The scalar with this value.
+    /// Returns the scalar with this value.
     fn new(value: f64) -> Self;
 
-    /// The value.
+    /// Returns the value.
     fn value(self) -> f64;
 
-    /// Does the work with the instructions that this arithmetic is fast on. Results do not depend on it.
+    /// Calls `work` with the fastest instructions for this arithmetic enabled. Results do not depend on them.
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
@@ -26,7 +26,7 @@ pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
 pub struct OneLane<R>(PhantomData<R>);
 
 impl<R: Scalar> OneLane<R> {
-    /// Every processor computes with scalars.
+    /// Returns the proof. Every processor computes with scalars.
     pub const fn new() -> OneLane<R> {
         OneLane(PhantomData)
     }
@@ -82,7 +82,7 @@ impl<R: Scalar> Lanes for R {
     }
 }
 
-/// The scalar of [`super::Arithmetic::Fused`]: its `mul_add` rounds once.
+/// The scalar of [`super::Arithmetic::Fused`]. Its `mul_add` rounds once.
 impl Scalar for f64 {
     #[inline(always)]
     fn new(value: f64) -> f64 {
@@ -94,8 +94,8 @@ impl Scalar for f64 {
         self
     }
 
-    /// Enables the fused multiply-add instruction, where `mul_add` would otherwise be a call into the C library
-    /// (which gives the same bits).
+    /// Enables the fused multiply-add instruction. Without it, `mul_add` calls the C library, which returns the same
+    /// bits.
     #[inline(always)]
     fn enter<T>(work: impl FnOnce() -> T) -> T {
         #[cfg(target_arch = "x86_64")]
@@ -157,7 +157,7 @@ impl Bits for f64 {
     fn exponent_and_mantissa(self) -> (f64, f64) {
         let bits = self.to_bits();
         let mantissa = f64::from_bits((bits & MANTISSA_BITS) | ONE_BITS);
-        // The exponent field as a whole number: its bits below those of 2^52.
+        // The exponent field as a whole number: its bits replace the low bits of 2^52.
         let exponent = f64::from_bits(((bits & EXPONENT_BITS) >> 52) | TWO_52_BITS) - (TWO_52 + 1023.0);
         (exponent, mantissa)
     }
@@ -179,7 +179,7 @@ impl Bits for f64 {
     }
 }
 
-/// A single `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
+/// An `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unfused(pub f64);
 

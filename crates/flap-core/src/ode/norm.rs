@@ -1,14 +1,15 @@
-//! The size of an error, relative to the tolerances.
+//! Size of an error, relative to the tolerances.
 
 use crate::num::Lanes;
 
-/// The mean square of error over tolerance, Hairer I Eq. (II.4.11) without the root: a step is good below 1.
+/// Returns the mean square of error over tolerance: Hairer I Eq. (II.4.11) without the root. A step below 1 is
+/// accepted.
 ///
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
 /// ```
 ///
-/// The quotients are right to 0.2 %, so no division is needed.
+/// The quotients are accurate to 0.2 %, because an approximate reciprocal replaces the division.
 #[inline(always)]
 pub fn error_squared<R: Lanes, const N: usize>(
     error: &[R; N],
@@ -19,7 +20,7 @@ pub fn error_squared<R: Lanes, const N: usize>(
     add_squares(rtol.lit(0.0), error, [y, y_new], atol, rtol) * (1.0 / N as f64)
 }
 
-/// A sum plus the squares of error over tolerance.
+/// Returns `sum` plus the squares of error over tolerance.
 #[inline(always)]
 pub(super) fn add_squares<R: Lanes, const N: usize>(
     mut sum: R,

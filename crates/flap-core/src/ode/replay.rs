@@ -1,8 +1,8 @@
-//! A run made again with other constants and initial states, on the same steps.
+//! A run repeated on the same steps, with other constants and initial states.
 //!
-//! A step-size controller makes the end of a run a function of its constants that jumps by about the tolerance. On steps
-//! that are given, as shares of the span, it is a smooth function: its differences are derivatives, whatever the tolerance.
-//! Steps that end on the switching surface end on it again, wherever the run meets it.
+//! With a step-size controller, the final state jumps by about the tolerance when a constant changes. On fixed steps,
+//! given as fractions of the span, it is a smooth function: its differences are accurate derivatives at any
+//! tolerance. A step that ends on the switching surface again ends on it, wherever the run meets the surface.
 
 use core::ops::ControlFlow;
 
@@ -13,30 +13,30 @@ use super::switch::landing_size;
 use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
-/// A step of a run.
+/// A recorded step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RecordedStep {
-    /// Its end, as a share of the span.
+    /// End of the step, as a fraction of the span.
     pub(crate) end: f64,
-    /// The side of the switching surface: +1 or −1.
+    /// Side of the switching surface: +1 or −1.
     pub(crate) side: f64,
-    /// It ends on the surface, where the run changes sides.
+    /// True if the step ends on the surface, where the run changes sides.
     pub(crate) lands: bool,
 }
 
-/// The end of a run that was made again.
+/// Result of a repeated run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated<T, const N: usize> {
-    /// The state.
+    /// Final state.
     pub(crate) y: [f64; N],
-    /// The observer's totals.
+    /// Totals of the observer.
     pub(crate) totals: T,
-    /// The run met the switching surface where the first one did, but for a small share of a mean step. Otherwise its
-    /// end means nothing.
+    /// True if the run met the switching surface close to where the first run did, within a small fraction of a mean
+    /// step. Otherwise the result is unusable.
     pub(crate) meets: bool,
 }
 
-/// The accepted steps of a run over one span, and its outcome. Of a run that fails, the steps mean nothing.
+/// Records the accepted steps of a run over one span, and its outcome. The steps of a failed run are unusable.
 pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
@@ -65,8 +65,10 @@ pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     (recording, outcome)
 }
 
-/// Makes runs from `starts` on the steps of `recording`, in lanes, each over its own span. Every run evaluates six right-hand
-/// sides per step, eighteen where a step lands, and some at changes of sides.
+/// Repeats the steps of `recording` from each of `starts`, in lanes, each over its own span.
+///
+/// Every run evaluates six right-hand sides per step, eighteen if a step lands on the surface, and a few at changes
+/// of sides.
 pub(crate) fn replay<S, O, V, const N: usize>(
     simd: S,
     ode: &O,
@@ -89,13 +91,14 @@ where
     ends
 }
 
-/// Times that a step is taken again to land on the surface: each squares its error, which is small from the beginning.
+/// Number of repetitions of a step to land on the surface. Each repetition squares the error, which is small from the
+/// beginning.
 const LANDINGS: u32 = 2;
 
-/// The share of a mean step by which a landing may be moved.
+/// Largest shift of a landing, as a fraction of a mean step.
 const NEAR: f64 = 1e-2;
 
-/// Makes at most as many runs as there are lanes.
+/// Repeats at most as many runs as there are lanes.
 #[inline(always)]
 fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     token: R::Token,
@@ -144,7 +147,7 @@ fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     }
     for lane in 0..starts.len() {
         let y: [f64; N] = step.y[0].get(lane);
-        // The state is not a number where the surface was missed altogether.
+        // The state is NaN if the surface was missed.
         let steps = moved.lane(lane) * recording.len() as f64;
         let meets = steps <= NEAR && y.iter().all(|y| y.is_finite());
         ends.push(Repeated { y, totals: totals.get(lane), meets });

@@ -1,5 +1,7 @@
-//! One run on scalars, written to be read. It makes the same decisions as [`super::ensemble`], in the same
-//! arithmetic, so that its results are equal to the last bit: it is the ensemble's oracle.
+//! One run on scalars, in simple code.
+//!
+//! It makes the same decisions as [`super::ensemble`] in the same arithmetic, so its results are equal to the last
+//! bit. It is the reference for tests of the ensemble.
 
 use core::ops::ControlFlow;
 
@@ -14,10 +16,10 @@ use super::{
 };
 use crate::num::{PerLane, Scalar};
 
-/// Integrates one run until `at_span_end` breaks, or until it fails.
+/// Integrates one run until `at_span_end` breaks or the run fails.
 ///
-/// `on_step` sees every accepted step; `at_span_end` sees the state at the end of each span.
-/// `R` is `f64` or [`crate::num::Unfused`].
+/// `on_step` receives every accepted step, `at_span_end` the state at the end of each span. `R` is `f64` or
+/// [`crate::num::Unfused`].
 pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
@@ -28,11 +30,13 @@ pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     solve_until::<O, R, N>(ode, tolerances, start, &never, &mut on_step, &mut at_span_end)
 }
 
-/// The callback that sees the accepted steps.
+/// Callback for accepted steps.
 type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
 
-/// [`solve`], which also ends when `interrupted` is true. It then ends as if stopped; the caller asks `interrupted`, too.
-/// Compiled once per system of equations: the callbacks are not part of it.
+/// [`solve`] that also ends when `interrupted` returns true, with the ending "stopped".
+///
+/// The caller must check `interrupted` too. The callbacks are not generic, so this is compiled once per system of
+/// equations.
 #[inline(never)]
 pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
@@ -77,7 +81,7 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
                 steps_in_span += 1;
 
                 let proposal = h_try * verdict.factor;
-                // A step cut short by its target says little about the next one.
+                // A step shortened to land on its target is no measure for the next step size.
                 let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
                 let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
                 if O::SWITCHES {

@@ -1,15 +1,14 @@
-//! The first slope and the first step size.
+//! First slope and first step size.
 
 use super::norm::add_squares;
 use super::variation::{Varied, slopes_outlined};
 use super::{Ode, input};
 use crate::num::Lanes;
 
-/// The slope at time 0 and a starting step size, by the algorithm of Hairer I, section II.4, with the absolute tolerances of
-/// states and of responses.
+/// Returns the slope at time 0 and the first step size, by the algorithm of Hairer I, section II.4.
 ///
-/// It evaluates two right-hand sides. The trial step is a ten-thousandth of the span where the state or its slope is too small to judge by, for example at
-/// rest.
+/// `atol` contains the absolute tolerances of states and of responses. The algorithm evaluates two right-hand sides.
+/// If the state or its slope is very small, for example at rest, the trial step is a ten-thousandth of the span.
 #[inline(always)]
 pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -32,7 +31,7 @@ pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     let h0 = R::select(unknown_y, span * 1e-4, R::select(unknown_k, span * 1e-4, trial));
     let h0 = h0.min(span);
 
-    // An explicit Euler step shows how fast the slope changes.
+    // An explicit Euler step estimates the rate of change of the slope.
     let mut y1 = *y;
     for i in 0..N {
         y1.motion[i] = k1.motion[i].mul_add(h0, y.motion[i]);
@@ -56,7 +55,7 @@ pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     (k1, (h0 * 100.0).min(h1).min(span))
 }
 
-/// Root mean square of `x` over the tolerances at `y`.
+/// Returns the root mean square of `x` over the tolerances at `y`.
 #[inline(always)]
 fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
     x: &Varied<[R; N], D>,
@@ -71,11 +70,12 @@ fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
     (sum * (1.0 / (N * (1 + D)) as f64)).sqrt()
 }
 
-/// The step size with which the next span begins, given that of the last and the one that the controller proposes.
+/// Returns the step size at the beginning of the next span, given the last span's first step and the controller's
+/// proposal.
 ///
-/// Spans of a periodic motion should be integrated alike, step by step: then the state at their ends converges
-/// as the motion does, where otherwise it would jitter with the integration error. So the old size stays, and
-/// with it a fresh controller, unless it is out of proportion.
+/// Spans of a periodic motion should be integrated with equal steps. The state at their ends then converges as the
+/// motion does; otherwise it varies by the integration error. The old size is therefore kept, with a new controller,
+/// unless it differs too much from the proposal.
 #[inline(always)]
 pub(super) fn span_step(last: f64, proposed: f64) -> f64 {
     if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }

@@ -1,36 +1,36 @@
-//! One step of the method: stages, new state, error estimate. No policy, no allocation.
+//! One step of the method: stages, new state, error estimate. It contains no step-size control and does not allocate.
 
 use super::Ode;
 use super::tableau::{self, A, C, E, STAGES};
 use super::variation::{Varied, slopes};
 use crate::num::Real;
 
-/// A step: its beginning, and the results of an attempt.
+/// A step: its initial state and the results of an attempt.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, const N: usize> {
-    /// State at each stage: the old state first, the new one last.
+    /// State at each stage: the old state first, the new state last.
     pub y: [[R; N]; STAGES],
-    /// Slope at each stage. The last is the first of the next step.
+    /// Slope at each stage. The last slope is the first slope of the next step.
     pub k: [[R; N]; STAGES],
     /// Estimated error of the new state.
     pub error: [R; N],
 }
 
-/// An attempted step and its place in time.
+/// An attempted step and its position in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<'a, R, const N: usize> {
-    /// Time within the span at which the step begins (s).
+    /// Time within the span at the beginning of the step (s).
     pub t: R,
-    /// Its size (s).
+    /// Step size (s).
     pub h: R,
-    /// The side of the switching surface it is on.
+    /// Side of the switching surface.
     pub side: R,
-    /// Its stages.
+    /// Stages of the step.
     pub step: &'a Step<R, N>,
 }
 
 impl<R: Real, const N: usize> Step<R, N> {
-    /// A step from `y`, where the slope is `k1`, before any attempt.
+    /// Returns a step from `y` with the slope `k1`, before any attempt.
     #[inline(always)]
     pub fn new(y: [R; N], k1: [R; N]) -> Step<R, N> {
         Step { y: [y; STAGES], k: [k1; STAGES], error: y }
@@ -43,7 +43,7 @@ impl<R: Real, const N: usize> Step<R, N> {
         self.attempt_with(&mut [], ode, c, t, h, side);
     }
 
-    /// [`Step::attempt`] together with the same steps of the `responses`.
+    /// [`Step::attempt`] for the state and its `responses`.
     #[inline(always)]
     pub(super) fn attempt_with<O: Ode<N>, const D: usize>(
         &mut self,
@@ -54,8 +54,9 @@ impl<R: Real, const N: usize> Step<R, N> {
         h: R,
         side: R,
     ) {
-        // The inputs of all stages do not wait for each other. Of inputs that are many numbers, those that the right-hand side
-        // does not need would be computed too. Stages 6 and 7 are both at the end of the step and share theirs.
+        // The inputs of different stages are independent of each other, so they are computed together. For inputs of
+        // many numbers, this would also compute numbers that the right-hand side does not use. Stages 6 and 7 share
+        // their time, the end of the step.
         let ahead = size_of::<O::Input<R>>() <= AHEAD * size_of::<R>();
         let mut inputs = [ode.input(c, h.mul_add(h.lit(C[1]), t)); STAGES - 2];
         if ahead {
@@ -63,7 +64,7 @@ impl<R: Real, const N: usize> Step<R, N> {
                 inputs[i] = ode.input(c, h.mul_add(h.lit(C[i + 1]), t));
             }
         }
-        // A loop, so that the right-hand side is compiled once: six copies of it take the compiler minutes, and are no
+        // A loop, so that the right-hand side is compiled once. Six copies take minutes to compile and are not
         // faster.
         let mut last = Varied { motion: self.k[0], responses: [self.k[0]; D] };
         for i in 0..D {
@@ -92,11 +93,11 @@ impl<R: Real, const N: usize> Step<R, N> {
         }
     }
 
-    /// The state at a stage, given the slope at the stage before.
+    /// Returns the state at a stage, given the slope at the stage before.
     #[inline(always)]
     fn state(&self, stage: usize, h: R, last: &[R; N]) -> [R; N] {
         let mut y = combine(&self.y[0], h, &self.k, &A[stage], stage - 1);
-        // The last slope comes last, from its registers: the other terms are ready before it.
+        // The last slope is added last, because the other terms are ready before it.
         let weight = h * A[stage][stage - 1];
         for i in 0..N {
             y[i] = last[i].mul_add(weight, y[i]);
@@ -104,8 +105,8 @@ impl<R: Real, const N: usize> Step<R, N> {
         y
     }
 
-    /// The state at the fraction `theta` of the step, by the fourth-order continuous extension of DOPRI5; Hairer I,
-    /// section II.6. The step has the size `h`.
+    /// Returns the state at the fraction `theta` of the step, by the fourth-order continuous extension of DOPRI5
+    /// (Hairer I, section II.6). The step has the size `h`.
     ///
     /// ```text
     /// y(θ) = y₀ + θ (Δy + (1 − θ) (b + θ (Δy − h k₇ − b + (1 − θ) h Σ dᵢ kᵢ)))   with b = h k₁ − Δy
@@ -129,7 +130,7 @@ impl<R: Real, const N: usize> Step<R, N> {
         out
     }
 
-    /// Moves the beginning to the end of the attempt, in the lanes in which it was `accepted`.
+    /// Sets the initial state to the end of the attempt, in the lanes in which it was `accepted`.
     #[inline(always)]
     pub(crate) fn advance(&mut self, accepted: R::Mask) {
         for i in 0..N {
@@ -139,13 +140,13 @@ impl<R: Real, const N: usize> Step<R, N> {
     }
 }
 
-/// The most numbers of an input that is computed for all stages of a step at once.
+/// Largest number of components of an input that is computed for all stages of a step at once.
 const AHEAD: usize = 3;
 
-/// Components whose sums stay in registers while slopes are added up.
+/// Number of components whose sums stay in registers while slopes are added.
 const BLOCK: usize = 4;
 
-/// y + h Σ wⱼ kⱼ over the first `count` slopes.
+/// Returns y + h Σ wⱼ kⱼ over the first `count` slopes.
 #[inline(always)]
 fn combine<R: Real, const N: usize, const W: usize>(
     y: &[R; N],
@@ -165,7 +166,7 @@ fn combine<R: Real, const N: usize, const W: usize>(
     out
 }
 
-/// Adds h Σ wⱼ kⱼ to `SIZE` components from the `first` on.
+/// Adds h Σ wⱼ kⱼ to `SIZE` components, starting with the component `first`.
 #[inline(always)]
 fn add<R: Real, const N: usize, const W: usize, const SIZE: usize>(
     y: &mut [R; N],

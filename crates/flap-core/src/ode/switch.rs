@@ -1,63 +1,66 @@
 //! Right-hand sides that jump where a switching function changes sign.
 //!
-//! The equations are integrated on one side of the surface at a time: the side stays fixed within a step, so
-//! that every step sees a smooth right-hand side. When an accepted step ends on the other side, the crossing
-//! is located on the cubic through the function's values and rates at both ends, and the step is taken again up
-//! to the crossing. A step that lands more than a thousandth of an ordinary step from the surface is taken again, with the
-//! size that Newton's step gives. There the side is changed, with a fresh first slope.
+//! The equations are integrated on one side of the surface at a time. The side is constant within a step, so every
+//! step has a smooth right-hand side.
 //!
-//! Two crossings within one step leave the function's sign as it was. They are found where the function approaches zero at the
-//! beginning of the step and departs from zero at its end, and the cubic has a minimum on the other side: the step is taken
-//! again up to this minimum, beyond the first crossing.
+//! If an accepted step ends on the other side, the crossing is located on a cubic through the function's values and
+//! rates at both ends. The step is then repeated up to the crossing. If it ends more than a thousandth of an ordinary
+//! step from the surface, it is repeated with the size from Newton's step. On the surface, the side is changed and
+//! the first slope is computed again.
+//!
+//! Two crossings within one step leave the function's sign unchanged. The function then approaches zero at
+//! the beginning of the step and departs from it at the end. If the cubic also has a minimum on the other side, the
+//! step is repeated up to this minimum, beyond the first crossing.
 
 use super::step::Step;
 use super::variation::{Varied, crossed, slopes_outlined};
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
-/// A step lands on the surface where it ends within this fraction of an ordinary step. The cubic mostly errs by far less.
+/// A step lands on the surface if it ends within this fraction of an ordinary step. The cubic's error is usually far
+/// smaller.
 const LANDED: f64 = 1e-3;
 
-/// The most corrections of a step that lands beside the surface.
+/// Largest number of corrections of a step that ends beside the surface.
 const CORRECTIONS: f64 = 3.0;
 
-/// A step that no correction has brought nearer lands within this fraction all the same.
+/// Fraction within which a step also counts as landed, if corrections bring it no nearer.
 const REACHED: f64 = 1e-2;
 
-/// The largest distance from the surface, as a fraction of an ordinary step, from which the size is corrected.
+/// Largest distance from the surface, as a fraction of an ordinary step, at which the step size is corrected.
 const NEAR: f64 = 0.1;
 
-/// The smallest fraction of a step after which the function may have its minimum for two crossings within the step.
+/// Smallest fraction of a step at which a minimum of the function indicates two crossings within the step.
 const EARLIEST: f64 = 1e-2;
 
-/// The position of a run relative to its switching surface, remembered from step to step.
+/// Position of a run relative to its switching surface, from step to step.
 #[derive(Clone, Copy)]
 pub(super) struct Switching<R: Lanes> {
-    /// The side of the surface on which the right-hand side is evaluated: +1 or −1.
+    /// Side of the surface on which the right-hand side is evaluated: +1 or −1.
     pub(super) side: R,
-    /// The switching function and its rate at the beginning of the step.
+    /// Switching function and its rate at the beginning of the step.
     pub(super) value: [R; 2],
-    /// The step is being taken again, up to a crossing.
+    /// True if the step is being repeated up to a crossing.
     pub(super) heading: R::Mask,
-    /// The number of times that the size of that step has been corrected.
+    /// Number of corrections of the size of this step.
     pub(super) corrections: R,
-    /// The step size to go on with after the crossing.
+    /// Step size after the crossing.
     pub(super) resume: R,
 }
 
-/// The judgement of an attempted step with regard to the surface.
+/// Decision on an attempted step near the surface.
 #[derive(Clone, Copy)]
 pub(super) struct Crossing<R: Lanes> {
-    /// The step is accepted all the same.
+    /// True if the step is accepted.
     pub(super) accepted: R::Mask,
-    /// The step size to go on with.
+    /// Next step size.
     pub(super) h: R,
-    /// The step ends on the surface, where the side has changed: the first slope is to be renewed.
+    /// True if the step ends on the surface, where the side changes and the first slope must be computed again.
     pub(super) arrived: R::Mask,
 }
 
 impl<R: Lanes> Switching<R> {
-    /// The memory of a run that begins at `y`, before its side is known.
+    /// Returns the memory of a run before its side is determined.
     #[inline(always)]
     pub(super) fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);
@@ -65,7 +68,7 @@ impl<R: Lanes> Switching<R> {
         Switching { side: like.lit(1.0), value: [zero; 2], heading: none, corrections: zero, resume: zero }
     }
 
-    /// Chooses the side at the beginning of a run; on the surface, that to which the motion goes.
+    /// Returns the memory at the beginning of a run. On the surface, the side is the one that the motion enters.
     #[inline(always)]
     pub(super) fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
@@ -79,7 +82,7 @@ impl<R: Lanes> Switching<R> {
         memory
     }
 
-    /// Judges a step that the error control has `accepted` or not, and that goes on with step size `h_next`.
+    /// Returns the decision on a step. `accepted` is the result of the error control, `h_next` its next step size.
     #[inline(always)]
     pub(super) fn judge<O: Ode<N>, const N: usize>(
         &mut self,
@@ -96,12 +99,12 @@ impl<R: Lanes> Switching<R> {
 
         let (inside_begin, inside_end) = (begin * self.side, end * self.side);
         let outside = inside_end.lt(zero);
-        // Right after a crossing the function is zero but for rounding, and the rate tells the side.
+        // Right after a crossing the function is zero except for rounding, so the sign of the rate decides.
         let inward = begin_rate * self.side;
         let began_inside = zero.lt(inside_begin) | zero.lt(inward.mul_add(h * LANDED, inside_begin));
-        // A step that leaves its side is taken again, up to the surface.
+        // A step that leaves its side is repeated up to the surface.
         let leaves = accepted & outside & began_inside & !self.heading;
-        // So is one that lands beside it.
+        // A step that ends beside the surface is repeated too.
         let slack = end_rate.abs() * self.resume;
         let lands = inside_end.abs().lt(slack * LANDED);
         let beside = accepted
@@ -109,7 +112,7 @@ impl<R: Lanes> Switching<R> {
             & self.corrections.lt(h.lit(CORRECTIONS))
             & !lands
             & inside_end.abs().lt(slack * NEAR);
-        // Approaches and departs.
+        // The function approaches zero, then departs from it.
         let turns = accepted & !outside & !self.heading & inward.lt(zero) & zero.lt(end_rate * self.side);
         let heading = leaves | beside;
         let mut again = heading;
@@ -124,7 +127,7 @@ impl<R: Lanes> Switching<R> {
             size = R::select(dips, bottom * h, size);
             again = heading | dips;
         }
-        // Arrived: on the way to the surface and there, or on the wrong side from the beginning.
+        // Arrived: on the surface after a repeated step, or on the wrong side from the beginning.
         let near = inside_end.lt(slack * REACHED);
         let stray = outside & !began_inside & !self.heading;
         let kept = accepted & !again;
@@ -141,21 +144,22 @@ impl<R: Lanes> Switching<R> {
     }
 }
 
-/// The factor by which a step may be stretched to land on the end of its span: 1 on the way to a crossing.
+/// Returns the factor by which a step may be stretched to end with its span: 1 if a crossing is its target.
 #[inline(always)]
 pub(super) fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
     let one = switching.side.lit(1.0);
     R::select(switching.heading, one, one.lit(STRETCH))
 }
 
-/// The size with which a step of size `h` ends on the surface, given the switching function and its rate at its end: Newton's
-/// step.
+/// Returns the size with which a step of size `h` ends on the surface, by Newton's step.
+///
+/// The arguments are the switching function and its rate at the end of the step.
 #[inline(always)]
 pub(super) fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
     h - value / rate
 }
 
-/// The state and the first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
+/// Returns state and first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
 #[inline(always)]
 pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -169,7 +173,7 @@ pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     [y, slopes_outlined(ode, c, &u, side, &y)]
 }
 
-/// g₀ + d₀ θ + b θ² + a θ³: the switching function over the fraction θ of a step.
+/// The switching function over the fraction θ of a step: g₀ + d₀ θ + b θ² + a θ³.
 struct Cubic<R> {
     end: R,
     value: R,
@@ -179,7 +183,7 @@ struct Cubic<R> {
 }
 
 impl<R: Real> Cubic<R> {
-    /// The cubic with values and slopes `[g, d]` at 0 and 1.
+    /// Returns the cubic with values and slopes `[g, d]` at 0 and 1.
     #[inline(always)]
     fn new([g0, d0]: [R; 2], [g1, d1]: [R; 2]) -> Cubic<R> {
         let a = (g0 - g1) * 2.0 + d0 + d1;
@@ -192,20 +196,22 @@ impl<R: Real> Cubic<R> {
         theta.mul_add(theta.mul_add(theta.mul_add(self.a, self.b), self.slope), self.value)
     }
 
-    /// The fraction of the step at which the cubic, times `side`, has its minimum. Not a number if it has none.
+    /// Returns the fraction of the step at which the cubic, times `side`, has its minimum; NaN if there is none.
     #[inline(always)]
     fn minimum(&self, side: R) -> R {
         let Cubic { slope, a, b, .. } = self;
         -(*slope) / (*b + side * (*b * *b - *a * *slope * 3.0).sqrt())
     }
 
-    /// The zero of a cubic that leaves `side`. Newton's iteration begins on the chord, or at the end where the cubic first goes
-    /// away from zero: it may begin at zero.
+    /// Returns the zero of a cubic that leaves `side`.
+    ///
+    /// Newton's iteration begins on the chord. If the cubic begins at zero or departs from zero first, it begins at
+    /// that end.
     #[inline(always)]
     fn root(&self, side: R) -> R {
         let zero = side.lit(0.0);
         let end_slope = self.a * 3.0 + self.b * 2.0 + self.slope;
-        // Where it departs from zero again at the end, the zero is before the minimum.
+        // If the cubic also departs from zero at the end, the zero is before the minimum.
         let departs = zero.lt(end_slope * side);
         let one = side.lit(1.0);
         let bottom = self.minimum(side);

@@ -1,15 +1,15 @@
 //! Coefficients of the Dormand-Prince method of order 5(4).
 //!
-//! Dormand and Prince (1980); Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*,
-//! 2nd ed., Table II.5.2; dense output as in section II.6 and the code DOPRI5.
+//! Dormand and Prince (1980). Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Table
+//! II.5.2. Dense output as in section II.6 and the code DOPRI5.
 
-/// Number of stages; the last is the first of the next step.
+/// Number of stages. The last stage is the first stage of the next step.
 pub const STAGES: usize = 7;
 
 /// Times of the stages, as fractions of the step.
 pub const C: [f64; STAGES] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
 
-/// Weights of earlier slopes in each stage: row `s` holds the first `s` of them.
+/// Weights of earlier slopes in each stage: row `s` contains the first `s` weights.
 #[rustfmt::skip]
 pub const A: [[f64; 6]; STAGES] = [
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -25,7 +25,7 @@ pub const A: [[f64; 6]; STAGES] = [
 pub const B: [f64; STAGES] =
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0];
 
-/// Weights of the error estimate: `B` less the weights of the embedded fourth-order solution.
+/// Weights of the error estimate: `B` minus the weights of the embedded fourth-order solution.
 pub const E: [f64; STAGES] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 

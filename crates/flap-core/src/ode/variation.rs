@@ -1,22 +1,27 @@
 //! Motions with their responses to small changes of the initial state.
 //!
-//! Step sizes are chosen for states and responses: where a force has a kink, its derivative jumps, and responses err by more than
-//! states. Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales: they
-//! err by about 1e-7 of the second derivative, and by rounding of about 1e-9. Where the right-hand side jumps, the responses
-//! jump too, as a changed motion reaches the surface earlier or later.
+//! Step sizes depend on the errors of states and responses. At a kink of a force its derivative jumps, and responses
+//! have larger errors than states.
+//!
+//! Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales.
+//! Their errors are about 1e-7 of the second derivative, plus rounding of about 1e-9. At a jump of the right-hand
+//! side the responses jump too, because a changed motion reaches the surface earlier or later.
 
 use super::{Ode, slope};
 use crate::num::{Lanes, Real};
 
-/// Size of the changes that are followed, relative to [`Start::change`](super::Start::change): their squares, which are
-/// neglected, and rounding, which is magnified, are both far below any tolerance.
+/// Size of the changes, relative to [`Start::change`](super::Start::change). The neglected squares and the amplified
+/// rounding are both far below any tolerance.
 const SMALL: f64 = 1e-7;
 
-/// The scale of responses, relative to the change that they respond to: the absolute tolerance is a hundredth of the relative
-/// one by default. Errors of responses count relative to this, not to responses near zero.
+/// Scale of responses, relative to the change that they respond to.
+///
+/// By default the absolute tolerance is a hundredth of the relative one. With this factor, errors of responses are
+/// relative to the change, also for responses near zero.
 pub(super) const RESPONSE_SCALE: f64 = 100.0;
 
-/// A quantity of a motion, and the same of its responses to D changes of its initial state. D is the number of states, or 0.
+/// A quantity of a motion and the same quantity of its responses to D changes of its initial state. D is the number
+/// of states, or 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Varied<T, const D: usize> {
     pub(super) motion: T,
@@ -24,14 +29,14 @@ pub(super) struct Varied<T, const D: usize> {
 }
 
 impl<T> Varied<T, 0> {
-    /// A motion without responses.
+    /// Returns a motion without responses.
     #[inline(always)]
     pub(super) fn alone(motion: T) -> Self {
         Varied { motion, responses: [] }
     }
 }
 
-/// The derivatives of the state and of its responses, as [`Ode::rhs`].
+/// Returns the derivatives of the state and of its responses, as in [`Ode::rhs`].
 #[inline(always)]
 pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
     ode: &O,
@@ -41,7 +46,7 @@ pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
     y: &Varied<[R; N], D>,
 ) -> Varied<[R; N], D> {
     if D == 0 {
-        // The loop below would copy states.
+        // Without this, the loop below would copy states.
         return Varied { motion: ode.rhs(c, u, side, &y.motion), responses: y.responses };
     }
     let mut out = *y;
@@ -60,7 +65,7 @@ pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
     out
 }
 
-/// [`slopes`] in a function of its own, as [`slope`].
+/// [`slopes`] kept out of line, for the reason given at [`slope`].
 #[inline(always)]
 pub(super) fn slopes_outlined<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -75,10 +80,10 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Lanes, const N: usize, const D: usiz
     )
 }
 
-/// The state and its responses right after the motion has crossed the switching surface to this `side`.
+/// Returns the state and its responses right after the motion has crossed the switching surface to this `side`.
 ///
-/// A change w that alters the switching function by dg moves the crossing by −dg/ġ; in between, the changed motion
-/// has the slope of the other side:
+/// A change w that changes the switching function by dg moves the crossing in time by −dg/ġ. In between, the changed
+/// motion has the slope of the other side:
 ///
 /// ```text
 /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻
@@ -107,7 +112,7 @@ pub(super) fn crossed<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     out
 }
 
-/// The state with a small change in the direction of a response.
+/// Returns the state with a small change in the direction of a response.
 #[inline(always)]
 fn changed<R: Real, const N: usize>(y: &[R; N], response: &[R; N]) -> [R; N] {
     let mut out = *y;

@@ -1,8 +1,8 @@
-//! Declarations of parameter structs and of named options, from which their tables follow.
+//! Macros that declare parameter structs and named options, together with their tables.
 
 use super::table::Parameter;
 
-/// The number of rows of some tables together.
+/// Returns the total number of rows of `tables`.
 #[doc(hidden)]
 pub const fn rows(tables: &[&[Parameter<'_>]]) -> usize {
     let (mut count, mut table) = (0, 0);
@@ -13,7 +13,8 @@ pub const fn rows(tables: &[&[Parameter<'_>]]) -> usize {
     count
 }
 
-/// The rows of some tables in one; `N` is [`rows`] of them, at least one. A row without a group is in that of the row before.
+/// Returns the rows of `tables` in one array. `N` is the number of [`rows`], at least one. A row without a group gets
+/// the group of the row before.
 #[doc(hidden)]
 pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Parameter<'a>; N] {
     let mut all = [tables[0][0]; N];
@@ -33,17 +34,23 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
     all
 }
 
-/// Declares a model's parameter struct and, from the same lines, its table.
+/// Declares a model's parameter struct and its table.
 ///
-/// Each line gives the field's documentation, name and type (`f64`; `Option<f64>` for a number that follows
-/// others until it is set; an enum declared by [`choice!`](crate::choice)), then SI unit, symbol and
-/// [`Kind`](crate::parameter::Kind). A field of the type of another such struct has `(flatten)` in their place: its rows
-/// stand in the table where the field stands. A name in brackets before a field begins a group. Behind the kind may stand
-/// other fields of [`Parameter`](crate::parameter::Parameter), such as `default: 0.0`.
+/// Each line consists of the field's documentation, name and type, then SI unit, symbol and
+/// [`Kind`](crate::parameter::Kind). The type is one of these:
 ///
-/// If each line ends with a value, a function below the struct returns these: `pub fn published() -> Params;`.
+/// - `f64`
+/// - `Option<f64>` for a number that follows other parameters until it is set
+/// - an enum declared by [`choice!`](crate::choice)
+/// - another such struct, with `(flatten)` in place of unit, symbol and kind: its rows are inserted into the table
 ///
-/// The struct gets `TABLE`, `from_values` and `to_values`; the table's order is that of the fields.
+/// A name in brackets before a field begins a group. After the kind, other fields of
+/// [`Parameter`](crate::parameter::Parameter) may follow, such as `default: 0.0`.
+///
+/// If each line ends with a value, declare a function below the struct that returns these values: `pub fn published()
+/// -> Params;`.
+///
+/// The struct gets `TABLE`, `from_values` and `to_values`. The table has the order of the fields.
 ///
 /// ```
 /// use flap_core::parameter::Kind::{Choice, Number};
@@ -105,19 +112,19 @@ macro_rules! parameters {
         }
 
         impl $Name {
-            /// The parameter table, in the order of the fields.
+            /// Parameter table, in the order of the fields.
             pub const TABLE: &'static [$crate::parameter::Parameter<'static>] = {
                 const TABLES: &[&[$crate::parameter::Parameter<'static>]] =
                     &[$($crate::parameters!(@table $type, $field, [$($group)?], [$($doc),+], $($row)+),)*];
                 &$crate::parameter::joined::<{ $crate::parameter::rows(TABLES) }>(TABLES)
             };
 
-            /// The parameters of a point, given one value per table entry.
+            /// Returns the parameters of a point, given one value per table entry.
             pub fn from_values(values: &[f64]) -> $Name {
                 $crate::parameter::Slot::take(&mut values.iter().copied())
             }
 
-            /// One value per table entry.
+            /// Returns one value per table entry.
             pub fn to_values(&self) -> Vec<f64> {
                 let mut values = Vec::new();
                 $crate::parameter::Slot::put(self, &mut values);
@@ -167,10 +174,10 @@ macro_rules! parameters {
     };
 }
 
-/// Declares an enum of named options, which a parameter of the kind [`Choice`](crate::parameter::Kind::Choice) takes.
+/// Declares an enum of named options for a parameter of the kind [`Choice`](crate::parameter::Kind::Choice).
 ///
-/// Each option has its documentation and its name in grid files. The value of an option in a point is its position; the first
-/// option is the default. The enum gets `ALL`, the options, and `NAMES`, their names.
+/// Each option has its documentation and its name in grid files. The value of an option in a point is its index. The
+/// first option is the default. The enum gets `ALL`, the options, and `NAMES`, their names.
 #[macro_export]
 macro_rules! choice {
     ($(#[$meta:meta])* pub enum $Name:ident {
@@ -187,7 +194,7 @@ macro_rules! choice {
         }
 
         impl $Name {
-            /// The options, in the order of their values.
+            /// All options, in the order of their values.
             pub const ALL: &'static [$Name] = &[$Name::$First, $($Name::$Option,)*];
             /// Names of the options, in the order of their values.
             pub const NAMES: &'static [&'static str] = &[$first, $($option,)*];
@@ -207,9 +214,9 @@ macro_rules! choice {
     };
 }
 
-/// A field of a parameter struct, as values of a design point: one value, or the values of a struct of parameters.
+/// A field of a parameter struct: one value of a design point, or the values of a struct of parameters.
 pub trait Slot {
-    /// The field from the next of a point's values. Those that are missing count as not set.
+    /// Returns the field, made from the next values of a point. Missing values count as not set.
     fn take(values: &mut impl Iterator<Item = f64>) -> Self;
 
     /// Appends the point's values for the field.

@@ -1,21 +1,21 @@
-//! The error of parameters that are impossible.
+//! Error of impossible parameters.
 
 use std::borrow::Cow;
 
 use super::table::Range;
 use crate::num::PerLane;
 
-/// Parameters that are impossible, or a request that is.
+/// Impossible parameters, or an impossible request.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Invalid {
-    /// A value that the parameter's range excludes.
-    #[error("{parameter} is {value}: not {}", allowed.describe())]
+    /// A value outside the parameter's range.
+    #[error("{parameter} is {value}, but must be {}", allowed.describe())]
     OutOfRange {
         /// Name of the parameter.
         parameter: &'static str,
         /// Its value, in SI units.
         value: f64,
-        /// The range.
+        /// Allowed range.
         allowed: Range,
     },
     /// Parameters that are each within their range, but impossible together.
@@ -23,43 +23,43 @@ pub enum Invalid {
     Together {
         /// Names of the parameters.
         parameters: &'static [&'static str],
-        /// The contradiction, in words that name the parameters.
+        /// Contradiction, in words that name the parameters.
         reason: Cow<'static, str>,
     },
-    /// A constant that follows from the parameters is infinite or not a number.
-    #[error("a derived constant is not finite: the parameters are too large or too small")]
+    /// A constant derived from the parameters is infinite or NaN.
+    #[error("a constant derived from the parameters is not finite: parameters are too large or too small")]
     NotFinite,
-    /// A request that cannot be met.
+    /// An impossible request.
     #[error("{reason}")]
     Request {
-        /// The reason in words.
+        /// Reason in words.
         reason: String,
     },
 }
 
 impl Invalid {
-    /// A request that cannot be met, for this reason.
+    /// Returns the error of an impossible request, with this reason.
     pub fn new(reason: impl Into<String>) -> Invalid {
         Invalid::Request { reason: reason.into() }
     }
 
-    /// Parameters that are impossible together, for this reason.
+    /// Returns the error of parameters that are impossible together, with this reason.
     pub fn together(parameters: &'static [&'static str], reason: impl Into<Cow<'static, str>>) -> Invalid {
         Invalid::Together { parameters, reason: reason.into() }
     }
 
-    /// The constants that follow from parameters, if they are all finite.
+    /// Returns `constants` if they are all finite.
     ///
     /// # Errors
-    /// [`Invalid::NotFinite`] if one of them is infinite or not a number.
+    /// [`Invalid::NotFinite`] if one of them is infinite or NaN.
     pub fn unless_finite<C: PerLane<f64, One = C>>(constants: C) -> Result<C, Invalid> {
         if C::is_finite(&constants) { Ok(constants) } else { Err(Invalid::NotFinite) }
     }
 
-    /// Refuses a value that its range does not contain.
+    /// Checks that `allowed` contains `value`.
     ///
     /// # Errors
-    /// [`Invalid::OutOfRange`] if the range does not contain the value.
+    /// [`Invalid::OutOfRange`] if it does not.
     pub fn unless_within(parameter: &'static str, value: f64, allowed: Range) -> Result<(), Invalid> {
         if allowed.contains(value) { Ok(()) } else { Err(Invalid::OutOfRange { parameter, value, allowed }) }
     }

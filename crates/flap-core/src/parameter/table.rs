@@ -1,6 +1,6 @@
 //! Rows of a parameter table, and published parameter sets.
 
-/// One row of the parameter table of a model or of a vehicle, which has the texts.
+/// One row of the parameter table of a model or a vehicle.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter<'a> {
     /// Name in grid files, on the command line and in Python.
@@ -9,22 +9,22 @@ pub struct Parameter<'a> {
     pub unit: &'static str,
     /// Symbol in the model's paper, empty if the paper has none.
     pub symbol: &'static str,
-    /// The values that it takes.
+    /// Allowed values.
     pub kind: Kind,
-    /// Meaning in one line, with its source.
+    /// Description in one line, with its source.
     pub doc: &'a str,
-    /// The part of the robot that it describes, such as `hinge`: a heading of lists of parameters.
+    /// Part of the robot, such as `hinge`. It is a heading in lists of parameters.
     pub group: &'a str,
-    /// Name in earlier versions, which is still understood; empty if it had none.
+    /// Name in earlier versions, which is still accepted; empty if there is none.
     pub former: &'static str,
-    /// Value where no preset gives one; not a number if there is none.
+    /// Value if no preset sets the parameter; NaN if there is none.
     pub default: f64,
-    /// True if the published value was fitted to measurements of one vehicle: it need not hold for another.
+    /// True if the published value was fitted to measurements of one vehicle. It need not be valid for another.
     pub is_fitted: bool,
 }
 
 impl<'a> Parameter<'a> {
-    /// A parameter without a group, a former name and a default, whose value is not a fit.
+    /// Returns a parameter without group, former name and default, whose value is not fitted.
     pub const fn new(
         name: &'a str,
         unit: &'static str,
@@ -45,26 +45,27 @@ impl<'a> Parameter<'a> {
         }
     }
 
-    /// The note on a former name that is still understood.
+    /// Returns the message about a former name.
     pub fn renamed(&self) -> String {
-        format!("`{}` is called `{}` now; the former name still works", self.former, self.name)
+        format!("`{}` is the former name of `{}`; flap still accepts it", self.former, self.name)
     }
 
-    /// The index of the parameter called `name`, now or in earlier versions, in a model's table.
+    /// Returns the index in `table` of the parameter with this name or former name.
     pub fn index(table: &[Parameter<'_>], name: &str) -> Option<usize> {
         let now = table.iter().position(|parameter| parameter.name == name);
         now.or_else(|| table.iter().position(|parameter| !name.is_empty() && parameter.former == name))
     }
 }
 
-/// The values that a parameter takes.
+/// Allowed values of a parameter.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
     /// A number in SI units.
     Number(Range),
-    /// A number that follows other parameters until it is set; the text says how (`"half of actuator_length"`).
+    /// A number that follows other parameters until it is set. The text is the value that it then has (`"half of
+    /// actuator_length"`).
     Following(Range, &'static str),
-    /// One of a few named options: a reading of the paper, or a modelling choice.
+    /// One of several named options: a reading of the paper, or a modelling choice.
     Choice(&'static [&'static str]),
 }
 
@@ -73,13 +74,13 @@ pub enum Kind {
 pub struct Preset {
     /// Name in grid files, such as `ozaki2018-large`.
     pub name: &'static str,
-    /// One line: the set and the source of its numbers.
+    /// Description in one line: the set and the source of its numbers.
     pub doc: &'static str,
-    /// The values, one per parameter of the model's table.
+    /// Returns the values, one per parameter of the model's table.
     pub values: fn() -> Vec<f64>,
 }
 
-/// The finite numbers that a parameter accepts.
+/// Range of finite numbers that a parameter accepts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
     /// Any finite number.
@@ -88,7 +89,7 @@ pub enum Range {
     NonNegative,
     /// More than zero.
     Positive,
-    /// Numbers between two others, both excluded.
+    /// Numbers between two limits, which are excluded.
     Between(f64, f64),
     /// Numbers from 0 to 1, both included.
     Share,
@@ -97,7 +98,7 @@ pub enum Range {
 }
 
 impl Range {
-    /// True if `value` is finite and within the range.
+    /// Returns true if `value` is finite and within the range.
     pub fn contains(self, value: f64) -> bool {
         value.is_finite()
             && match self {
@@ -112,7 +113,8 @@ impl Range {
             }
     }
 
-    /// The range in words, for messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number from 1 to 64"`.
+    /// Returns the range in words, for messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number from 1 to
+    /// 64"`.
     pub fn describe(self) -> String {
         match self {
             Range::Any => "any number".to_owned(),

@@ -4,7 +4,7 @@ use super::request::{RequestError, Unfinished};
 use crate::model::Model;
 use crate::ode::Start;
 
-/// The run of a point, from rest or from the state `begin`.
+/// Returns the start of a point, at rest or at the state `begin`.
 pub(super) fn begin<M: Model<N>, const N: usize>(
     model: &M,
     values: &[f64],

@@ -1,17 +1,20 @@
 //! Derivatives of the measures of a settled motion.
 //!
-//! With the parameter p, the state y₀ at the beginning of the orbit's period moves too. It is a fixed point of the period's
-//! map, y₀ = Φ(p, y₀), so
+//! If the parameter p changes, the state y₀ at the beginning of the orbit's period changes too. It is a fixed point
+//! of the period's map, y₀ = Φ(p, y₀), so
 //!
 //! ```text
 //! dy₀/dp = (1 − M)⁻¹ ∂Φ/∂p   with the monodromy matrix M = ∂Φ/∂y₀
 //! dm/dp  = (m(p + δ, y₀ + δ dy₀/dp) − m(p − δ, y₀ − δ dy₀/dp)) / 2δ
 //! ```
 //!
-//! All periods are made on the steps of one ([`replay`](crate::ode::replay)), so that Φ and m are smooth and δ can be small.
-//! Two-sided differences along the orbit's own path stay exact where one of ∂m/∂y₀ has a kink, such as the largest
-//! magnitude of a symmetric motion; and a kink along the path shows, as the two halves differ. Extrema that are equal but for
-//! the error of the integration are made equal for that test ([`quarters`](crate::measure::quarters)).
+//! All periods repeat the steps of one period ([`replay`](crate::ode::replay)), so Φ and m are smooth and δ can be
+//! small.
+//!
+//! The two-sided differences follow the orbit. They stay exact where one of ∂m/∂y₀ has a kink, such as the largest
+//! magnitude of a symmetric motion. A kink along the orbit's own path is detected, because the two halves of the
+//! difference differ. For this test, extrema that are equal within the integration error are made exactly equal
+//! ([`quarters`](crate::measure::quarters)).
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -29,78 +32,83 @@ use crate::ode::replay::{RecordedStep, Repeated, record, replay};
 use crate::ode::{Ending, Start};
 use crate::parameter::{Kind, Parameter};
 
-/// A change of the state in units of its typical size, small enough to neglect its square and large enough to stand above
+/// Change of the state in units of its typical size. Its square is negligible, and it is large compared with
 /// rounding.
 const SMALL: f64 = 1e-8;
 
-/// The factor on the tolerances with which the steps are chosen: near a resonance, derivatives of a period are larger than its
-/// states by far, and so are their errors.
+/// Factor on the tolerances for the choice of steps. Near a resonance, derivatives of a period are much larger than
+/// its states, and so are their errors.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
-/// The largest `rtol` with which errors of derivatives are in proportion to those of the measures. They fall more slowly.
+/// Largest `rtol` at which errors of derivatives are in proportion to errors of the measures. They decrease more
+/// slowly.
 const COARSE: f64 = 1e-6;
 
-/// The error of an extremum in units of the tolerance: extrema that differ by less may be equal.
+/// Error of an extremum in units of the tolerance. Extrema that differ by less may be equal.
 const EXTREMUM_ERROR: f64 = 100.0;
 
-/// The error of derivatives in units of the root of the tolerance, per relative change and as a share of the measure: equal
-/// extrema whose derivatives differ by less have no kink.
+/// Error of derivatives in units of the root of the tolerance, per relative change and relative to the measure.
+///
+/// If the derivatives of equal extrema differ by less, there is no kink.
 const SLOPE_ERROR: f64 = 3.0;
 
-/// The largest component of (1 − M)⁻¹, in units of the states' typical sizes, for which the derivatives are given. Beyond, the
-/// orbit is so near to a fold that they would err by 1e-4 and more.
+/// Largest component of (1 − M)⁻¹, in units of the states' typical sizes, at which derivatives are reported.
+///
+/// Above it, the orbit is so close to a fold that derivatives would have errors of 1e-4 and more.
 const LARGEST_RESPONSE: f64 = 1e3;
 
-/// The component of (1 − M)⁻¹ from which the orbit is tested for a fold: what moves the orbit by its error there, moves M too.
+/// Component of (1 − M)⁻¹ above which the orbit is tested for a fold. There, the error of the orbit changes M
+/// noticeably.
 const LARGE_RESPONSE: f64 = 30.0;
 
-/// The share by which the error of the orbit may change (1 − M)⁻¹.
+/// Largest relative change of (1 − M)⁻¹ by the error of the orbit.
 const DOUBT: f64 = 0.02;
 
-/// The share by which the two halves of a difference may differ. They differ by far less where a measure is smooth.
+/// Largest relative difference of the two halves of a difference. For a smooth measure it is far smaller.
 const SMOOTH: f64 = 1e-3;
 
-/// The part of a measure that rounding may change.
+/// Relative rounding error of a measure.
 const ROUNDING: f64 = 1e-13;
 
-/// A quantity to which derivatives are taken: the point's values with more and with less of it.
+/// A change of a point along which derivatives are computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// One value per parameter, with the quantity larger by `size`.
+    /// One value per parameter, at the point changed by `+size`.
     pub ahead: Vec<f64>,
-    /// The same, smaller by `size`; or the values of the point itself, for a one-sided difference where less is impossible.
+    /// The same at `-size`; or the values of the point itself, for a one-sided difference where a negative change is
+    /// impossible.
     pub behind: Vec<f64>,
-    /// The size of the change: [`Change::SHARE`] of the quantity, in whatever unit derivatives are to have.
+    /// Size of the change, in the unit of the derivatives: [`Change::SHARE`] of the quantity.
     pub size: f64,
 }
 
 impl Change {
-    /// The share of a quantity by which it is best changed: its square is negligible, and it stands above rounding.
+    /// Recommended relative size of a change: its square is negligible, and it is large compared with rounding.
     pub const SHARE: f64 = 1e-8;
 
-    /// True if it changes nothing. NaN stands for a parameter that follows others.
+    /// Returns true if the change is zero. NaN is a parameter that follows others.
     pub(crate) fn is_none(&self) -> bool {
         let mut both = self.ahead.iter().zip(&self.behind);
         both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
     }
 }
 
-/// The reason why a derivative is not known.
+/// Reason for a missing derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NoSlope {
-    /// The orbit is too near to a fold, where it would change without bounds.
+    /// The orbit is too close to a fold, where derivatives are unbounded.
     Fold,
     /// The motion slides along its switching surface, or touches it.
     Sliding,
-    /// A parameter is at an end of its range, or the changed point is impossible.
+    /// A parameter is at the end of its range, or the changed point is impossible.
     Edge,
-    /// The quantity is zero, so that a share of it changes nothing.
+    /// The quantity is zero, so a relative change is undefined.
     Zero,
-    /// The period cannot be integrated with tighter tolerances, within the limits on steps.
+    /// The period cannot be integrated with tighter tolerances within the limit on steps.
     Lost,
-    /// The measure has a kink: its derivatives to both sides differ, or it cannot be told.
+    /// The measure has a kink: the derivatives on both sides differ, or their difference cannot be determined.
     Kink,
-    /// The measure itself is not known.
+    /// The measure itself is missing.
     Missing,
 }
 
@@ -116,7 +124,7 @@ impl NoSlope {
         NoSlope::Missing,
     ];
 
-    /// The word for it in rows.
+    /// Returns the word for the reason in rows.
     pub fn name(self) -> &'static str {
         match self {
             NoSlope::Fold => "fold",
@@ -135,11 +143,11 @@ impl NoSlope {
 pub struct Gradient {
     /// For each change, the derivative of each column of the model, in the column's unit per unit of the change.
     pub slopes: Vec<Vec<Result<f64, NoSlope>>>,
-    /// Right-hand sides evaluated.
+    /// Number of right-hand sides evaluated.
     pub rhs_evals: u64,
 }
 
-/// The derivatives along `changes` of the orbit that begins at `state`.
+/// Task: derivatives along `changes` of the orbit that begins at `state`.
 pub(super) struct GradientAt<'a> {
     pub(super) state: &'a [f64],
     pub(super) changes: &'a [Change],
@@ -177,18 +185,18 @@ impl<M: Model<N>, const N: usize> Question<M, N> for GradientAt<'_> {
     }
 }
 
-/// The factor on the tolerances of a recorded period.
+/// Returns the factor on the tolerances of a recorded period.
 fn tolerance_factor(rtol: f64) -> f64 {
     TOLERANCE_FACTOR * (rtol / COARSE).min(1.0).sqrt()
 }
 
-/// The constants and the drive period of a changed point.
+/// Constants and drive period of a changed point.
 type Side<C> = (C, f64);
 
-/// The points on both sides of a point along a change; `None` if one of them is impossible or of other choices.
+/// Points on both sides of a point along a change; `None` if one of them is impossible or has other choices.
 type Sides<C> = Option<[Side<C>; 2]>;
 
-/// The points on both sides of a point.
+/// Returns the points on both sides of a point.
 fn sides<M: Model<N>, const N: usize>(model: &M, change: &Change) -> Sides<M::Constants<f64>> {
     let side = |values: &[f64]| {
         let has_equal_choices = model.variant(values).with_all_terms() == model.with_all_terms();
@@ -199,13 +207,13 @@ fn sides<M: Model<N>, const N: usize>(model: &M, change: &Change) -> Sides<M::Co
     Some([side(&change.ahead)?, side(&change.behind)?])
 }
 
-/// The first state of an orbit, and its derivatives in units of the states' typical sizes.
+/// First state of an orbit, and its derivatives in units of the states' typical sizes.
 struct Moves<const N: usize> {
     y: [f64; N],
     along: Vec<SVector<f64, N>>,
 }
 
-/// True if all numbers are in the ranges of their parameters. NaN stands for a number that follows others.
+/// Returns true if all numbers are in the ranges of their parameters. NaN is a number that follows others.
 fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).all(|(parameter, value)| match parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => value.is_nan() || range.contains(*value),
@@ -253,7 +261,7 @@ impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
 }
 
 impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
-    /// The period, periods from changed states, and periods with changed quantities.
+    /// Returns the starts of the period, of periods from changed states, and of periods with changed quantities.
     fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = self.around(self.start.y);
         for side in &self.sides {
@@ -263,7 +271,7 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         starts
     }
 
-    /// A period from a state, and periods from the states that differ from it in one component.
+    /// Returns the start of a period from a state, and starts from states that differ from it in one component.
     fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y, ..*self.start }; N + 1];
         for i in 0..N {
@@ -272,8 +280,9 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         starts
     }
 
-    /// (1 − M)⁻¹ in units of the scales, from the ends of the periods [`around`](Self::around) a state. `None` near a fold, and
-    /// beyond it, where a multiplier is above 1.
+    /// Returns (1 − M)⁻¹ in units of the scales, from the ends of the periods [`around`](Self::around) a state.
+    ///
+    /// `None` near a fold and beyond it, where a multiplier is above 1.
     fn response(&self, ends: &[Repeated<(), N>]) -> Option<SMatrix<f64, N, N>> {
         let monodromy =
             SMatrix::<f64, N, N>::from_fn(|i, j| self.difference(&ends[0], &ends[j + 1], SMALL)[i]);
@@ -283,19 +292,21 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         (determinant > 0.0 && response.amax() <= LARGEST_RESPONSE).then_some(response)
     }
 
-    /// The difference of two ends per `size`, in units of the scales.
+    /// Returns the difference of two final states per `size`, in units of the scales.
     fn difference(&self, one: &Repeated<(), N>, other: &Repeated<(), N>, size: f64) -> SVector<f64, N> {
         SVector::from_fn(|i, _| (other.y[i] - one.y[i]) / (size * self.start.scale[i]))
     }
 
-    /// The step of Newton's, in units of the scales, from the period that ends so.
+    /// Returns Newton's step, in units of the scales, from a period with this end.
     fn step(&self, response: &SMatrix<f64, N, N>, end: &Repeated<(), N>) -> SVector<f64, N> {
         let (y, scale) = (&self.start.y, &self.start.scale);
         response * SVector::<f64, N>::from_fn(|i, _| (end.y[i] - y[i]) / scale[i])
     }
 
-    /// Periods around a state that may be as good an orbit as that of the search: a step of Newton's away, and as far as an
-    /// error of one tolerance in a period moves an orbit at most.
+    /// Returns periods around a state that may be as accurate as the orbit of the search.
+    ///
+    /// It is one Newton step away from it, plus the largest distance by which an error of one tolerance per period
+    /// moves an orbit.
     fn in_doubt(
         &self,
         response: &SMatrix<f64, N, N>,
@@ -310,8 +321,9 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         self.around(core::array::from_fn(|i| moved[i].mul_add(self.start.scale[i], self.start.y[i])))
     }
 
-    /// The orbit's first state, to which one step of Newton's takes the search's, and its derivatives along each change, in
-    /// units of the scales: (1 − M)⁻¹ ∂Φ/∂p.
+    /// Returns the orbit's first state, after one Newton step, and its derivatives along each change.
+    ///
+    /// The derivatives are in units of the scales: (1 − M)⁻¹ ∂Φ/∂p.
     fn moves(&self, response: &SMatrix<f64, N, N>, ends: &[Repeated<(), N>]) -> Moves<N> {
         let step = self.step(response, &ends[0]);
         let y = core::array::from_fn(|i| self.start.y[i] + step[i] * self.start.scale[i]);
@@ -321,7 +333,7 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         Moves { y, along }
     }
 
-    /// The orbit, and the orbits on both sides of it along each change.
+    /// Returns the starts of the orbit and of the orbits on both sides of it along each change.
     fn along(&self, moves: &Moves<N>) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y: moves.y, ..*self.start }];
         for ((side, change), moved) in self.sides.iter().zip(self.changes).zip(&moves.along) {
@@ -336,7 +348,7 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         starts
     }
 
-    /// The differences of the measures.
+    /// Returns the derivatives of the measures.
     fn slopes(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
@@ -382,14 +394,14 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         slopes.collect()
     }
 
-    /// Right-hand sides of so many periods on the recorded steps.
+    /// Returns the number of right-hand sides of `periods` periods on the recorded steps.
     fn rhs_evals(&self, periods: usize) -> u64 {
         let steps =
             self.recording.len() + 2 * self.recording.iter().filter(|recorded| recorded.lands).count();
         (6 * steps * periods) as u64
     }
 
-    /// The measures of the orbits that begin at `starts`.
+    /// Returns the measures of the orbits that begin at `starts`.
     fn measured(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
@@ -401,7 +413,7 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         measured.collect()
     }
 
-    /// No derivatives, for this reason.
+    /// Returns a gradient without derivatives, for this reason.
     fn without(&self, reason: NoSlope) -> Gradient {
         let signals: usize = M::Signals::TABLE.iter().map(|signal| signal.measures.len()).sum();
         let columns = signals + M::DERIVED.len() + if self.solver.loads { 6 } else { 0 };
@@ -409,8 +421,10 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
     }
 }
 
-/// The sizes of the columns: a mean of almost nothing errs by the rounding of its signal, and components of a force or a
-/// moment by that of the others.
+/// Returns the sizes of the columns, to which rounding errors are relative.
+///
+/// The rounding error of a small mean depends on the size of its signal. The rounding error of a component of a force
+/// or moment depends on the other components.
 fn sizes<M: Model<N>, const N: usize>(
     solver: &SolverSettings,
     totals: &Sums<M::Signals, f64>,
@@ -432,7 +446,7 @@ fn sizes<M: Model<N>, const N: usize>(
     sizes
 }
 
-/// The changes of a measure behind and ahead of a point.
+/// Differences of a measure behind and ahead of a point.
 #[derive(Clone, Copy)]
 pub(super) struct Halves {
     backward: f64,
@@ -444,26 +458,28 @@ impl Halves {
         Halves { backward: here - behind, forward: ahead - here }
     }
 
-    /// True if both are known, and differ by no more than a share of them and `tolerance`.
+    /// Returns true if both differences are known and equal, within a relative tolerance plus `tolerance`.
     fn agree(self, tolerance: f64) -> bool {
         let Halves { backward, forward } = self;
         (forward - backward).abs() <= SMOOTH * forward.abs().max(backward.abs()) + tolerance
     }
 
-    /// The derivative of a measure of some size.
+    /// Returns the derivative of a measure of size `of`.
     pub(super) fn slope(self, of: f64, size: f64) -> Result<f64, NoSlope> {
         let known = self.agree(ROUNDING * of);
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// True if a measure of some size, of extrema that were made equal, has a kink: its derivatives to both sides differ by more
-    /// than their `error`, per relative change and as a share of the measure.
+    /// Returns true if a measure with equalised extrema has a kink.
+    ///
+    /// The derivatives on both sides then differ by more than their `error`, per relative change and relative to the
+    /// measure.
     pub(super) fn has_corner(self, of: f64, error: f64) -> bool {
         !self.agree((error * Change::SHARE + ROUNDING) * of)
     }
 }
 
-/// The derivative of a measure from its values at and ahead of a point.
+/// Returns the derivative of a measure from its values at a point and ahead of it.
 pub(super) fn forward(here: f64, ahead: f64, size: f64) -> Result<f64, NoSlope> {
     if ahead.is_nan() { Err(NoSlope::Kink) } else { Ok((ahead - here) / size) }
 }

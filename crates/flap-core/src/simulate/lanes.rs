@@ -1,11 +1,13 @@
-//! Searches of many points, whose drive periods are integrated in lanes.
+//! Searches of many points, with their drive periods integrated in lanes.
 //!
-//! A search is a future that asks for a drive period and waits for its end. Each [kind](Kind) of period has an ensemble of its
-//! own, so that no lane carries quantities that it does not need. Most periods are of the states alone: their ensemble takes
-//! new points as lanes become free. Searches that ask for another kind wait until many do, or until there is no other work;
-//! then a second ensemble integrates these periods, while the lanes of the first one keep their state.
+//! A search is a future that requests a drive period and waits for its end. Each [kind](Kind) of period has its own
+//! ensemble, so lanes carry no unnecessary quantities.
 //!
-//! Single points run in the same way, on one lane of scalars.
+//! Most periods are of the states alone. Their ensemble takes new points as lanes become free. Searches that request
+//! another kind wait until there are many of them, or until there is no other work. Then a second ensemble integrates
+//! these periods, while the lanes of the first ensemble keep their state.
+//!
+//! Single points run in the same way, on one scalar lane.
 
 use core::pin::Pin;
 use core::task::{Context, Poll, Waker};
@@ -28,15 +30,17 @@ use crate::ode::ensemble::{
 };
 use crate::ode::{Interrupt, Start};
 
-/// Searches that wait for one kind of period and are continued together: many times the lanes, some of which are empty while
-/// the last runs end.
+/// Number of searches that wait for one kind of period before they are continued together.
+///
+/// It is many times the number of lanes, because some lanes are empty while the last runs end.
 const BATCH: usize = 128;
 
-/// Points of other variants that are put aside before the ensemble is emptied for them: many more than there
-/// are lanes, so that lanes are seldom empty.
+/// Number of points of other variants that are set aside before the ensemble is emptied for them.
+///
+/// It is many times the number of lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
-/// The points of `jobs` on SIMD lanes, for a model with N states.
+/// Kernel that runs the points of `jobs` on SIMD lanes, for a model with N states.
 pub(super) struct LanesKernel<'a, M, const N: usize> {
     pub(super) model: &'a M,
     pub(super) solver: &'a SolverSettings,
@@ -69,7 +73,7 @@ impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
     }
 }
 
-/// The output of one search on scalars, which begins at `start`; `None` if it is interrupted.
+/// Returns the output of one search on scalars from `start`; `None` if it is interrupted.
 pub(super) fn run_alone<M, R, T, F, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -88,7 +92,7 @@ where
     single.output
 }
 
-/// A search on its way to its output `T`.
+/// A search in progress with its output `T`.
 struct Running<'a, T, M: Model<N>, const N: usize> {
     index: u64,
     start: Start<M::Constants<f64>, N>,
@@ -96,7 +100,7 @@ struct Running<'a, T, M: Model<N>, const N: usize> {
     search: Pin<Box<dyn Future<Output = T> + 'a>>,
 }
 
-/// Boxed, since a run moves between lanes and lists at the end of each period.
+/// Boxed, because a run moves between lanes and lists at the end of each period.
 type Run<'a, T, M, const N: usize> = Box<Running<'a, T, M, N>>;
 
 impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
@@ -110,15 +114,16 @@ impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
     }
 }
 
-/// A source of searches, which takes their outputs.
+/// Source of searches and receiver of their outputs.
 trait Source<'a, T, M: Model<N>, const N: usize> {
-    /// The next search, or `None` if there is none for now. With `wait` the call may wait, and `None` is the end.
+    /// Returns the next search, or `None` if there is none at present. If `wait` is true, the call may wait, and
+    /// `None` is the end.
     fn next(&mut self, wait: bool) -> Option<Run<'a, T, M, N>>;
 
-    /// Takes the output of the search with this index.
+    /// Receives the output of the search with this index.
     fn done(&mut self, index: u64, output: T);
 
-    /// True to end at once.
+    /// Returns true to end at once.
     fn interrupted(&self) -> bool;
 }
 
@@ -127,12 +132,12 @@ struct Points<'a, 'j, M> {
     model: &'a M,
     solver: &'a SolverSettings,
     jobs: &'j mut dyn Jobs,
-    /// Points that have been taken from `jobs` and not been run, each with its variant.
+    /// Points taken from `jobs` that have not run yet, each with its variant.
     waiting: Vec<(M, Point)>,
 }
 
 impl<M> Points<'_, '_, M> {
-    /// The next point of this variant. Those of others are put aside, up to a limit.
+    /// Returns the next point of this variant. Points of other variants are set aside, up to a limit.
     fn next_point<const N: usize>(&mut self, wait: bool) -> Option<Point>
     where
         M: Model<N>,
@@ -141,7 +146,7 @@ impl<M> Points<'_, '_, M> {
             return Some(self.waiting.remove(ours).1);
         }
         while self.waiting.len() < ASIDE {
-            // Points put aside are to run before this one waits for more.
+            // While points are set aside, the call does not wait for more.
             let point = self.jobs.next(wait && self.waiting.is_empty())?;
             let variant = self.model.variant(&point.values);
             if variant == *self.model {
@@ -178,7 +183,7 @@ impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a
     }
 }
 
-/// One search, and its output.
+/// One search and its output.
 struct Single<'a, 'i, T, M: Model<N>, const N: usize> {
     run: Option<Run<'a, T, M, N>>,
     output: Option<T>,
@@ -199,13 +204,13 @@ impl<'a, T, M: Model<N>, const N: usize> Source<'a, T, M, N> for Single<'a, '_, 
     }
 }
 
-/// Searches and the ensembles that integrate their periods.
+/// Searches, and the ensembles that integrate their periods.
 struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize> {
     simd: I,
     model: &'a M,
     solver: &'a SolverSettings,
     source: &'s mut Q,
-    /// Searches that wait for a period, by its kind: the first to wait goes on first, so that none is left behind.
+    /// Searches that wait for a period, by its kind. The first to wait is the first to continue.
     waiting: [VecDeque<Run<'a, T, M, N>>; 4],
     lane_use: LaneUse,
 }
@@ -226,15 +231,15 @@ where
         loop {
             self.integrate_batch(Kind::States);
             self.integrate_others();
-            // Searches that fail at the very end march on.
+            // Searches that fail at the very end may return to marching.
             if self.waiting[Kind::States as usize].is_empty() || self.source.interrupted() {
                 return;
             }
         }
     }
 
-    /// Integrates the periods of the searches that wait for others than the states alone, until some are to march or none
-    /// waits any more.
+    /// Integrates periods of the kinds that need other quantities than the states, until a search marches again or
+    /// none waits.
     fn integrate_others(&mut self) {
         while self.waiting[Kind::States as usize].is_empty() && !self.source.interrupted() {
             let Some(other) = self.other_that_waits(1) else { return };
@@ -242,8 +247,9 @@ where
         }
     }
 
-    /// A kind of period besides the states alone for which so many searches wait. Measures last, when the most orbits have been
-    /// found.
+    /// Returns a kind of period other than the states alone for which at least `searches` searches wait.
+    ///
+    /// Measured periods come last, when the most orbits have been found.
     fn other_that_waits(&self, searches: usize) -> Option<Kind> {
         let mut others = Kind::ALL.into_iter().skip(1);
         others.find(|&kind| self.waiting[kind as usize].len() >= searches)
@@ -273,7 +279,8 @@ where
         }
     }
 
-    /// Lets a search go on to its next request. Returns it if that is of this kind; otherwise it waits, or has its output.
+    /// Continues a search to its next request. Returns the search if the request is of this kind; otherwise it waits
+    /// or has ended.
     fn go_on(
         &mut self,
         mut run: Run<'a, T, M, N>,
@@ -297,7 +304,7 @@ where
         None
     }
 
-    /// The next search that waits for a period of this kind, or that begins with one.
+    /// Returns the next search that waits for a period of this kind, or that begins with one.
     fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, T, M, N>, Restart<N>)> {
         loop {
             if let Some(run) = self.waiting[kind as usize].pop_front() {
@@ -310,7 +317,8 @@ where
             let run = if let Some(run) = self.source.next(false) {
                 run
             } else {
-                // The source may wait for outputs of searches that wait here. With few of them most lanes would be empty.
+                // The source may wait for outputs of searches that wait here. With few of them, most lanes would be
+                // empty.
                 if idle {
                     self.integrate_others();
                 } else if let Some(other) = self.other_that_waits(Vector::<I>::LANES) {
@@ -343,7 +351,7 @@ where
     M: Model<N>,
     Q: Source<'a, T, M, N>,
 {
-    /// Hands the end of a period to its search. Returns the search if it is to keep its lane.
+    /// Passes the end of a period to its search. Returns the search if it keeps its lane.
     fn period_end(
         &mut self,
         run: Run<'a, T, M, N>,
@@ -354,13 +362,13 @@ where
     }
 }
 
-/// Totals over a period that searches ask for, where those over the signals are `T`.
+/// Totals over a period that a search needs. Totals over the signals have the type `T`.
 trait PeriodTotals<T, const N: usize> {
     /// Adds the totals to the end of their period, in a box from the exchange if there is one.
     fn add_to(&self, end: &mut PeriodEnd<T, N>, exchange: &Exchange<T, N>);
 }
 
-/// The largest magnitudes of the states, of [`Size`].
+/// The largest magnitudes of the states, from [`Size`].
 impl<T, const N: usize> PeriodTotals<T, N> for [f64; N] {
     fn add_to(&self, end: &mut PeriodEnd<T, N>, _exchange: &Exchange<T, N>) {
         end.largest = *self;

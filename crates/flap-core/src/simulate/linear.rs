@@ -1,21 +1,22 @@
-//! Linear systems of period maps: small, and solved without allocating.
+//! Small linear systems of period maps, solved without allocation.
 
 use crate::measure::multipliers::{Matrix, identity};
 
-/// The largest condition number with which a system is solved: beyond, its solution may have no correct digit.
+/// Largest condition number of a system. Above it, the solution may have no correct digit.
 const MAX_CONDITION: f64 = 1e15;
 
-/// The LU decomposition of a matrix, with rows exchanged so that each pivot is the largest of its column.
+/// LU decomposition of a matrix with row pivoting.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lu<const N: usize> {
     /// U, and L below its diagonal of ones.
     factors: Matrix<N>,
-    /// The row of the matrix that each row of the factors comes from.
+    /// Row of the matrix for each row of the factors.
     rows: [usize; N],
 }
 
 impl<const N: usize> Lu<N> {
-    /// The decomposition of I − M for a monodromy matrix M. `None` if it is singular but for rounding, or not finite.
+    /// Returns the decomposition of I − M for a monodromy matrix M; `None` if it is singular to rounding or not
+    /// finite.
     pub(super) fn of_identity_minus(m: &Matrix<N>) -> Option<Lu<N>> {
         let mut matrix = identity();
         for i in 0..N {
@@ -24,7 +25,7 @@ impl<const N: usize> Lu<N> {
             }
         }
         let lu = Lu::of(matrix);
-        // Not a number fails too.
+        // This comparison is also false for NaN.
         (row_sum(&matrix) * row_sum(&lu.inverse()) <= MAX_CONDITION).then_some(lu)
     }
 
@@ -44,7 +45,7 @@ impl<const N: usize> Lu<N> {
         Lu { factors: a, rows }
     }
 
-    /// The solution x of the system with the right-hand side b.
+    /// Returns the solution x of the system with the right-hand side b.
     pub(super) fn solve(&self, b: &[f64; N]) -> [f64; N] {
         let Lu { factors, rows } = self;
         let mut x = rows.map(|row| b[row]);
@@ -62,14 +63,14 @@ impl<const N: usize> Lu<N> {
         x
     }
 
-    /// The inverse, row by row.
+    /// Returns the inverse, in row-major order.
     pub(super) fn inverse(&self) -> Matrix<N> {
         let columns = identity().map(|unit| self.solve(&unit));
         core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
     }
 }
 
-/// The largest sum of the magnitudes of a row.
+/// Returns the largest sum of the magnitudes of a row.
 fn row_sum<const N: usize>(matrix: &Matrix<N>) -> f64 {
     let sums = matrix.map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
     sums.into_iter().fold(0.0, |largest, sum| if sum.is_nan() { sum } else { sum.max(largest) })

@@ -1,8 +1,8 @@
-//! Design points in, rows out: the interface of models for sweeps, the command line and Python.
+//! Design points as input, rows as output: the interface of models for sweeps, the command line and Python.
 //!
-//! A sweep uses the trait [`Simulator`] of a model; derivatives of rows use [`Gradients`], single
-//! motions [`Motions`] and [`Experiments`]. [`Runner`]
-//! implements these traits for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
+//! A sweep uses the trait [`Simulator`] of a model. Derivatives of rows use [`Gradients`], and single motions use
+//! [`Motions`] and [`Experiments`]. [`Runner`] implements these traits for a [`Model`](crate::model::Model). [`all`]
+//! lists the models of this crate.
 
 mod begin;
 mod gradient;
@@ -51,27 +51,27 @@ static DIRECT_DRIVE: Runner<DirectDrive, 4> =
 static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar { drive: Drive::SINE });
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
-/// Every model, in the order `flap models` lists them.
+/// Returns every model, in the order of `flap models`.
 pub fn all() -> &'static [&'static dyn Simulator] {
     ALL
 }
 
-/// The model of this crate called `name`.
+/// Returns the model of this crate with this name.
 pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
     find(all(), name)
 }
 
-/// The preset of this crate called `name`, with the model it belongs to.
+/// Returns the preset of this crate with this name, and its model.
 pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
     find_preset(all(), name)
 }
 
-/// The model called `name` among some.
+/// Returns the model with this name among `models`.
 pub fn find(models: &[&'static dyn Simulator], name: &str) -> Option<&'static dyn Simulator> {
     models.iter().copied().find(|model| model.name() == name)
 }
 
-/// The preset called `name` of some models, with the model it belongs to.
+/// Returns the preset with this name among the presets of `models`, and its model.
 pub fn find_preset(
     models: &[&'static dyn Simulator],
     name: &str,

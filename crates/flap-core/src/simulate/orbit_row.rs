@@ -1,8 +1,8 @@
-//! The row of an orbit, from its measured period, and the estimate of its error.
+//! The row of an orbit from its measured period, and its error estimate.
 //!
-//! An orbit is measured twice: at the tolerances of the row, and at the middle tolerances of the search, which are coarser by
-//! a factor of 64. The error of the method is about proportional to its tolerance, so about a sixty-fourth of the difference
-//! would be expected as the error. A single difference may be small by chance, so six tenths of it count.
+//! An orbit is measured at two tolerances: of the row, and the middle tolerance of the search, which is larger by a
+//! factor of 64. The error of the method is about proportional to the tolerance. The expected error is therefore
+//! about a sixty-fourth of the difference. A single difference may be small by chance, so the estimate is 0.6 of it.
 
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
@@ -10,44 +10,48 @@ use crate::measure::cycle::{SumsOf, finish};
 use crate::model::{Model, Principal, SignalCycle, SignalSet, SignalsOf};
 use crate::ode::{Start, input, slope};
 
-/// The largest change per period of a motion that counts as rest, as a share of its largest state.
+/// Largest change per period of a motion that counts as rest, relative to its largest state.
 const REST: f64 = 1e-11;
 
-/// The smallest range of a signal that certainly swings, as a share of the signal's size.
+/// Smallest range of a signal that certainly oscillates, relative to the signal's size.
 const SWINGS: f64 = 1e-6;
 
-/// Times at which a motion at rest has no rate, as shares of the drive period: no drive of few harmonics is zero at all.
+/// Times at which the equations are checked for rest, as fractions of the drive period. A drive of few harmonics is
+/// not zero at all of them.
 const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
 
-/// The share of the difference between both orbits that counts as error.
+/// Fraction of the difference between the two orbits that is the error estimate.
 const SHARE: f64 = 0.6;
 
-/// The share of its signal's size below which a measure counts as nothing beside the signal: its error is then relative to
-/// this share of the size.
+/// Fraction of its signal's size below which a measure is negligible. Its error is then relative to this fraction of
+/// the size.
 const NOTHING: f64 = 1e-3;
 
-/// The least error that a row is said to have, in units of the relative tolerance: about that of finding extrema between
-/// the ends of steps.
+/// Smallest error estimate of a row, in units of the relative tolerance. It covers the error of extrema between the
+/// ends of steps.
 const LEAST: f64 = 5.0;
 
-/// Crossings of the switching surface in a period beyond which the motion counts as sliding along the surface: others
-/// cross it twice, or some times more. The error of a sliding motion does not fall as the method's does.
+/// Number of crossings of the switching surface in a period above which the motion counts as sliding along the
+/// surface.
+///
+/// Other motions cross it twice, or a few times more. The error of a sliding motion does not decrease with the
+/// method's order.
 pub(super) const MANY_SWITCHES: u64 = 16;
 
 /// The measured period of an orbit.
 pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
-    /// The state at its beginning.
+    /// State at its beginning.
     pub(super) y: &'a [f64; N],
     pub(super) sums: &'a T,
-    /// Sums over the orbit of the middle tolerances, if they are known.
+    /// Sums over the orbit of the middle tolerances, if known.
     pub(super) middle: Option<&'a T>,
-    /// Crossings of the switching surface.
+    /// Number of crossings of the switching surface.
     pub(super) switches: u64,
-    /// The relative tolerance.
+    /// Relative tolerance.
     pub(super) rtol: f64,
 }
 
-/// The row of an orbit, without its costs, and the largest of its errors that finer tolerances would reduce.
+/// Returns the row of an orbit without its costs, and the largest of its errors that finer tolerances would reduce.
 pub(super) fn row_of<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -55,7 +59,7 @@ pub(super) fn row_of<M: Model<N>, const N: usize>(
     orbit: &MeasuredOrbit<'_, SumsOf<M, N>, N>,
 ) -> (Row, f64) {
     let measures = measures(model, solver, &start.constants, orbit.sums, start.span);
-    // A signal with an infinite measure has diverged as far as numbers go.
+    // A motion with an infinite measure has diverged.
     if measures.iter().any(|measure| measure.is_infinite()) {
         return (Row::empty(Status::Diverged), 0.0);
     }
@@ -66,12 +70,12 @@ pub(super) fn row_of<M: Model<N>, const N: usize>(
     let difference = middle.map_or(f64::INFINITY, |middle| difference::<M, N>(&fine, &middle));
     let estimate = if slides { f64::INFINITY } else { (SHARE * difference).max(LEAST * orbit.rtol) };
     let audit = M::energy_audit(&fine).abs();
-    // An audit that is not a number compares nothing: the power is zero or not known.
+    // If the audit is NaN, the power is zero or unknown, and there is nothing to compare.
     let doubt = if slides { 0.0 } else { estimate.max(if audit.is_nan() { 0.0 } else { audit }) };
     (Row { measures, error_estimate: estimate, period: 1, ..Row::empty(Status::Periodic) }, doubt)
 }
 
-/// True if an orbit is no motion at all: no signal swings, and the states do not move but for rounding.
+/// Returns true if the orbit is a rest: no signal oscillates, and the states do not move except for rounding.
 pub(super) fn is_at_rest<M: Model<N>, const N: usize>(
     model: &M,
     start: &Start<M::Constants<f64>, N>,
@@ -80,7 +84,7 @@ pub(super) fn is_at_rest<M: Model<N>, const N: usize>(
     !swings::<M, N>(&on_orbit::<M, N>(orbit.sums, start.span)) && is_still(model, start, orbit.y)
 }
 
-/// The measures of a periodic cycle, one per column, and the mean load if `solver` asks for it.
+/// Returns the measures of a periodic cycle, one per column, and the mean load if `solver.loads` is set.
 pub(super) fn measures<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -95,7 +99,7 @@ pub(super) fn measures<M: Model<N>, const N: usize>(
     measures
 }
 
-/// The signals of a periodic cycle.
+/// Returns the signals of a periodic cycle.
 fn on_orbit<M: Model<N>, const N: usize>(
     totals: &SumsOf<M, N>,
     period: f64,
@@ -105,7 +109,7 @@ fn on_orbit<M: Model<N>, const N: usize>(
     cycle
 }
 
-/// The values of the columns, from the signals of a periodic cycle.
+/// Returns the values of the columns, from the signals of a periodic cycle.
 fn values<M: Model<N>, const N: usize>(
     model: &M,
     c: &M::Constants<f64>,
@@ -121,8 +125,10 @@ fn values<M: Model<N>, const N: usize>(
     values
 }
 
-/// The largest difference of the model's principal measures, such as stroke, pitch, lift and power, between two orbits:
-/// relative to the measure, or to a share of its signal's size if the measure is nothing beside that.
+/// Returns the largest relative difference of the model's principal measures between two orbits.
+///
+/// Principal measures are for example stroke, pitch, lift and power. If a measure is negligible relative to its
+/// signal, its difference is relative to a fraction of the signal's size.
 fn difference<M: Model<N>, const N: usize>(
     fine: &SignalsOf<M::Signals, SignalCycle>,
     middle: &SignalsOf<M::Signals, SignalCycle>,
@@ -132,7 +138,7 @@ fn difference<M: Model<N>, const N: usize>(
         let Some(principal) = signal.principal else { continue };
         let [value, other] = [fine, middle].map(|cycle| cycle.measure(principal.measure()));
         let difference = (other - value).abs();
-        // A prescribed stroke has no power, and a wing at rest nothing.
+        // With a prescribed stroke the power is unknown, and for a wing at rest all measures are zero.
         if difference > 0.0 {
             largest = largest.max(difference / value.abs().max(NOTHING * fine.size()));
         }
@@ -140,16 +146,18 @@ fn difference<M: Model<N>, const N: usize>(
     largest
 }
 
-/// True if a signal with a principal first harmonic varies: then the motion is not at rest, and its states need not be looked
-/// at.
+/// Returns true if a signal with a principal first harmonic oscillates. The motion is then not at rest, and its
+/// states need no check.
 fn swings<M: Model<N>, const N: usize>(cycle: &SignalsOf<M::Signals, SignalCycle>) -> bool {
     M::Signals::each(cycle).any(|(signal, cycle)| {
         signal.principal == Some(Principal::First) && cycle.max - cycle.min > SWINGS * cycle.size()
     })
 }
 
-/// True if a motion from the state `y` does not move, but for rounding: at several times of the drive period, no state
-/// changes in a period by more than a tiny share of the largest state, in units of their typical sizes.
+/// Returns true if a motion from the state `y` is at rest, except for rounding.
+///
+/// The test covers several times of the drive period. At each of them, no state may change in a period by more than a
+/// tiny fraction of the largest state. States count in units of their typical sizes.
 fn is_still<M: Model<N>, const N: usize>(
     model: &M,
     start: &Start<M::Constants<f64>, N>,

@@ -1,4 +1,4 @@
-//! Requests for single motions, their results, and the reasons why a motion is not followed to its end.
+//! Requests for single motions, their results, and the reasons for a motion that is incomplete.
 
 use super::row::Status;
 use crate::drive::Samples;
@@ -12,7 +12,7 @@ pub struct TrajectoryRequest {
     pub cycles: u32,
     /// Samples per drive period; the end of the last period is sampled too.
     pub samples_per_cycle: u32,
-    /// Start on the settled orbit rather than at rest.
+    /// True to start on the settled orbit instead of at rest.
     pub settled: bool,
 }
 
@@ -25,7 +25,7 @@ pub struct Trajectory {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// A drive whose frequency changes steadily, from rest.
+/// A drive from rest, whose frequency changes at a constant rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChirpRequest {
     /// Frequency at the beginning (Hz).
@@ -34,7 +34,7 @@ pub struct ChirpRequest {
     pub to: f64,
     /// Rate of change of the frequency (Hz/s); negative for a falling chirp.
     pub rate: f64,
-    /// Samples of the motion per cycle; none if 0.
+    /// Samples of the motion per cycle; 0 for none.
     pub samples_per_cycle: u32,
 }
 
@@ -47,46 +47,46 @@ pub struct ChirpResponse {
     pub motion: Trajectory,
 }
 
-/// An impulse on the stroke, and the length of the motion to sample after it.
+/// An impulse on the stroke, and the duration of the motion to sample after it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpulseRequest {
     /// Rate of the stroke right after the impulse (rad/s).
     pub stroke_rate: f64,
-    /// Length of the sampled motion (s).
+    /// Duration of the sampled motion (s).
     pub duration: f64,
-    /// Intervals between samples, all of the same length; both ends are sampled.
+    /// Number of equal intervals between samples. Both ends are sampled.
     pub intervals: u32,
 }
 
-/// A motion of the wing that is given, such as one that was filmed.
+/// An imposed motion of the wing, for example from a film.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImposedMotion {
-    /// Stroke angle (rad).
+    /// Stroke (rad).
     pub stroke: Samples,
-    /// Pitch angle (rad), over the same time.
+    /// Pitch (rad), over the same time.
     pub pitch: Samples,
-    /// Intervals between the times at which forces are evaluated; both ends are evaluated.
+    /// Number of intervals between the times at which forces are evaluated. Both ends are evaluated.
     pub samples: u32,
 }
 
-/// A drive period.
+/// Result of one drive period.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Period {
-    /// The state at its end.
+    /// State at its end.
     pub end: Vec<f64>,
-    /// Derivatives of the end, one vector for each component of the state at the beginning.
+    /// Derivatives of the final state, one vector for each component of the initial state.
     pub responses: Vec<Vec<f64>>,
     /// Typical sizes of the state's components.
     pub scale: Vec<f64>,
-    /// Largest modulus of the Floquet multipliers, meaningful if the period repeats.
+    /// Largest modulus of the Floquet multipliers. Meaningful only if the period repeats.
     pub floquet_max: f64,
-    /// One value per column of the model, meaningful if the period repeats.
+    /// One value per column of the model. Meaningful only if the period repeats.
     pub measures: Vec<f64>,
-    /// Right-hand sides evaluated.
+    /// Number of right-hand sides evaluated.
     pub rhs_evals: u64,
 }
 
-/// Reason why a motion was not followed as far as requested.
+/// Reason for an incomplete motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unfinished {
     /// The parameters are impossible together.
@@ -95,7 +95,7 @@ pub enum Unfinished {
     /// The request is impossible.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// The motion was to begin on its orbit, and does not settle on one of one drive period.
+    /// A settled motion was requested, but the motion does not settle on an orbit of one drive period.
     #[error(
         "the motion does not settle on an orbit of one drive period (status {}, {cycles} cycles); sample it from rest \
          instead",
@@ -104,34 +104,34 @@ pub enum Unfinished {
     NotPeriodic {
         /// Status of the point's row.
         status: Status,
-        /// Drive periods integrated.
+        /// Number of integrated drive periods.
         cycles: u32,
     },
     /// The model computes rows alone.
-    #[error("the model {model} has no single motions")]
+    #[error("the model {model} computes rows, but no single motions")]
     NoMotions {
         /// Name of the model.
         model: &'static str,
     },
-    /// The model knows no chirps, impulses, given motions and natural frequencies.
-    #[error("the model {model} has no chirps, impulses, given motions or natural frequencies")]
+    /// The model supports no chirps, impulses, imposed motions and natural frequencies.
+    #[error("the model {model} supports no chirps, impulses, imposed motions or natural frequencies")]
     NoExperiments {
         /// Name of the model.
         model: &'static str,
     },
-    /// The state became infinite or not a number.
+    /// The state became infinite or NaN.
     #[error("the motion diverges")]
     Diverged,
     /// A drive period takes more than `max_steps` steps, or steps too small to advance time.
     #[error("the motion needs more than max_steps steps in a drive period")]
     StepLimit,
-    /// The caller has interrupted it.
+    /// The caller interrupted the run.
     #[error("interrupted")]
     Interrupted,
 }
 
 impl Unfinished {
-    /// `Ok` if a run has come as far as it was to come.
+    /// Returns `Ok` if a run has ended as intended.
     pub(crate) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
         if interrupted() {
             return Err(Unfinished::Interrupted);
@@ -144,13 +144,13 @@ impl Unfinished {
     }
 }
 
-/// A request for a motion that is impossible.
+/// An impossible request for a motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RequestError {
-    /// A chirp whose frequencies are not more than zero, or whose rate has not the sign of the change.
+    /// A frequency that is not more than zero, or a rate whose sign differs from the sign of the change.
     #[error(
-        "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies are more than zero, and the rate has \
-         the sign of the change"
+        "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies must be more than zero, and the rate \
+         must have the sign of the change"
     )]
     Chirp {
         /// Frequency at the beginning (Hz).
@@ -160,31 +160,31 @@ pub enum RequestError {
         /// Rate of change of the frequency (Hz/s).
         rate: f64,
     },
-    /// An impulse that gives the stroke a rate of zero, or one that is not finite.
+    /// A stroke rate of an impulse that is zero or not finite.
     #[error("the stroke rate of an impulse must be finite and not zero, not {0} rad/s")]
     StrokeRate(f64),
-    /// No time, or no intervals, to sample.
+    /// A duration or number of intervals that is not more than zero.
     #[error(
         "the duration and the number of intervals must be more than zero, not {duration} s and {intervals} intervals"
     )]
     Sampling {
-        /// Length of the motion (s).
+        /// Duration of the motion (s).
         duration: f64,
-        /// Intervals between samples.
+        /// Number of intervals between samples.
         intervals: u32,
     },
-    /// Stroke and pitch of a given motion that do not last equally long.
-    #[error("stroke and pitch do not last equally long: {stroke} s and {pitch} s")]
+    /// Stroke and pitch of an imposed motion with different durations.
+    #[error("stroke and pitch must have the same duration, not {stroke} s and {pitch} s")]
     Durations {
-        /// Length of the stroke's record (s).
+        /// Duration of the stroke's record (s).
         stroke: f64,
-        /// Length of the pitch's record (s).
+        /// Duration of the pitch's record (s).
         pitch: f64,
     },
-    /// A state to begin with that is not one finite number for each of the model's states.
-    #[error("the motion cannot begin at {begin:?}: the state needs {states} finite numbers")]
+    /// An initial state that does not contain one finite number for each of the model's states.
+    #[error("the motion cannot begin at {begin:?}: a state consists of {states} finite numbers")]
     Begin {
-        /// The numbers given.
+        /// Numbers of the initial state.
         begin: Vec<f64>,
         /// Number of the model's states.
         states: usize,

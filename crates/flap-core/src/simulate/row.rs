@@ -1,42 +1,47 @@
-//! Rows: results of points, with their statuses and columns.
+//! Rows: results of points, with statuses and columns.
 
 use core::fmt::Display;
 
 use crate::model::{Model, OverWings, SignalSet};
 
-/// Result of one point's run.
+/// Result of one point.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The result in one word.
+    /// Result in one word.
     pub status: Status,
     /// One value per column of the model if the point is on an orbit of one drive period, otherwise empty.
     pub measures: Vec<f64>,
-    /// Drive periods integrated, measuring included.
+    /// Number of integrated drive periods, including the measured ones.
     pub cycles: u32,
-    /// Change of the strobed state over the last orbit period, or over half a period of a symmetric orbit, in units of each
-    /// state's typical size.
-    /// NaN if no period was completed.
+    /// Change of the strobed state over the last orbit period, in units of each state's typical size.
+    ///
+    /// For a symmetric orbit it is the change over half a period. NaN if no period was completed.
     pub residual: f64,
-    /// Drive periods per orbit: 1, or more for a subharmonic; 0 if no orbit was found.
+    /// Length of the orbit in drive periods: 1, or more for a subharmonic; 0 if no orbit was found.
     pub period: u32,
-    /// Largest modulus of the orbit's Floquet multipliers: a change of the state grows or decays by this factor per
-    /// orbit in the end. Its error is larger than that of the measures, see `docs/models/numerics.md`. NaN without an orbit, and for a wing at rest: forces that go with the square of a speed have
-    /// no linear part there.
+    /// Largest modulus of the orbit's Floquet multipliers.
+    ///
+    /// A small change of the state grows or decays by this factor per orbit in the long run.
+    ///
+    /// Its error is larger than the errors of the measures, see `docs/models/numerics.md`. NaN without an orbit, and
+    /// for a wing at rest: forces proportional to the square of a speed have no linear part there.
     pub floquet_max: f64,
-    /// Estimate of the largest relative error that the integration makes in the model's
-    /// [principal measures](crate::model::Principal), such as stroke, pitch, lift and power: see `docs/models/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
+    /// Estimate of the largest relative integration error of the model's [principal
+    /// measures](crate::model::Principal), such as stroke, pitch, lift and power.
+    ///
+    /// See `docs/models/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
     pub error_estimate: f64,
-    /// The state at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
+    /// State at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
     pub state: Vec<f64>,
-    /// Right-hand sides evaluated by the integrator.
+    /// Number of right-hand sides evaluated by the integrator.
     pub rhs_evals: u64,
-    /// The reason why the parameters are invalid.
+    /// Reason for invalid parameters.
     pub reason: Option<String>,
 }
 
 impl Row {
-    /// A row that says nothing but its status: no period has been completed.
+    /// Returns a row with a status alone, for a point without a completed period.
     pub(super) fn empty(status: Status) -> Row {
         Row {
             status,
@@ -52,16 +57,16 @@ impl Row {
         }
     }
 
-    /// The row of a point whose parameters are impossible together, with the reason.
+    /// Returns the row of a point whose parameters are impossible together, with the reason.
     pub fn invalid(reason: impl Display) -> Row {
         Row { reason: Some(reason.to_string()), ..Row::empty(Status::Invalid) }
     }
 
-    /// True if motions near the orbit approach it; `None` without an orbit.
+    /// Returns true if motions near the orbit approach it; `None` without an orbit.
     pub fn stable(&self) -> Option<bool> {
         match (self.period, self.floquet_max.is_nan()) {
             (0, _) => None,
-            // At rest: without drive every motion dies away.
+            // At rest: without drive every motion decays.
             (_, true) => Some(true),
             (_, false) => Some(self.floquet_max < 1.0),
         }
@@ -74,8 +79,8 @@ impl Row {
 pub enum Status {
     /// Settled on an orbit with the period of the drive.
     Periodic,
-    /// On an orbit with the period of the drive that motions leave. No motion settles there: it is found where a branch of
-    /// orbits is continued, and has measures.
+    /// On an unstable orbit with the period of the drive. No motion settles there. Continuation of a branch finds
+    /// such orbits, and they have measures.
     Unstable,
     /// Settled on an orbit of two or more drive periods.
     Subharmonic,
@@ -101,7 +106,7 @@ impl Status {
         Status::Invalid,
     ];
 
-    /// The word in the `status` column.
+    /// Returns the word in the `status` column.
     pub fn name(self) -> &'static str {
         match self {
             Status::Periodic => "periodic",
@@ -120,15 +125,15 @@ impl Status {
 pub struct Column {
     /// Name with its unit, such as `lift_mean_mn`.
     pub name: String,
-    /// Unit in words as printed by `flap models`, such as `mN`.
+    /// Unit in words as in `flap models`, such as `mN`.
     pub unit: &'static str,
-    /// One line of meaning.
+    /// Description in one line.
     pub doc: String,
-    /// The way in which the rows of a vehicle have it.
+    /// Form of this column in the rows of a vehicle.
     pub over_wings: OverWings,
 }
 
-/// The columns of a model: its signals' measures, then the values derived from them.
+/// Returns the columns of a model: the measures of its signals, then the derived columns.
 pub(super) fn columns<M: Model<N>, const N: usize>() -> Vec<Column> {
     let measured = M::Signals::TABLE.iter().flat_map(|signal| {
         signal.measures.iter().map(move |measure| Column {

@@ -1,4 +1,5 @@
-//! A model behind the object-safe faces [`Simulator`], [`Gradients`], [`Motions`] and [`Experiments`].
+//! Implementation of the object-safe traits [`Simulator`], [`Gradients`], [`Motions`] and [`Experiments`] for a
+//! model.
 
 use std::sync::OnceLock;
 
@@ -16,12 +17,12 @@ use crate::model::{self, Model, Signal, SignalSet};
 use crate::num::Backend;
 use crate::parameter::{Parameter, Preset};
 
-/// A model behind the object-safe faces: all that a sweep needs of a model of one's own.
+/// A model as an object-safe [`Simulator`]: everything that a sweep needs of a user-defined model.
 ///
-/// The model has N states. At least one signal has a [principal measure](crate::model::Principal), by which the error of a row
-/// is judged.
+/// The model has N states. At least one signal has a [principal measure](crate::model::Principal), which determines
+/// the error estimate of a row.
 ///
-/// A driven oscillator, with the drive at its resonance:
+/// Example: an oscillator driven at its resonance.
 ///
 /// ```
 /// use flap_core::drive::{DriveConstants, WaveformParameters};
@@ -129,12 +130,12 @@ use crate::parameter::{Parameter, Preset};
 /// let run = PointRun::new(Backend::best(), &SolverSettings::DEFAULT, &values);
 /// let row = model.run_point(&run, None);
 /// assert_eq!(row.status, Status::Periodic);
-/// // At resonance the amplitude is that of the torque over damping times angular frequency.
+/// // At resonance the amplitude is the torque over damping times angular frequency.
 /// let exact = (1e3 / (40.0 * std::f64::consts::TAU * 100.0_f64)).to_degrees();
 /// let error = (row.measures[0] / exact - 1.0).abs();
 /// assert!(error < row.error_estimate && row.error_estimate < 2e-4, "{error}, {}", row.error_estimate);
 /// assert!(row.measures[1].abs() < 1e-4 * exact);
-/// // A free oscillation decays by this factor in a drive period.
+/// // A free oscillation decays by this factor per drive period.
 /// assert!((row.floquet_max - (-0.2_f64).exp()).abs() < 1e-4);
 /// ```
 pub struct Runner<M, const N: usize> {
@@ -144,7 +145,7 @@ pub struct Runner<M, const N: usize> {
 }
 
 impl<M: model::Motions<N>, const N: usize> Runner<M, N> {
-    /// The faces of a model that knows experiments too. Compiles under the conditions of [`Runner::new`].
+    /// Returns a simulator that also supports experiments. Compiles under the conditions of [`Runner::new`].
     pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |runner| Some(runner) }
@@ -152,7 +153,7 @@ impl<M: model::Motions<N>, const N: usize> Runner<M, N> {
 }
 
 impl<M: Model<N>, const N: usize> Runner<M, N> {
-    /// Compiles if rows have a measure to judge their errors by.
+    /// Compiles only if a signal has a principal measure.
     const CHECKED: () = {
         assert!(
             has_principal(M::Signals::TABLE),
@@ -160,15 +161,15 @@ impl<M: Model<N>, const N: usize> Runner<M, N> {
         );
     };
 
-    /// The faces of a model: rows and motions. Does not compile unless a signal has a
-    /// [principal measure](crate::model::Principal).
+    /// Returns a simulator for rows and motions. Compiles only if a signal has a [principal
+    /// measure](crate::model::Principal).
     pub const fn new(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |_| None }
     }
 }
 
-/// True if one of the signals has a principal measure.
+/// Returns true if one of the signals has a principal measure.
 const fn has_principal(signals: &[Signal]) -> bool {
     let mut i = 0;
     while i < signals.len() {

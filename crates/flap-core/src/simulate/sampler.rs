@@ -1,4 +1,4 @@
-//! Samples of a motion at equal distances in time, as rows of a [`Trajectory`].
+//! Equidistant samples of a motion, as rows of a [`Trajectory`].
 
 use core::ops::ControlFlow;
 
@@ -10,7 +10,7 @@ use crate::ode::solve::solve_until;
 use crate::ode::step::Attempt;
 use crate::ode::{Interrupt, Start};
 
-/// Follows the run from `start` for `spans` spans, each sampled at equal distances.
+/// Follows the run from `start` for `spans` spans, with equidistant samples in each.
 pub(crate) fn sampled<M, R, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -45,21 +45,21 @@ where
     Ok(sampler.finish::<M, N>())
 }
 
-/// Samples a motion cycle by cycle, each at equal distances.
+/// Sampler of a motion, with equidistant samples in each cycle.
 pub(crate) struct Sampler {
     samples_per_cycle: u32,
-    /// Time at which the current cycle began, and its length (s).
+    /// Time at the beginning of the current cycle, and the cycle's length (s).
     began: f64,
     span: f64,
-    /// The next sample of the current cycle.
+    /// Index of the next sample of the current cycle.
     next: u32,
     rows: Vec<Vec<f64>>,
-    /// The end of the last cycle; replaced by the first sample of the next.
+    /// End of the last cycle. The first sample of the next cycle replaces it.
     last: Option<Vec<f64>>,
 }
 
 impl Sampler {
-    /// A sampler that has seen nothing; it takes no samples if `samples_per_cycle` is 0.
+    /// Returns a new sampler. It takes no samples if `samples_per_cycle` is 0.
     pub(crate) fn new(samples_per_cycle: u32) -> Sampler {
         Sampler { samples_per_cycle, began: 0.0, span: 0.0, next: 0, rows: Vec::new(), last: None }
     }
@@ -71,7 +71,7 @@ impl Sampler {
         self.next = 0;
     }
 
-    /// Takes the samples that lie in an accepted step.
+    /// Takes the samples within an accepted step.
     pub(crate) fn step<M, R, const N: usize>(
         &mut self,
         model: &M,
@@ -93,21 +93,21 @@ impl Sampler {
             self.rows.push(sample(model, c, number(time), attempt.side, &y, self.began + time));
             self.next += 1;
         }
-        // The step that lands has exactly this size.
+        // The step that ends the cycle has exactly this size.
         if h == self.span - t {
             let (y, end) = (&attempt.step.y[6], self.began + self.span);
             self.last = Some(sample(model, c, number(self.span), attempt.side, y, end));
         }
     }
 
-    /// The samples, the end of the last cycle included.
+    /// Returns the samples, including the end of the last cycle.
     pub(crate) fn finish<M: Model<N>, const N: usize>(mut self) -> Trajectory {
         self.rows.extend(self.last);
         Trajectory { columns: columns::<M, N>(), rows: self.rows }
     }
 }
 
-/// Names of the columns of a trajectory: time, states, signals.
+/// Returns the names of the columns of a trajectory: time, states, signals.
 pub(crate) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
@@ -115,7 +115,7 @@ pub(crate) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// The meanings of the columns of a trajectory, in their order.
+/// Returns the descriptions of the columns of a trajectory, in their order.
 pub(crate) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut meanings = vec!["time since the beginning of the motion".to_owned()];
     meanings.extend(M::STATES.iter().map(|name| format!("state {name} of the equations of motion")));
@@ -124,7 +124,7 @@ pub(crate) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     meanings
 }
 
-/// One row of a trajectory, at `t` within a cycle and `time` since the beginning (s).
+/// Returns one row of a trajectory, at `t` within a cycle and `time` since the beginning (s).
 fn sample<M, R, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
@@ -146,7 +146,7 @@ where
     row
 }
 
-/// The signals that have columns, in their units.
+/// Returns the signals with columns, in the units of the columns.
 pub(crate) fn shown<S: SignalSet>(signals: &S::Of<f64>) -> impl Iterator<Item = f64> {
     let shown = S::each(signals).filter(|(signal, _)| signal.is_shown());
     shown.map(|(signal, value)| value * signal.unit.factor)

@@ -1,22 +1,26 @@
 //! The search for the settled motion of a point, from its first drive period to its row.
 //!
-//! [`Search::settle`] is the whole way:
+//! [`Search::settle`] consists of these stages:
 //!
-//! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a periodic
-//!    orbit near by. A loose tolerance suffices for this.
-//! 2. **Middle.** The orbit of a middle tolerance is found and measured. This orbit is much nearer to the row's orbit than the
-//!    first one, and the difference of its measures from the row gives the row's error estimate.
-//! 3. **Close.** Chord steps at the tolerance of the row lead near its orbit. A period with responses to changes of the state
-//!    gives the monodromy matrix, and with it the orbit. The period of that orbit is measured, and confirms it.
+//! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a
+//!    nearby periodic orbit. A loose tolerance suffices for this.
+//! 2. **Middle.** The orbit of a middle tolerance is found and measured. It is much closer to the row's orbit than the
+//!    first one. The difference of its measures from the row gives the row's error estimate.
+//! 3. **Close.** Chord steps at the tolerance of the row lead close to its orbit. A period with responses to changes of
+//!    the state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is
+//!    measured, which confirms the orbit.
+//!    state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is measured, which
+//!    confirms the orbit.
 //! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
 //!
-//! If the point is [symmetric](Symmetry), its orbit presumably is so too: Newton's iteration, the chord steps and the measured
-//! periods then integrate half a period and mirror its end. The march always integrates whole periods. If no symmetric orbit is
-//! found, the search gives up the symmetry and goes on with whole periods.
+//! If the point is [symmetric](Symmetry), its orbit is presumably symmetric too. Newton's iteration, the chord steps
+//! and the measured periods then integrate half a period and mirror its end. The march always integrates whole
+//! periods. If no symmetric orbit is found, the search continues with whole periods.
 //!
 //! If the search at the loose tolerance fails, it begins again, at rest and at the tolerance of the row.
-//! A search integrates nothing itself: it asks for drive periods and waits for them (see [`periods`](super::periods)), and a
-//! driver integrates those of many points in lanes (see [`lanes`](super::lanes)).
+//!
+//! A search does not integrate: it requests drive periods and waits for them (see [`periods`](super::periods)). A
+//! driver integrates the periods of many points in lanes (see [`lanes`](super::lanes)).
 
 use std::rc::Rc;
 
@@ -32,68 +36,72 @@ use crate::model::{Model, Symmetry};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Ending, Outcome, Start, input, slope};
 
-/// The relative tolerance with which a search begins, and the largest tolerance of rows for which it does.
+/// Relative tolerance at the beginning of a search. Rows with a larger tolerance begin at their own tolerance.
 const LOOSE_RTOL: f64 = 3e-4;
 const LOOSE_FOR: f64 = 4e-6;
 
-/// The most drive periods marched at the loose tolerance.
+/// Largest number of drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
-/// The residual of an orbit at the loose tolerance. The period map of this tolerance jumps by less.
+/// Residual of an orbit at the loose tolerance. Jumps of the period map are smaller at this tolerance.
 const LOOSE_RESIDUAL: f64 = 1e-2;
 
-/// The residual of a march at the loose tolerance that is as near to its orbit as Newton's iteration would lead.
+/// Residual of a march at the loose tolerance that is as close to its orbit as Newton's iteration would lead.
 const ARRIVED: f64 = 1e-3;
 
-/// The drive periods up to which a march with less than [`LOOSE_RESIDUAL`] goes on until it has [`ARRIVED`].
+/// Number of drive periods up to which a march below [`LOOSE_RESIDUAL`] continues until it has [`ARRIVED`].
 const ARRIVAL_CYCLES: u32 = 9;
 
-/// The factor between the tolerances of a row and the middle ones. The errors of the two orbits differ by about as much.
+/// Factor between the middle tolerances and the tolerances of a row. The errors of the two orbits differ by about
+/// this factor.
 const MIDDLE: f64 = 64.0;
 
-/// The residual at the middle tolerance, relative to that tolerance, after which one more chord step is the last.
+/// Residual at the middle tolerance, relative to that tolerance, below which one more chord step is the last.
 const MIDDLE_RESIDUAL: f64 = 10.0;
 
-/// The relative tolerance of the period with responses that gives the multipliers, relative to the root of the row's tolerance.
-/// It is never finer than the row's tolerance.
+/// Relative tolerance of the period with responses for the multipliers, relative to the root of the row's tolerance.
+///
+/// It is never smaller than the row's tolerance.
 const RESPONSES: f64 = 1.25e-3;
 
-/// The residual from which one more step leads to a state with the monodromy matrix of the orbit, relative to the root of the
-/// row's tolerance.
+/// Residual at which one more step leads to a state with the monodromy matrix of the orbit, relative to the root of
+/// the row's tolerance.
 const MATRIX_RESIDUAL: f64 = 0.1;
 
-/// The length of a step with the monodromy matrix of the row's orbit that is presumed to be the last, relative to the root of
-/// the residual to be reached: a step leaves a residual of about its square.
+/// Length of a step with the monodromy matrix of the row's orbit below which the step is assumed to be the last.
+///
+/// It is relative to the root of the goal.
+///
+/// A step leaves a residual of about its square.
 const LAST_STEP: f64 = 0.1;
 
-/// Iterations after which Newton's iteration is given up: where it converges at all, it takes two to four.
+/// Largest number of Newton iterations. If the iteration converges at all, it takes two to four.
 const MAX_ITERATIONS: u32 = 8;
 
-/// The residual, in units of `settle_tol`, below which an iteration is stuck in jumps of the period map, and the factor on the
-/// tolerances that makes them smaller.
+/// Residual, in units of `settle_tol`, below which the iteration is limited by jumps of the period map.
 const JUMPS: f64 = 100.0;
 const FINER: f64 = 1.0 / 32.0;
 
-/// The finest tolerances at which a point is integrated: relative to those that were asked for, and as `rtol`.
+/// Smallest tolerances at which a point is integrated: relative to the requested tolerances, and as `rtol`.
 const FINEST: f64 = 1e-5;
 const FINEST_RTOL: f64 = 1e-12;
 
-/// The most times that a point is integrated again for its row's accuracy.
+/// Largest number of repeated integrations for the accuracy of a row.
 const REFINEMENTS: u32 = 3;
 
-/// The smallest residual that such a refinement aims at.
+/// Smallest target residual of such a refinement.
 const SMALLEST_GOAL: f64 = 1e-10;
 
-/// The largest difference between the rates of mirrored states in symmetric equations, as a share of the largest rate.
+/// Largest difference between the rates of mirrored states in symmetric equations, relative to the largest rate.
 const ASYMMETRY: f64 = 1e-9;
 
-/// The largest distance between the orbits of two tolerances, in units of the states' typical sizes.
+/// Largest distance between the orbits of two tolerances, in units of the states' typical sizes.
 const ORBITS_DIFFER: f64 = 0.1;
 
-/// A point that has been followed until it settled, or until it was given up.
+/// Result of a search: the row of a point that has settled, or of a failed search.
 pub(super) struct Settled<const N: usize> {
     pub(super) row: Row,
-    /// The beginning of the row's orbit, with its tolerances.
+    /// Start of the row's orbit, with its tolerances.
     pub(super) orbit: Option<Restart<N>>,
 }
 
@@ -103,76 +111,79 @@ struct Search<'a, M: Model<N>, const N: usize> {
     solver: &'a SolverSettings,
     start: Start<M::Constants<f64>, N>,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
-    /// The symmetry of the orbit, as long as it is presumed to have one.
+    /// Symmetry of the orbit, while it is assumed.
     symmetry: Option<Symmetry<M::Signals, N>>,
-    /// The sizes of the states, of which absolute tolerances are multiples.
+    /// Sizes of the states. Absolute tolerances are multiples of them.
     size: [f64; N],
-    /// The factor on the tolerances that were asked for.
+    /// Factor on the requested tolerances.
     tolerance_factor: f64,
-    /// The residual with which an orbit counts as found.
+    /// Largest residual of an orbit that counts as found.
     goal: f64,
     march: March<N>,
     /// Largest modulus of the multipliers of a subharmonic orbit.
     subharmonic: f64,
     ending: Ending,
-    /// Half drive periods integrated, right-hand sides evaluated, and those that the present run has evaluated.
+    /// Number of half drive periods and of evaluated right-hand sides, in total and in the current run.
     half_cycles: u64,
     rhs_evals: u64,
     rhs_evals_of_run: u64,
 }
 
-/// An orbit near by.
+/// A nearby orbit.
 #[derive(Clone, Copy)]
 struct Near<const N: usize> {
     orbit: Orbit<N>,
-    /// A part of the march that should lead there.
+    /// A part of the march that should lead to the orbit.
     march: Marched<N>,
-    /// The monodromy matrix of the row's orbit, if it is known: computed at the row's tolerance, near enough.
+    /// Monodromy matrix of the row's orbit, if known: computed at the row's tolerance, close enough to the orbit.
     monodromy: Option<Matrix<N>>,
-    /// The residual before the last step, at the tolerance of the last iteration; of a march that has arrived, its last change.
+    /// Residual before the last step, at the tolerance of the last iteration. For a march that has arrived, its last
+    /// change.
     residual: f64,
-    /// The length of that step, if it was made with `monodromy`.
+    /// Length of the last step, if it was made with `monodromy`.
     step: f64,
-    /// The march has settled there, and Newton's iteration cannot improve on it: the orbit is measured as it is.
+    /// True if the march has settled there, and Newton's iteration cannot improve the orbit. It is then measured as
+    /// it is.
     is_final: bool,
 }
 
 impl<const N: usize> Near<N> {
-    /// An orbit whose own monodromy matrix is not known.
+    /// Returns a nearby orbit without its own monodromy matrix.
     fn without_matrix(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
         Near { orbit, march, monodromy: None, residual, step: f64::INFINITY, is_final: false }
     }
 }
 
-/// The tolerance of a march or of Newton's iteration.
+/// Tolerance of a march or of Newton's iteration.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Tolerance {
     /// [`LOOSE_RTOL`].
     Loose,
-    /// That of the row.
+    /// Tolerance of the row.
     Row,
 }
 
-/// An orbit that has been measured.
+/// A measured orbit.
 struct Measured<T, const N: usize> {
     orbit: Orbit<N>,
-    /// Its monodromy matrix.
+    /// Monodromy matrix of the orbit.
     monodromy: Option<Matrix<N>>,
     residual: f64,
-    /// The end of its measured period.
+    /// End of the measured period.
     end: PeriodEnd<T, N>,
 }
 
-/// The reason why the row's orbit is not found.
+/// Reason for a row without orbit.
 enum NoOrbit<const N: usize> {
-    /// The period map jumps too much at these tolerances, near this orbit.
+    /// At these tolerances the jumps of the period map are too large near this orbit.
     Jumps(Orbit<N>),
-    /// No stable orbit was found that the march approaches, or a period could not be integrated.
+    /// The search found no stable orbit that the march approaches, or a period could not be integrated.
     Failed,
 }
 
-/// Follows a point from `start` to its row. `nearby` says that this is a given state, such as one on the orbit of a neighbouring
-/// point, and not rest.
+/// Follows a point from `start` to its row.
+///
+/// `nearby` is true if the start is a given state, such as the orbit of a neighbouring point, and not rest.
 pub(super) fn settle<'a, M: Model<N>, const N: usize>(
     model: &'a M,
     solver: &'a SolverSettings,
@@ -200,7 +211,7 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
 }
 
 impl<M: Model<N>, const N: usize> Search<'_, M, N> {
-    /// The point's row and orbit; for `nearby` see [`settle`].
+    /// Returns the point's row and orbit; for `nearby` see [`settle`].
     async fn settle(&mut self, nearby: bool) -> Settled<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
         let is_worth_it = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
@@ -217,7 +228,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// The row of an orbit near by; `None` if no orbit of the row's tolerance lies near it.
+    /// Returns the row of a nearby orbit; `None` if there is no orbit of the row's tolerance close to it.
     async fn settle_near(&mut self, mut near: Near<N>) -> Option<Settled<N>> {
         let mut last: Option<Settled<N>> = None;
         for refinement in 0..=REFINEMENTS {
@@ -257,8 +268,10 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         last.map(|last| self.with_costs(last))
     }
 
-    /// Marches until an orbit near by is the orbit of the point. `None` if the march fails, is exhausted, or settles on a subharmonic
-    /// orbit; at the loose tolerance also if an orbit near by turns out to be none.
+    /// Marches until a nearby orbit is the orbit of the point.
+    ///
+    /// `None` if the march fails, is exhausted, or settles on a subharmonic orbit. At the loose tolerance also if a
+    /// nearby orbit does not lead to an orbit of the row's tolerance.
     async fn follow(&mut self, at: Tolerance) -> Option<Settled<N>> {
         loop {
             self.march(at).await?;
@@ -274,14 +287,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 None => return None,
             };
             self.check_symmetry();
-            // As long as the orbit is presumed to be symmetric, half periods are searched first.
+            // While the orbit is assumed to be symmetric, half periods are tried first.
             let is_lost = loop {
                 let found = self.find(at, settled).await;
                 if let Some(near) = found {
                     if let Some(row) = self.settle_near(near).await {
                         return Some(row);
                     }
-                    // The march has settled all the same: on an orbit that is measured as it is.
+                    // The march has settled although no orbit was found. Its orbit is measured as it is.
                     if settled && at == Tolerance::Row && self.symmetry.is_none() && !near.is_final {
                         self.reset_tolerances();
                         return self.settle_near(self.marched(near.orbit.monodromy)).await;
@@ -299,7 +312,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// The orbit near the state of the march, which has perhaps `settled`; `None` if Newton's iteration leads to none.
+    /// Returns the orbit near the state of the march, which may have `settled`; `None` if Newton's iteration finds
+    /// none.
     async fn find(&mut self, at: Tolerance, settled: bool) -> Option<Near<N>> {
         let change = self.march.change(1);
         if at == Tolerance::Loose && change <= ARRIVED.max(self.goal) {
@@ -317,7 +331,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Gives up the symmetry if the equations do not have it at the state of the march, whatever the model says.
+    /// Stops assuming symmetry if the equations are not symmetric at the state of the march, in contradiction to the
+    /// model.
     fn check_symmetry(&mut self) {
         let Some(Symmetry { centre, .. }) = self.symmetry else { return };
         let Start { constants: c, span, scale, .. } = &self.start;
@@ -331,14 +346,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Goes back to the tolerances that were asked for, after a try that has failed.
+    /// Resets the tolerances to the requested ones after a failed attempt.
     fn reset_tolerances(&mut self) {
         self.tolerance_factor = self.start.tolerance_factor;
         self.goal = self.solver.settle_tol;
         self.ending = Ending::Stopped;
     }
 
-    /// The orbit on which the march has settled: its state jitters by more than Newton's iteration may leave.
+    /// Returns the orbit on which the march has settled. Its state varies by more than the residual goal of Newton's
+    /// iteration.
     fn marched(&self, monodromy: Matrix<N>) -> Near<N> {
         let march = self.last_marched(self.goal);
         let orbit = Orbit { y: march.end, monodromy };
@@ -346,14 +362,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Near { monodromy: Some(monodromy), is_final: true, ..Near::without_matrix(orbit, march, residual) }
     }
 
-    /// The last period of the march, with this error.
+    /// Returns the last period of the march, with this error.
     fn last_marched(&self, error: f64) -> Marched<N> {
         let (begin, end) = (*self.march.before(), *self.march.state());
         Marched { begin, end, error, maps: self.maps_per_period() }
     }
 
-    /// Marches until the motion has settled or may be near an orbit, or for as many periods as are allowed. `None` if
-    /// a period cannot be integrated.
+    /// Marches until the motion has settled or may be close to an orbit, or for the allowed number of periods.
+    ///
+    /// `None` if a period cannot be integrated.
     async fn march(&mut self, at: Tolerance) -> Option<()> {
         let factor = self.factor(at);
         let mut begin = Some(self.from(&self.march.state().clone(), factor));
@@ -377,7 +394,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(())
     }
 
-    /// Newton's iteration from the state of the march. An error is the monodromy matrix there, if there is one.
+    /// Runs Newton's iteration from the state of the march. The error contains the monodromy matrix there, if known.
     async fn iterate(&mut self, at: Tolerance) -> Result<Near<N>, Option<Matrix<N>>> {
         let (goal, error) = match at {
             Tolerance::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
@@ -393,9 +410,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 self.ending = Ending::Stopped;
                 return Err(monodromy);
             };
-            // That of the march's state.
+            // The monodromy matrix at the state of the march.
             monodromy.get_or_insert(end.monodromy);
-            // The first of these continues the march.
+            // The first period continues the march.
             let march = *march.get_or_insert(Marched { begin: y, end: end.y, error, maps: 1 });
             let residual = period_map::residual(&y, &end.y, &scale);
             let orbit = Orbit { y, monodromy: end.monodromy };
@@ -410,7 +427,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     let step = distance(&y, &orbit.y, &scale);
                     return Ok(Near { monodromy: Some(orbit.monodromy), step, ..near });
                 }
-                // Near a fold, the multipliers of an orbit show only close to it.
+                // Near a fold, the multipliers of an orbit are accurate only close to it.
                 if at == Tolerance::Loose || residual <= self.goal {
                     return Err(monodromy);
                 }
@@ -439,15 +456,16 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Err(monodromy)
     }
 
-    /// Finds the orbit of the middle tolerance and measures its means; `None` if it is not found. If the orbit near by was not
-    /// found at the row's tolerance, the state that the chord steps lead to takes its place.
+    /// Finds the orbit of the middle tolerance and returns its measured means; `None` if it is not found.
+    ///
+    /// If the nearby orbit was not found at the row's tolerance, the result of the chord steps replaces it.
     async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
         let is_known = near.monodromy.is_some();
         // With the monodromy matrix of the row's orbit, one step suffices.
         let enough =
             if is_known { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
         let mut chord = Chord::new(near.orbit, &self.start.scale);
-        // A period that fails at this tolerance is no failure of the row.
+        // A period that fails at this tolerance does not make the row fail.
         let ending = self.ending;
         let found =
             !is_known && near.residual <= self.goal || self.converge(&mut chord, MIDDLE, enough).await;
@@ -464,8 +482,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         end?.sums
     }
 
-    /// Chord steps with so many times the tolerances of the row, until the residual is small enough. False if it does not become
-    /// so.
+    /// Makes chord steps at `factor` times the tolerances of the row, until the residual is at most `enough`.
+    ///
+    /// Returns false if the residual stays larger.
     async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
         loop {
             let y = chord.orbit.y;
@@ -476,16 +495,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Goes from an orbit near by onto the orbit of the row's tolerance, in chord steps, and measures its period.
+    /// Moves from a nearby orbit to the orbit of the row's tolerance, in chord steps, and measures its period.
     async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
         let Near { monodromy: mut matrix, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
-        // The residual at which the monodromy matrix of the row's orbit is computed, and the last at which it was.
+        // Residual at which the monodromy matrix of the row's orbit is computed, and the last residual at which it
+        // was computed.
         let mut near_enough = self.matrix_residual();
         let mut residual_of_matrix = f64::INFINITY;
-        // After a short step the period is measured without another one before it, until a measured period shows that the step
-        // was not the last.
+        // After a short step the period is measured directly, without a period before it to check the residual. This
+        // ends as soon as a measured period shows that the step was not the last.
         let mut presumes = true;
         let last_step = LAST_STEP * self.goal.sqrt();
         loop {
@@ -495,7 +515,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
-                // The matrix is computed where the steps are stuck, too.
+                // The matrix is also computed if the steps make no progress.
                 if matrix.is_none() && residual <= near_enough
                     || !moved && residual <= PROGRESS * residual_of_matrix
                 {
@@ -538,14 +558,15 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// The monodromy matrix of an orbit through `y`. `None` if the period cannot be integrated.
+    /// Returns the monodromy matrix of an orbit through `y`; `None` if the period cannot be integrated.
     async fn monodromy(&mut self, y: &[f64; N]) -> Option<Matrix<N>> {
-        // The multipliers of a period are powers of those of the map, and err by as many times more.
+        // Multipliers of a period are powers of the map's multipliers, with correspondingly larger relative errors.
         let rtol = RESPONSES / f64::from(self.maps_per_period()) * self.rtol().sqrt();
         Some(self.map(Kind::Responses, y, (rtol / self.rtol()).max(1.0)).await?.monodromy)
     }
 
-    /// Largest modulus of the multipliers of a subharmonic orbit of so many drive periods, on which the march is.
+    /// Returns the largest modulus of the multipliers of a subharmonic orbit of `periods` drive periods, at the state
+    /// of the march.
     async fn multiplier_over(&mut self, periods: u32) -> f64 {
         let mut monodromy = identity();
         let mut y = *self.march.state();
@@ -560,8 +581,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         spectral_radius(&monodromy)
     }
 
-    /// Integrates the map of which an orbit is a fixed point, with so many times the tolerances of the row: over a period, or
-    /// over half a period that is mirrored at its end.
+    /// Applies the map whose fixed point is the orbit, at `factor` times the tolerances of the row.
+    ///
+    /// The map covers a period, or half a period with a mirrored end.
     async fn map(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let begin = self.from(y, factor);
         let Some(Symmetry { centre, .. }) = self.symmetry else {
@@ -573,7 +595,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(end)
     }
 
-    /// Integrates a period of an orbit with sums over the signals, or half of it if the rest follows.
+    /// Integrates a period of an orbit with sums over the signals, or half of it if the second half follows from the
+    /// first.
     async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
             return self.period(kind, Some(self.from(y, factor))).await;
@@ -586,17 +609,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(end)
     }
 
-    /// True if what is measured of an orbit is what a map integrates, and not more.
+    /// Returns true if a measured period is exactly one application of the map.
     fn measures_maps(&self) -> bool {
         self.symmetry.as_ref().is_none_or(|symmetry| symmetry.second_half.is_some())
     }
 
-    /// The number of times that the map of which an orbit is a fixed point is applied in a period.
+    /// Returns the number of applications of the map in a period.
     fn maps_per_period(&self) -> i32 {
         if self.symmetry.is_some() { 2 } else { 1 }
     }
 
-    /// Integrates a period, or half of one. `None`, with the ending, if that fails.
+    /// Integrates a period or half a period. `None`, with the ending stored, if that fails.
     async fn period(&mut self, kind: Kind, begin: Option<Restart<N>>) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let halves = if begin.is_some_and(|begin| begin.span < self.start.span) { 1 } else { 2 };
         if begin.is_some() {
@@ -604,7 +627,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
         let end = self.exchange.period(Request { kind, begin }).await;
         let Outcome { ending, rhs_evals, .. } = end.outcome;
-        // With responses, each evaluation is one of the states and one of each response.
+        // With responses, each evaluation comprises the state and each of its responses.
         let motions = if kind == Kind::Responses { 1 + N as u64 } else { 1 };
         self.rhs_evals += motions * (rhs_evals - self.rhs_evals_of_run);
         self.rhs_evals_of_run = rhs_evals;
@@ -616,7 +639,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(end)
     }
 
-    /// Begins at the initial state, with the tolerances that were asked for.
+    /// Begins at the initial state, with the requested tolerances.
     fn begin(&mut self, nearby: bool, max_cycles: u32) {
         let Start { y, scale, .. } = self.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
@@ -624,14 +647,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.reset_tolerances();
     }
 
-    /// The beginning of a period at `y`, with the tolerances of the row times `factor`.
+    /// Returns the start of a period at `y`, with `factor` times the tolerances of the row.
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
         let Start { span, scale, .. } = self.start;
         Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
-    /// The factor on the tolerances of the row.
+    /// Returns the factor on the tolerances of the row.
     fn factor(&self, at: Tolerance) -> f64 {
         match at {
             Tolerance::Loose => LOOSE_RTOL / self.rtol(),
@@ -639,17 +662,17 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// The relative tolerance of the row.
+    /// Returns the relative tolerance of the row.
     fn rtol(&self) -> f64 {
         self.solver.rtol * self.tolerance_factor
     }
 
-    /// The residual near which the monodromy matrix is the matrix of the row's orbit.
+    /// Returns the residual below which the monodromy matrix is the matrix of the row's orbit.
     fn matrix_residual(&self) -> f64 {
         self.solver.settle_tol.max(MATRIX_RESIDUAL * self.rtol().sqrt())
     }
 
-    /// The smallest factor on the tolerances.
+    /// Returns the smallest factor on the tolerances.
     fn finest(&self) -> f64 {
         self.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
     }
@@ -662,7 +685,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.tolerance_factor = (self.tolerance_factor * factor).max(self.finest());
     }
 
-    /// Tightens the tolerances of a row that errs by `error`.
+    /// Tightens the tolerances of a row with this `error`.
     fn refine(&mut self, error: f64) {
         let SolverSettings { accuracy, settle_tol, .. } = *self.solver;
         // The error is about proportional to the tolerances.
@@ -670,7 +693,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.goal = (settle_tol * self.tolerance_factor).max(SMALLEST_GOAL).min(settle_tol);
     }
 
-    /// The row of an orbit, and its largest relative error.
+    /// Returns the row of an orbit, and its largest relative error.
     fn row(&self, measured: &Measured<SumsOf<M, N>, N>, middle: Option<&SumsOf<M, N>>) -> (Row, f64) {
         let Measured { orbit: Orbit { y, .. }, monodromy, residual, end } = measured;
         let Some(sums) = end.sums.as_deref() else { return (self.unsettled(), 0.0) };
@@ -683,12 +706,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 
-    /// Drive periods integrated.
+    /// Returns the number of integrated drive periods.
     fn cycles(&self) -> u32 {
         u32::try_from(self.half_cycles.div_ceil(2)).unwrap_or(u32::MAX)
     }
 
-    /// The row of a point without an orbit of one drive period.
+    /// Returns the row of a point without an orbit of one drive period.
     fn unsettled(&self) -> Row {
         let status = match (self.ending, self.march.period()) {
             (Ending::Stopped, Some(2..)) => Status::Subharmonic,
@@ -709,7 +732,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// The same row, with all that its point has cost.
+    /// Returns the same result with the total costs of its point.
     fn with_costs(&self, mut settled: Settled<N>) -> Settled<N> {
         settled.row.cycles = self.cycles();
         settled.row.rhs_evals = self.rhs_evals;

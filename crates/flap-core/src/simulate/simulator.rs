@@ -1,5 +1,5 @@
-//! The object-safe faces of a model: [`Simulator`] for sweeps, with rows and their description; [`Gradients`] for
-//! their derivatives; [`Motions`] and [`Experiments`] for single motions.
+//! The object-safe traits of a model: [`Simulator`] for rows and their descriptions, [`Gradients`] for derivatives of
+//! rows, [`Motions`] and [`Experiments`] for single motions.
 
 use core::iter::Enumerate;
 use std::vec::IntoIter;
@@ -21,26 +21,27 @@ use crate::num::Backend;
 use crate::ode::Interrupt;
 use crate::parameter::{Parameter, Preset};
 
-/// A source of rows: turns design points into rows.
+/// Source of rows: it computes one row per design point.
 pub trait Rows: Sync {
-    /// The measured columns of each row, in order.
+    /// Returns the measured columns of each row, in order.
     fn columns(&self) -> &[Column];
 
-    /// Runs the points of `jobs` on the SIMD lanes of `backend` until there are none left.
+    /// Runs the points of `jobs` on the SIMD lanes of `backend` until none are left.
     ///
-    /// Rows are handed back in the order in which points finish. A row depends on its point and `solver`
-    /// alone: not on its neighbours, nor on the order of the points, nor on `backend` within an arithmetic class.
+    /// Rows are returned in the order in which points finish. A row depends on its point and `solver` alone. It does
+    /// not depend on other points, their order, or the `backend` within an arithmetic class.
     fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
-    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`]). Gives the
-    /// same bits as [`Rows::run`]. Interrupted, the row means nothing.
+    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`]).
+    ///
+    /// The result has the same bits as [`Rows::run`]. If the run is interrupted, the row is meaningless.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row;
 }
 
-/// Runs `points` on the lanes of `backend`. Returns their rows in the order of the points, whose indices do not matter.
+/// Runs `points` on the lanes of `backend`. Returns their rows in the order of the points; point indices are ignored.
 ///
 /// # Errors
-/// [`Unfinished::Interrupted`] if `interrupted` says so, or if `rows` leaves a point without a row.
+/// [`Unfinished::Interrupted`] if `interrupted` returns true, or if `rows` leaves a point without a row.
 pub fn run_list(
     rows: &dyn Rows,
     backend: Backend,
@@ -55,7 +56,7 @@ pub fn run_list(
     rows.ok_or(Unfinished::Interrupted)
 }
 
-/// Points in order, and rows by the position of their point.
+/// A list of points, and rows by the position of their point.
 struct List<'a> {
     points: Enumerate<IntoIter<Point>>,
     rows: Vec<Option<Row>>,
@@ -79,46 +80,48 @@ impl Jobs for List<'_> {
     }
 }
 
-/// A model that turns design points into rows, with all that sweeps need to know of it.
+/// A model that computes rows from design points, with the information that sweeps need.
 pub trait Simulator: Rows {
-    /// Name in grid files, such as `direct-drive`.
+    /// Returns the name in grid files, such as `direct-drive`.
     fn name(&self) -> &'static str;
 
-    /// One line: the robot that it models, and the paper.
+    /// Returns the description in one line: the robot and the paper.
     fn doc(&self) -> &'static str;
 
-    /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
+    /// Returns the parameter table. A point is one `f64` per entry, see [`Parameter`].
     fn parameters(&self) -> &[Parameter<'_>];
 
-    /// Published parameter sets.
+    /// Returns the published parameter sets.
     fn presets(&self) -> &'static [Preset];
 
-    /// 1 if the trailing edge lags a wing that moves to positive stroke at a positive pitch, -1 if it leads.
+    /// Returns 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke, and −1 if it
+    /// leads.
     fn pitch_sign(&self) -> i8 {
         1
     }
 
-    /// The parameters that a wing of one's own decides, by name, in SI units; none if the model has no such wing.
+    /// Returns the parameters that depend on a user-defined wing, by name, in SI units; none if the model does not
+    /// support one.
     fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
         let _ = wing;
         Vec::new()
     }
 
-    /// True if rows have the load of the air on the wing if [`SolverSettings::loads`] asks for it.
+    /// Returns true if rows contain the load of the air on the wing when [`SolverSettings::loads`] is set.
     fn has_loads(&self) -> bool {
         false
     }
 
-    /// The row of a point from rest, see [`Rows::run_point`].
+    /// Returns the row of a point from rest, see [`Rows::run_point`].
     ///
     /// # Errors
-    /// [`Unfinished::Interrupted`]: there is no row then.
+    /// [`Unfinished::Interrupted`] if the run is interrupted. There is no row then.
     fn row(&self, run: &PointRun<'_>) -> Result<Row, Unfinished> {
         let row = self.run_point(run, None);
         if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(row) }
     }
 
-    /// The face for derivatives of rows.
+    /// Returns the trait object for derivatives of rows.
     ///
     /// # Errors
     /// [`Unfinished::NoMotions`] if the model computes rows alone.
@@ -126,7 +129,7 @@ pub trait Simulator: Rows {
         Err(Unfinished::NoMotions { model: self.name() })
     }
 
-    /// The face for motions of single points.
+    /// Returns the trait object for motions of single points.
     ///
     /// # Errors
     /// [`Unfinished::NoMotions`] if the model computes rows alone.
@@ -134,62 +137,69 @@ pub trait Simulator: Rows {
         Err(Unfinished::NoMotions { model: self.name() })
     }
 
-    /// The face for experiments on single points.
+    /// Returns the trait object for experiments on single points.
     ///
     /// # Errors
-    /// [`Unfinished::NoExperiments`] if the model knows none.
+    /// [`Unfinished::NoExperiments`] if the model does not support experiments.
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
         Err(Unfinished::NoExperiments { model: self.name() })
     }
 }
 
-/// Derivatives of rows, along changes of a point.
+/// Derivatives of rows along changes of a point.
 pub trait Gradients: Sync {
-    /// Names of the states with their units, in the order of a state.
+    /// Returns the names of the states with their units, in the order of a state.
     fn states(&self) -> Vec<String>;
 
-    /// Derivatives of the measures of the orbit that begins at `state`, such as [`Row::state`] of a periodic row, along each
-    /// of `changes`. Takes a period of the states for each change, two measured ones, and some six more in all, each with 1.6
-    /// times the steps of a period at the solver's tolerances.
+    /// Returns the derivatives of the measures along each of `changes`, for the orbit that begins at `state`.
+    ///
+    /// `state` is for example [`Row::state`] of a periodic row. The cost is one period of the states and two measured
+    /// periods for each change, and about six more periods. Each has 1.6 times the steps of a period at the solver's
+    /// tolerances.
     ///
     /// # Errors
-    /// As [`Motions`] says.
+    /// See [`Motions`].
     fn gradient(&self, run: &PointRun<'_>, state: &[f64], changes: &[Change])
     -> Result<Gradient, Unfinished>;
 }
 
-/// Motions of single points under their own drive. The columns of a trajectory are `time_s`, the states, and signals.
+/// Motions of single points with their own drive. The columns of a trajectory are `time_s`, the states, and signals.
 ///
-/// Motions are computed on scalars. Each method fails with [`Unfinished::Interrupted`] if the run is interrupted, with [`Unfinished::Invalid`] if the values are impossible
-/// together, with [`Unfinished::Request`] if the request is impossible, and with [`Unfinished::Diverged`] or
-/// [`Unfinished::StepLimit`] if the motion fails on the way.
+/// Motions are computed on scalars. Each method returns these errors:
+///
+/// - [`Unfinished::Interrupted`] if the run is interrupted
+/// - [`Unfinished::Invalid`] if the values are impossible together
+/// - [`Unfinished::Request`] if the request is impossible
+/// - [`Unfinished::Diverged`] or [`Unfinished::StepLimit`] if the motion fails
 pub trait Motions: Gradients {
-    /// The names of the columns of a trajectory: time, states, and what else is seen over time.
+    /// Returns the names of the columns of a trajectory: time, states, and signals.
     fn trajectory_columns(&self) -> Vec<String>;
 
-    /// The meaning of each column of a trajectory in one line, in the order of the columns.
+    /// Returns the description of each column of a trajectory in one line, in the order of the columns.
     fn meanings(&self) -> Vec<String>;
 
-    /// Follows one point for one drive period from the state `begin`, whether the motion repeats or not.
+    /// Follows one point for one drive period from the state `begin`. The motion need not repeat.
     ///
     /// # Errors
-    /// As [`Motions`] says.
+    /// See [`Motions`].
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished>;
 
-    /// Samples the motion of one point, settled or from rest.
+    /// Returns samples of the motion of one point, settled or from rest.
     ///
     /// # Errors
-    /// As [`Motions`] says; [`Unfinished::NotPeriodic`] if a settled motion is asked for and there is none of one drive
-    /// period.
+    /// See [`Motions`]. Also [`Unfinished::NotPeriodic`] if a settled motion is requested, and the motion does not
+    /// settle on an orbit of one drive period.
     fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {
         self.trajectory_from(run, None, request)
     }
 
-    /// Samples the motion of one point that begins in the state `begin` at the start of a drive period, or at rest. A settled
-    /// motion is the one that it approaches from there.
+    /// Returns samples of the motion of one point that begins in the state `begin` at the start of a drive period, or
+    /// at rest.
+    ///
+    /// If a settled motion is requested, it is the motion that this one approaches.
     ///
     /// # Errors
-    /// As [`Motions::trajectory`]; [`Unfinished::Request`] if `begin` is not one finite number for each state.
+    /// See [`Motions::trajectory`]. Also [`Unfinished::Request`] if `begin` is not one finite number for each state.
     fn trajectory_from(
         &self,
         run: &PointRun<'_>,
@@ -198,38 +208,40 @@ pub trait Motions: Gradients {
     ) -> Result<Trajectory, Unfinished>;
 }
 
-/// Experiments on single points, with another drive or motion in place of the point's own.
+/// Experiments on single points: another drive or motion replaces the point's own.
 ///
-/// Methods fail as those of [`Motions`] do.
+/// For the errors see [`Motions`].
 pub trait Experiments: Sync {
-    /// The response of one point to a chirp in place of its drive frequency.
+    /// Returns the response of one point to a chirp, which replaces its drive frequency.
     ///
     /// # Errors
-    /// As [`Motions`] says.
+    /// See [`Motions`].
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished>;
 
-    /// The free motion of one point after an impulse on the stroke, with the drive held still.
+    /// Returns the free motion of one point after an impulse on the stroke, at a constant drive voltage.
     ///
     /// # Errors
-    /// As [`Motions`] says.
+    /// See [`Motions`].
     fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished>;
 
-    /// States and signals along a given motion. Signals of the actuator are not numbers.
+    /// Returns states and signals along an imposed motion. Signals of the actuator are NaN.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the values are impossible together, [`Unfinished::Request`] if stroke and pitch do not
-    /// last equally long.
+    /// [`Unfinished::Invalid`] if the values are impossible together, [`Unfinished::Request`] if stroke and pitch
+    /// have different durations.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished>;
 
-    /// Small undamped motions of one point; first the one that an impulse on the stroke is to excite.
+    /// Returns the small undamped motions of one point. The first one is the motion that an impulse on the stroke
+    /// excites.
     ///
     /// # Errors
     /// [`Unfinished::Invalid`] if the values are impossible together.
     fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished>;
 
-    /// The signals whose frequencies describe a free motion; first the one that an impulse excites.
+    /// Returns the signals whose frequencies describe a free motion. The first one is the signal that an impulse
+    /// excites.
     fn free_signals(&self) -> &'static [Signal];
 
-    /// The same model with samples for a waveform: `samples` over a drive period replaces `drive_shape`.
+    /// Returns the same model with samples as its waveform. `samples` over a drive period replace `drive_shape`.
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator>;
 }

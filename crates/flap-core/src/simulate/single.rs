@@ -1,4 +1,5 @@
-//! One point on scalars, the readable path and the oracle of the lanes: its row, its motion over time, one of its periods.
+//! One point on scalars: its row, its motion over time, and single periods. This simple code is the reference for the
+//! lanes.
 
 use super::begin::begin;
 use super::lanes::run_alone;
@@ -15,42 +16,42 @@ use crate::num::{Arithmetic, Backend, Scalar, Unfused};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Interrupt, Start, never};
 
-/// The run of a single point on scalars.
+/// Run of a single point on scalars.
 #[derive(Clone, Copy)]
 pub struct PointRun<'a> {
-    /// The backend in whose arithmetic class the point is followed.
+    /// Backend that determines the arithmetic class.
     pub backend: Backend,
     /// Solver settings.
     pub solver: &'a SolverSettings,
     /// One value per parameter of the model.
     pub values: &'a [f64],
-    /// Ends the run early.
+    /// Callback that ends the run early.
     pub interrupted: Interrupt<'a>,
 }
 
 impl<'a> PointRun<'a> {
-    /// A run that nothing interrupts.
+    /// Returns a run that is never interrupted.
     pub fn new(backend: Backend, solver: &'a SolverSettings, values: &'a [f64]) -> PointRun<'a> {
         PointRun { backend, solver, values, interrupted: &never }
     }
 
-    /// The same run, which ends early once `interrupted` says so.
+    /// Returns the same run, which ends early once `interrupted` returns true.
     #[must_use]
     pub fn until(self, interrupted: Interrupt<'a>) -> PointRun<'a> {
         PointRun { interrupted, ..self }
     }
 }
 
-/// A question about one point, answered in either arithmetic of scalars.
+/// A computation for one point, generic over the arithmetic of scalars.
 ///
-/// The model has N states. It is the point's variant.
+/// The model has N states and is the point's variant.
 pub(crate) trait Question<M: Model<N>, const N: usize> {
     type Answer;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Self::Answer;
 }
 
-/// The answer to a question about the point of `run`.
+/// Returns the answer to a question about the point of `run`.
 pub(crate) fn ask<M, Q, const N: usize>(model: &M, run: &PointRun<'_>, question: Q) -> Q::Answer
 where
     M: Model<N>,
@@ -63,7 +64,7 @@ where
     }
 }
 
-/// The row of a point from this state, or from rest. Interrupted, the row means nothing.
+/// Question: the row of a point from this state, or from rest. If the run is interrupted, the row is meaningless.
 pub(super) struct RowFrom<'a>(pub(super) Option<&'a [f64]>);
 
 impl<M: Model<N>, const N: usize> Question<M, N> for RowFrom<'_> {
@@ -82,7 +83,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for RowFrom<'_> {
     }
 }
 
-/// The motion of a point that begins in this state, or at rest.
+/// Question: the motion of a point from this state, or from rest.
 pub(super) struct TrajectoryFrom<'a> {
     pub(super) begin: Option<&'a [f64]>,
     pub(super) request: &'a TrajectoryRequest,
@@ -110,7 +111,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for TrajectoryFrom<'_> {
     }
 }
 
-/// The drive period that begins at this state, whether it repeats or not.
+/// Question: the drive period that begins at this state. The motion need not repeat.
 pub(super) struct PeriodFrom<'a>(pub(super) &'a [f64]);
 
 impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
@@ -131,7 +132,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
         Unfinished::check(measured.outcome.ending, interrupted)?;
         let measures =
             measured.sums.map(|sums| measures::<M, N>(model, solver, &start.constants, &sums, start.span));
-        // In units of the state's components, where the monodromy matrix has those of their typical sizes.
+        // The monodromy matrix is in units of the states' typical sizes; the responses are in units of the states.
         let response = |j: usize| (0..N).map(|i| varied.monodromy[i][j] * scale[i] / scale[j]).collect();
         Ok(Period {
             end: varied.y.to_vec(),

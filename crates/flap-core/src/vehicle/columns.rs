@@ -1,4 +1,4 @@
-//! The columns of a vehicle's rows, from those of its wings.
+//! Columns of a vehicle's rows, derived from the columns of its wings.
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
@@ -6,23 +6,23 @@ use crate::model::readings::{efficiency, grams_force};
 use crate::model::{GRAVITY, OverWings};
 use crate::simulate::Column;
 
-/// The columns.
+/// Columns, and their sources.
 pub(super) struct Columns {
     pub(super) all: Vec<Column>,
     sources: Vec<Source>,
 }
 
-/// The quantity from which a column is computed.
+/// Source of a column.
 enum Source {
-    /// A component of force (mN) or torque (uN·m).
+    /// Component of force (mN) or torque (uN·m).
     Wrench(usize),
     /// Lift over weight.
     LiftToWeight,
-    /// Grams-force over watts, from this column of the wings.
+    /// Grams-force per watt, with the power in this column of the wings.
     Efficiency(usize),
-    /// The sum of a column over the wings.
+    /// Sum of a column over the wings.
     Sum(usize),
-    /// A column of one wing.
+    /// Column of one wing.
     Wing(usize, usize),
 }
 
@@ -33,14 +33,14 @@ impl Columns {
             "mean force of the air on the wings, forward",
             "mean force of the air on the wings, to the left",
             "mean force of the air on the wings, upwards",
-            "mean torque about the x axis, which lifts the left side",
-            "mean torque about the y axis, which lowers the nose",
-            "mean torque about the z axis, which turns the nose to the left",
+            "mean torque about the x axis; positive values lift the left side",
+            "mean torque about the y axis; positive values lower the nose",
+            "mean torque about the z axis; positive values turn the nose to the left",
         ];
         for (i, (name, doc)) in FORCES.into_iter().chain(TORQUES).zip(words).enumerate() {
             columns.add(name, if i < 3 { "mN" } else { "uN*m" }, doc, Source::Wrench(i));
         }
-        let doc = "force_up_mn over the weight of total_mass; empty where that is not known";
+        let doc = "force_up_mn over the weight of total_mass; empty if total_mass is not set";
         columns.add("lift_to_weight", "", doc, Source::LiftToWeight);
         for (i, column) in model.iter().enumerate() {
             if column.over_wings == OverWings::Sum {
@@ -49,7 +49,8 @@ impl Columns {
             }
         }
         if let Some(power) = model.iter().position(|column| column.name == "power_mean_mw") {
-            let doc = "force_up_mn in grams-force over power_mean_mw; empty where that is not more than zero";
+            let doc =
+                "force_up_mn in grams-force over power_mean_mw; empty unless the power is more than zero";
             columns.add("efficiency_gf_per_w", "gf/W", doc, Source::Efficiency(power));
         }
         for (wing, mount) in mounts.iter().enumerate() {
@@ -64,7 +65,7 @@ impl Columns {
         columns
     }
 
-    /// The values of a vehicle's columns, from its wrench and from the measures of its wings.
+    /// Returns the values of a vehicle's columns, from its wrench and the measures of its wings.
     pub(super) fn values(&self, wrench: &Wrench, total_mass: f64, wings: &[&[f64]]) -> Vec<f64> {
         let Wrench { force, torque } = wrench;
         let sum = |column: usize| wings.iter().map(|measures| measures[column]).sum::<f64>();

@@ -1,15 +1,15 @@
-//! Forces and torques of wings in the axes of the body.
+//! Forces and torques of wings in the body axes.
 
 use core::ops::Add;
 
 use nalgebra::{Rotation3, Vector3};
 
-/// The columns of the force (mN), along the body's axes.
+/// Columns of the force (mN), along the body axes.
 pub const FORCES: [&str; 3] = ["force_forward_mn", "force_left_mn", "force_up_mn"];
-/// The columns of the torque (uN·m), about the body's axes.
+/// Columns of the torque (uN·m), about the body axes.
 pub const TORQUES: [&str; 3] = ["torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm"];
 
-/// The place of a wing: its shoulder and its stroke plane.
+/// Position of a wing: its shoulder and its stroke plane.
 pub(super) struct Place {
     /// Position of the shoulder (m).
     pub(super) position: [f64; 3],
@@ -29,13 +29,13 @@ impl Wrench {
     pub(super) const ZERO: Wrench =
         Wrench { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// The load at the shoulder of a wing, about the origin of the body's axes.
+    /// Returns the load at the shoulder of a wing as a wrench about the origin of the body axes.
     ///
     /// ```text
     /// F = Q f     M = Q m + p × F     Q = R_z(yaw) R_y(pitch) R_x(roll)
     /// ```
     ///
-    /// A mirrored wing is the image of that one behind the plane of x and z.
+    /// A mirrored wing is the mirror image of this wing in the x-z plane.
     pub(super) fn of_wing(load: &[f64; 6], place: &Place, mirrored: bool) -> Wrench {
         let [roll, pitch, yaw] = place.plane;
         let turned = Rotation3::from_euler_angles(roll, pitch, yaw);
@@ -50,7 +50,7 @@ impl Wrench {
         }
     }
 
-    /// The same about another point (m).
+    /// Returns the same wrench about another point (m).
     pub(super) fn about(self, point: [f64; 3]) -> Wrench {
         Wrench { force: self.force, torque: self.torque - Vector3::from(point).cross(&self.force) }
     }

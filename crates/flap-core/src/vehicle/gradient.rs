@@ -1,4 +1,4 @@
-//! Derivatives of a vehicle's measures, from those of its wings.
+//! Derivatives of a vehicle's measures, from the derivatives of its wings' measures.
 
 use super::layout::Vehicle;
 use crate::simulate::{
@@ -10,8 +10,8 @@ impl Gradients for Vehicle {
         self.states.clone()
     }
 
-    /// The vehicle's measures are linear in the wings', but for efficiency and lift over weight: their differences along the
-    /// wings' derivatives are derivatives too.
+    /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over weight.
+    /// Differences along the wings' derivatives are therefore derivatives of the vehicle.
     fn gradient(
         &self,
         run: &PointRun<'_>,
@@ -61,7 +61,7 @@ impl Gradients for Vehicle {
     }
 }
 
-/// A wing's measures, and its derivatives along each change; `None` along those that do not concern it.
+/// Measures of a wing, and their derivatives along each change; `None` along changes that do not affect the wing.
 struct WingSlopes {
     measures: Vec<f64>,
     slopes: Vec<Option<Vec<Result<f64, NoSlope>>>>,
@@ -69,7 +69,7 @@ struct WingSlopes {
 }
 
 impl WingSlopes {
-    /// The measures after a step along a change.
+    /// Returns the measures after a step along a change.
     fn moved(&self, change: usize, size: f64) -> Vec<f64> {
         let Some(slopes) = &self.slopes[change] else { return self.measures.clone() };
         let moved = |(measure, slope): (&f64, &Result<f64, NoSlope>)| match slope {
@@ -79,7 +79,7 @@ impl WingSlopes {
         self.measures.iter().zip(slopes).map(moved).collect()
     }
 
-    /// The reason why a derivative along a change is not known, if there is one.
+    /// Returns the reason for a missing derivative along a change, if it is missing.
     fn trouble(&self, change: usize) -> Option<NoSlope> {
         self.slopes[change].iter().flatten().find_map(|slope| slope.err())
     }
@@ -98,7 +98,8 @@ impl Vehicle {
         let values = self.table.of_wing(run.values, wing)?;
         let run = PointRun { solver, values: &values, ..*run };
         let measures = motions.period(&run, state)?;
-        // A side that is out of range gets infinite values, which no parameter accepts: the reason is `NoSlope::Edge`.
+        // A side that is out of range gets infinite values, which no parameter accepts. The reason is then
+        // `NoSlope::Edge`.
         let side = |side: &[f64]| {
             self.table.of_wing(side, wing).unwrap_or_else(|_| vec![f64::INFINITY; values.len()])
         };

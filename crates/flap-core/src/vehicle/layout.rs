@@ -1,4 +1,4 @@
-//! The layout of a vehicle: its model and its wings.
+//! Layout of a vehicle: its model and its wings.
 
 use super::columns::Columns;
 use super::geometry::Wrench;
@@ -7,21 +7,22 @@ use super::parameters::{self, Table};
 use crate::parameter::Parameter;
 use crate::simulate::{Gradients, Simulator};
 
-/// Several wings of one model.
+/// Vehicle of several wings of one model.
 pub struct Vehicle {
     pub(super) model: &'static dyn Simulator,
     pub(super) mounts: Vec<Mount>,
     pub(super) table: Table,
     pub(super) columns: Columns,
-    /// Names of the states of all wings, one wing after the other.
+    /// Names of the states of all wings, wing by wing.
     pub(super) states: Vec<String>,
 }
 
 impl Vehicle {
-    /// The vehicle with these wings of a model.
+    /// Returns the vehicle with these wings of a model.
     ///
     /// # Errors
-    /// If there are no wings or too many, a name is not allowed or taken, or the model does not know the loads of its wing.
+    /// [`VehicleError`] if there are no wings or too many, a name is not allowed or not unique, or the model does not
+    /// compute loads.
     pub fn of(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<Vehicle, VehicleError> {
         check(model, mounts)?;
         let of_wing = model.gradients().map(Gradients::states).unwrap_or_default();
@@ -36,23 +37,24 @@ impl Vehicle {
         })
     }
 
-    /// The model of the wings.
+    /// Returns the model of the wings.
     pub fn model(&self) -> &'static dyn Simulator {
         self.model
     }
 
-    /// The wings.
+    /// Returns the wings.
     pub fn mounts(&self) -> &[Mount] {
         &self.mounts
     }
 
-    /// The index, in the vehicle's table, of a wing's own parameter, such as `drive_voltage_pp` or `position_x`.
+    /// Returns the index, in the vehicle's table, of a wing's own parameter, such as `drive_voltage_pp` or
+    /// `position_x`.
     pub fn own_parameter(&self, wing: usize, name: &str) -> Option<usize> {
         let name = format!("{}_{name}", self.mounts.get(wing)?.name);
         self.table.parameters().iter().position(|parameter| parameter.name == name)
     }
 
-    /// The measures of the vehicle, one per column, from those of its wings with their loads.
+    /// Returns the measures of the vehicle, one per column, from the measures of its wings with their loads.
     pub(super) fn measures(&self, values: &[f64], wings: &[&[f64]]) -> Vec<f64> {
         let loads = self.model.columns().len();
         let mut wrench = Wrench::ZERO;
@@ -64,7 +66,8 @@ impl Vehicle {
         self.columns.values(&wrench, self.table.total_mass(values), wings)
     }
 
-    /// True if wings may have a value of their own of this parameter of the model: all numbers but the drive frequency.
+    /// Returns true if wings may have different values of this parameter of the model: all numbers except the drive
+    /// frequency.
     pub fn may_differ(parameter: &Parameter<'_>) -> bool {
         parameters::may_differ(parameter)
     }

@@ -1,11 +1,13 @@
 //! Vehicles: several wings of one model, whose mean forces and torques add up.
 //!
-//! A vehicle is a [`Simulator`](crate::simulate::Simulator) like a model: its parameters are those of the model, which hold for
-//! all wings, those of single wings, and the places of the wings; its rows have the mean force and torque of the air in the
-//! body's axes. Wings do not feel each other, and the body is held still: so each wing is a design point of its own, and the
-//! mean of its inertial reaction over a period is zero.
+//! A vehicle is a [`Simulator`](crate::simulate::Simulator) like a model. Its parameters are the parameters of the
+//! model for all wings, the parameters of single wings, and the positions of the wings. Its rows contain the mean
+//! force and torque of the air in the body axes.
 //!
-//! Axes of the body: x forward, y to the left, z up.
+//! Wings do not interact, and the body is fixed. Each wing is therefore an independent design point, and the mean of
+//! its inertial reaction over a period is zero.
+//!
+//! Body axes: x forward, y to the left, z up.
 
 mod columns;
 mod geometry;

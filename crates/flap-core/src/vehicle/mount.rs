@@ -1,56 +1,54 @@
-//! The wings of a vehicle by name.
+//! Wings of a vehicle by name.
 
 use crate::simulate::Simulator;
 
-/// The largest number of wings.
+/// Largest number of wings.
 pub const MOST_WINGS: usize = 16;
 
-/// The first part of the names of left-right differences.
+/// First part of the names of left-right differences.
 pub const DIFFERENCE: &str = "difference";
 
-/// A wing of a vehicle: its name and its side.
+/// A wing of a vehicle: name and side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mount {
-    /// Name, the first part of the names of its parameters and columns.
+    /// Name, which is the first part of the names of its parameters and columns.
     pub name: String,
-    /// True if it is the mirror image, behind the plane of x and z, of a wing at its place.
+    /// True if the wing is the mirror image, in the x-z plane, of a wing at its position.
     pub mirrored: bool,
 }
 
-/// The reason why a vehicle cannot be made.
+/// Error in the wings of a vehicle.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum VehicleError {
-    /// It has no wings.
-    #[error("a vehicle has one wing or more")]
+    /// No wings.
+    #[error("a vehicle needs at least one wing")]
     NoWings,
-    /// It has too many wings.
-    #[error("a vehicle has at most {MOST_WINGS} wings, not {0}")]
+    /// Too many wings.
+    #[error("{0} wings are too many: a vehicle has at most {MOST_WINGS}")]
     ManyWings(usize),
-    /// A wing's name cannot begin the names of parameters.
+    /// A name that is not allowed, because it cannot begin the names of parameters.
     #[error(
-        "`{0}` is no name of a wing: names have lower-case letters, digits and `_`, begin with a letter, and are not \
-         `difference`"
+        "`{0}` is not allowed as the name of a wing: use lower-case letters, digits and `_`, begin with a letter, and \
+         do not use `difference`"
     )]
     Name(String),
-    /// Two wings have one name.
+    /// Two wings with the same name.
     #[error("two wings are called `{0}`")]
     SameName(String),
-    /// Parameters of two wings, or of a wing and the model, would have one name.
-    #[error(
-        "a wing cannot be called `{wing}`: its parameter would be called `{parameter}`, which is another one"
-    )]
+    /// Two parameters with the same name: of two wings, or of a wing and the model.
+    #[error("a wing cannot be called `{wing}`: another parameter already has the name `{parameter}`")]
     Clash {
         /// Name of the wing.
         wing: String,
         /// Name of the parameter.
         parameter: String,
     },
-    /// The model does not know the force and the moment of its wing.
-    #[error("the model {0} has no forces and moments for vehicles")]
+    /// The model does not compute force and moment of its wing.
+    #[error("the model {0} does not compute the forces and moments that vehicles need")]
     NoLoads(&'static str),
 }
 
-/// Refuses wings that do not make a vehicle.
+/// Checks that the wings form a vehicle.
 pub(super) fn check(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<(), VehicleError> {
     if mounts.is_empty() {
         return Err(VehicleError::NoWings);

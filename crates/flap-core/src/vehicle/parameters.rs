@@ -1,4 +1,5 @@
-//! The parameters of a vehicle: those of its model for all wings, its own, those of single wings, and differences.
+//! Parameters of a vehicle: the model's parameters for all wings, its own, the parameters of single wings, and
+//! differences.
 
 use self_cell::self_cell;
 
@@ -7,25 +8,25 @@ use super::mount::{DIFFERENCE, Mount, VehicleError};
 use crate::parameter::Range::{Any, Positive};
 use crate::parameter::{Invalid, Kind, Parameter};
 
-/// Groups of lists of parameters.
+/// Headings of lists of parameters.
 const VEHICLE: &str = "vehicle";
 
-/// The parameters of a place.
+/// Parameters of a position.
 #[rustfmt::skip]
 const PLACE: [(&str, &str, &str); 6] = [
     ("position_x", "m", "Position of the shoulder, forward"),
-    ("position_y", "m", "Position of the shoulder, to the left; of a mirrored wing to the right"),
+    ("position_y", "m", "Position of the shoulder, to the left (for a mirrored wing to the right)"),
     ("position_z", "m", "Position of the shoulder, upwards"),
-    ("plane_roll", "rad", "Roll of the stroke plane, which lifts the wing's tip"),
-    ("plane_pitch", "rad", "Pitch of the stroke plane, which lowers its front"),
-    ("plane_yaw", "rad", "Yaw of the stroke plane, which turns its front away from the wing's side"),
+    ("plane_roll", "rad", "Roll of the stroke plane; positive values lift the wing's tip"),
+    ("plane_pitch", "rad", "Pitch of the stroke plane; positive values lower its front"),
+    ("plane_yaw", "rad", "Yaw of the stroke plane; positive values turn its front away from the wing's side"),
 ];
 
-/// The parameters of the vehicle as a whole.
+/// Parameters of the vehicle as a whole.
 const WHOLE: [Parameter<'static>; 4] = [
-    about("about_x", "Point about which torques are taken, such as the centre of mass: forward."),
-    about("about_y", "Point about which torques are taken, to the left."),
-    about("about_z", "Point about which torques are taken, upwards."),
+    about("about_x", "Reference point of the torques, such as the centre of mass: position forward."),
+    about("about_y", "Reference point of the torques: position to the left."),
+    about("about_z", "Reference point of the torques: position upwards."),
     Parameter {
         group: VEHICLE,
         ..Parameter::new(
@@ -65,7 +66,7 @@ impl Own {
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters, with the texts of those that the model does not have.
+    /// All parameters, with the owned texts of the parameters that the model does not have.
     struct Named {
         owner: Vec<Own>,
         #[covariant]
@@ -73,12 +74,12 @@ self_cell!(
     }
 );
 
-/// The parameter table of a vehicle.
+/// Parameter table of a vehicle.
 pub(super) struct Table {
     named: Named,
     /// The model's parameters, which come first.
     model: &'static [Parameter<'static>],
-    /// The model's parameters that wings may have of their own.
+    /// Indices of the model's parameters that may differ between wings.
     own: Vec<usize>,
     /// Number of wings.
     wings: usize,
@@ -86,7 +87,7 @@ pub(super) struct Table {
     has_differences: bool,
 }
 
-/// True if wings may have a value of their own of this parameter of the model.
+/// Returns true if wings may have different values of this parameter of the model.
 pub(super) fn may_differ(parameter: &Parameter<'_>) -> bool {
     !matches!(parameter.kind, Kind::Choice(_)) && parameter.name != "drive_frequency"
 }
@@ -104,7 +105,7 @@ impl Table {
                     name: format!("{wing}_{rest}"),
                     unit,
                     kind: Kind::Number(Any),
-                    doc: format!("{doc}: of the wing {wing}."),
+                    doc: format!("{doc}. Applies to the wing {wing}."),
                     group: group.clone(),
                     default: 0.0,
                 })
@@ -115,7 +116,7 @@ impl Table {
                     name: format!("{wing}_{}", parameter.name),
                     unit: parameter.unit,
                     kind: Kind::Following(range, parameter.name),
-                    doc: format!("{} of the wing {wing} alone.", parameter.name),
+                    doc: format!("Value of {} for the wing {wing} alone.", parameter.name),
                     group: group.clone(),
                     default: f64::NAN,
                 });
@@ -137,8 +138,8 @@ impl Table {
                 unit: parameter.unit,
                 kind: Kind::Number(Any),
                 doc: format!(
-                    "Left-right difference of {}: half of it is added to the wings that are not mirrored, and taken from \
-                     those that are.",
+                    "Left-right difference of {}: half of it is added for wings that are not mirrored, and \
+                     subtracted for mirrored wings.",
                     parameter.name
                 ),
                 group: "left-right differences".to_owned(),
@@ -151,27 +152,27 @@ impl Table {
         Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences })
     }
 
-    /// All parameters: those of the model, those of the vehicle, those of wings, and differences.
+    /// Returns all parameters: of the model, of the vehicle, of its wings, and differences.
     pub(super) fn parameters(&self) -> &[Parameter<'_>] {
         self.named.borrow_dependent()
     }
 
-    /// The number of the first parameter of a wing.
+    /// Returns the index of the first parameter of a wing.
     fn begin(&self, wing: usize) -> usize {
         self.model.len() + WHOLE.len() + wing * (PLACE.len() + self.own.len())
     }
 
-    /// The point about which torques are taken (m).
+    /// Returns the reference point of the torques (m).
     pub(super) fn about(&self, values: &[f64]) -> [f64; 3] {
         core::array::from_fn(|i| values[self.model.len() + i])
     }
 
-    /// The mass of the whole vehicle (kg); not a number if it is not known.
+    /// Returns the mass of the whole vehicle (kg); NaN if it is not set.
     pub(super) fn total_mass(&self, values: &[f64]) -> f64 {
         values[self.model.len() + 3]
     }
 
-    /// The place of a wing.
+    /// Returns the position of a wing.
     pub(super) fn place(&self, values: &[f64], wing: usize) -> Place {
         let begin = self.begin(wing);
         Place {
@@ -180,10 +181,10 @@ impl Table {
         }
     }
 
-    /// The values of a wing's own design point.
+    /// Returns the values of a wing's own design point.
     ///
     /// # Errors
-    /// If a difference takes a value out of its range, or is one of a parameter that follows others.
+    /// If a difference moves a value out of its range, or belongs to a parameter that is not set and follows others.
     pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
         let mut own_values = values[..self.model.len()].to_vec();
         let own = self.begin(wing) + PLACE.len();
@@ -201,7 +202,7 @@ impl Table {
             let parameter = &self.model[index];
             if value.is_nan() {
                 return Err(Invalid::new(format!(
-                    "{DIFFERENCE}_{0} needs a value of {0}, which is not set",
+                    "{DIFFERENCE}_{0} requires a value of {0}, which is not set: set {0} too",
                     parameter.name
                 )));
             }
@@ -214,14 +215,15 @@ impl Table {
     }
 }
 
-/// The parameter of all wings whose value a wing's own one has where it is not set; `None` of other parameters.
+/// Returns the index of the parameter of all wings whose value replaces an unset parameter of one wing; `None` for
+/// other parameters.
 pub fn of_all_wings(parameters: &[Parameter<'_>], index: usize) -> Option<usize> {
     let Kind::Following(_, follows) = parameters[index].kind else { return None };
     let wing = parameters[index].name.strip_suffix(follows)?;
     if wing.ends_with('_') { Parameter::index(parameters, follows) } else { None }
 }
 
-/// The value of a parameter at a point. A wing's own parameter that is not set has the value of all wings.
+/// Returns the value of a parameter at a point. An unset parameter of one wing has the value of all wings.
 pub fn standing(parameters: &[Parameter<'_>], values: &[f64], index: usize) -> f64 {
     let shared = of_all_wings(parameters, index).filter(|_| values[index].is_nan());
     values[shared.unwrap_or(index)]

@@ -1,4 +1,4 @@
-//! Rows of a vehicle, from those of its wings.
+//! Rows of a vehicle, from the rows of its wings.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -51,7 +51,7 @@ impl Simulator for Vehicle {
         self.table.parameters()
     }
 
-    /// Those of the model. They have no values for the vehicle's own parameters, which have their defaults.
+    /// Returns the presets of the model. The vehicle's own parameters are not part of them and have their defaults.
     fn presets(&self) -> &'static [Preset] {
         self.model.presets()
     }
@@ -69,23 +69,23 @@ impl Simulator for Vehicle {
     }
 }
 
-/// A design of one or several wings of a vehicle at a point.
+/// Design of one or several equal wings of a vehicle at a point.
 struct Design {
     values: Vec<f64>,
     begin: Option<Vec<f64>>,
     row: Option<Row>,
 }
 
-/// The wings of a vehicle at a point.
+/// Wings of a vehicle at a point.
 struct Wings {
     values: Vec<f64>,
     designs: Vec<Design>,
-    /// The design of each wing.
+    /// Design of each wing.
     of_wing: Vec<usize>,
 }
 
 impl Wings {
-    /// The wings at a point. Equal ones are one design.
+    /// Returns the wings at a point. Equal wings share one design.
     fn new(vehicle: &Vehicle, values: Vec<f64>, begin: Option<&[f64]>) -> Result<Wings, Invalid> {
         let states = vehicle.states.len() / vehicle.mounts.len();
         let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
@@ -103,13 +103,13 @@ impl Wings {
         Ok(wings)
     }
 
-    /// The row of the vehicle, once all wings have theirs.
+    /// Returns the row of the vehicle, once all designs have rows.
     fn row(&self, vehicle: &Vehicle) -> Option<Row> {
         let rows: Option<Vec<&Row>> =
             self.of_wing.iter().map(|&design| self.designs[design].row.as_ref()).collect();
         let rows = rows?;
         let severity = |row: &Row| Status::ALL.iter().position(|status| *status == row.status);
-        // The first of the wings that fare worst.
+        // The first of the wings with the worst status.
         let worst = (0..rows.len()).rev().max_by_key(|&wing| severity(rows[wing]))?;
         let largest = |value: fn(&Row) -> f64| rows.iter().map(|row| value(row)).fold(f64::NAN, f64::max);
         let settled = rows.iter().all(|row| !row.measures.is_empty());
@@ -135,7 +135,7 @@ impl Wings {
 }
 
 impl Design {
-    /// True of the same bits.
+    /// Returns true if all bits are equal.
     fn is(&self, other: &Design) -> bool {
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
         bits(&self.values) == bits(&other.values)
@@ -143,15 +143,15 @@ impl Design {
     }
 }
 
-/// The wings of a vehicle's points as points of the model.
+/// Source of points of the model, one for each wing design of a vehicle's points.
 struct WingJobs<'a> {
     vehicle: &'a Vehicle,
     jobs: &'a mut dyn Jobs,
-    /// Wings to be run: the number of their vehicle's point, and that of their design.
+    /// Wings to be run. The index is composed of the indices of the vehicle's point and of the design.
     waiting: VecDeque<Point>,
-    /// The points that have been taken from `jobs` and have no row yet, by their number: their index there, and their wings.
+    /// Points from `jobs` without a row, by number: their index in `jobs`, and their wings.
     begun: HashMap<u64, (u64, Wings)>,
-    /// The number of the next point.
+    /// Number of the next point.
     next: u64,
 }
 

@@ -1,35 +1,35 @@
-//! Names of the files that lie beside a result file.
+//! Names of the files beside a result file.
 
 use std::path::{Path, PathBuf};
 
 use crate::table::format::Format;
 
-/// The path of the sidecar: `<results>.meta.toml`.
+/// Returns the path of the sidecar: `<results>.meta.toml`.
 pub fn sidecar_of(results: &Path) -> PathBuf {
     with_ending(results, ".meta.toml")
 }
 
-/// The path of the journal: `<results>.journal`.
+/// Returns the path of the journal: `<results>.journal`.
 pub fn journal_of(results: &Path) -> PathBuf {
     with_ending(results, ".journal")
 }
 
-/// The path of the rows of a Parquet file that is not complete yet: `<results>.part`.
+/// Returns the path of the waiting rows of an unfinished Parquet file: `<results>.part`.
 pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }
 
-/// The path of the rows before the results are complete: those of a Parquet file wait in [`part_of`].
+/// Returns the path of the rows before the results are complete. For a Parquet file this is [`part_of`].
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }
 
-/// The sidecar, the journal and the rows that wait.
+/// Returns the paths of sidecar, journal and waiting rows.
 pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
     [sidecar_of(results), journal_of(results), part_of(results)]
 }
 
-/// The path of new results that are to replace those at `results`, until they are complete: `rows.new.csv` for `rows.csv`.
+/// Returns the path of unfinished results that will replace `results`, such as `rows.new.csv` for `rows.csv`.
 pub(crate) fn replacement_of(results: &Path) -> PathBuf {
     let name = results.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);

@@ -7,22 +7,22 @@ use crate::run::Sink;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Writes one plain header line, then one line per row.
+/// Sink that writes one header line and one line per row, uncompressed.
 ///
-/// Numbers are written as [`crate::notation::text::float`] does, choices by the name of their option. The cell of an unknown
-/// value is empty.
+/// Numbers are written by [`crate::notation::text::float`], choices by the name of their option. The cell of an
+/// unknown value is empty.
 pub struct CsvSink<W: Durable> {
     names: Vec<String>,
     lines: Lines<W>,
 }
 
 impl<W: Durable> CsvSink<W> {
-    /// Writes rows under the columns `names` to `target`.
+    /// Returns a sink that writes to `target` rows with the columns `names`.
     pub fn new(names: Vec<String>, target: W) -> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
     }
 
-    /// The target; all rows are in it after [`Sink::flush`] or [`Sink::finish`].
+    /// Returns the target. All rows are in it after [`Sink::flush`] or [`Sink::finish`].
     pub fn target(&self) -> &W {
         self.lines.target()
     }
@@ -47,8 +47,10 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 }
 
-/// The error of the operating system, such as a closed pipe, which the csv crate's own conversion would hide; or
-/// [`io::ErrorKind::InvalidData`] with the mistake in the table.
+/// Returns the error of the operating system, such as a closed pipe, or [`io::ErrorKind::InvalidData`] with the
+/// mistake in the table.
+///
+/// The csv crate's own conversion would hide the former.
 pub fn cause(error: csv::Error) -> io::Error {
     let wrong = |place: Option<csv::Position>, what: String| {
         let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));
@@ -57,7 +59,7 @@ pub fn cause(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(cause) => cause,
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            wrong(pos, format!("{len} cells under {expected_len} headings"))
+            wrong(pos, format!("{len} cells, but {expected_len} headings"))
         }
         csv::ErrorKind::Utf8 { pos, .. } => wrong(pos, "not UTF-8 text".to_owned()),
         other => io::Error::other(format!("{other:?}")),

@@ -1,4 +1,4 @@
-//! Files that are made durable, replaced as a whole, compared and removed.
+//! Operations on files: make them durable, replace them as a whole, compare and remove them.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Stdout, Write};
@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use atomic_write_file::AtomicWriteFile;
 
-/// A target of writing that can be made durable.
+/// A target for writing that can be made durable.
 pub trait Durable: Write {
-    /// Waits until the bytes written are safe from a crash of the machine. Does nothing for a target that a crash
-    /// cannot harm, which is the default.
+    /// Waits until the written bytes would survive a crash of the machine.
+    ///
+    /// By default it does nothing, for targets that a crash cannot damage.
     ///
     /// # Errors
     /// The error of the operating system.
@@ -20,7 +21,7 @@ pub trait Durable: Write {
 
 impl Durable for File {
     fn sync(&self) -> io::Result<()> {
-        // Devices and pipes may refuse to be synchronised, and have nothing to lose.
+        // Devices and pipes may not support synchronisation, and cannot lose data.
         if self.metadata()?.is_file() { self.sync_all() } else { Ok(()) }
     }
 }
@@ -31,11 +32,11 @@ impl Durable for Vec<u8> {}
 
 /// A file that gets its name, in place of an earlier file, once it is complete and durable.
 ///
-/// Until then its bytes have no name, or a name that no other file has. A link of the name is replaced, not followed.
+/// Until then the file has no name, or a name that no other file has. If the name is a link, the link is replaced.
 pub(crate) struct Whole(AtomicWriteFile);
 
 impl Whole {
-    /// Begins a file that is to be called `path`.
+    /// Creates a file that will get the name `path`.
     ///
     /// # Errors
     /// The error of the operating system.
@@ -43,21 +44,22 @@ impl Whole {
         AtomicWriteFile::open(path).map(Whole)
     }
 
-    /// The file to be written.
+    /// Returns the file, for writing.
     pub(crate) fn file(&self) -> &File {
         self.0.as_file()
     }
 
-    /// Gives the file its name, and waits until file and name are safe from a crash of the machine.
+    /// Gives the file its name, and waits until file and name would survive a crash of the machine.
     ///
     /// # Errors
-    /// The error of the operating system. Unless the name could not be made durable, an earlier file is unchanged.
+    /// The error of the operating system. An earlier file is then unchanged, except if making the name durable
+    /// failed.
     pub(crate) fn commit(self) -> io::Result<()> {
         self.0.commit()
     }
 }
 
-/// True if no file with contents has this name, nor anything else, such as a link.
+/// Returns true if the name is free: it belongs to no file, or to an empty one, and to nothing else, such as a link.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,
@@ -65,11 +67,11 @@ pub(crate) fn is_free(path: &Path) -> bool {
     }
 }
 
-/// Makes a new file for reading and writing, in place of an empty one.
+/// Creates a new file for reading and writing. It may replace an empty file.
 ///
 /// # Errors
 /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free)
-/// - the error of the operating system if the file cannot be made
+/// - the error of the operating system if the file cannot be created
 pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     if is_taken(path) && is_free(path) {
         fs::remove_file(path)?;
@@ -77,7 +79,7 @@ pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     File::options().read(true).write(true).create_new(true).open(path)
 }
 
-/// Opens a file for reading and writing, or makes it as [`create_new`] does.
+/// Opens a file for reading and writing, or creates it as [`create_new`] does.
 pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     match File::options().read(true).write(true).open(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => create_new(path),
@@ -85,21 +87,21 @@ pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     }
 }
 
-/// Renames a file, and waits until its new name is safe from a crash of the machine.
+/// Renames a file, and waits until its new name would survive a crash of the machine.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     sync_folder(to)
 }
 
-/// True if anything has this name, even a link to no file.
+/// Returns true if anything has this name, including a link to a missing file.
 pub(crate) fn is_taken(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-/// The longest chain of links that is followed, as on Linux.
+/// Longest chain of links that is followed, as on Linux.
 const MOST_LINKS: usize = 40;
 
-/// The file that a link stands for, which need not exist; other paths unchanged.
+/// Returns the target of a link, which need not exist; other paths are returned unchanged.
 pub fn target(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -109,7 +111,7 @@ pub fn target(path: &Path) -> PathBuf {
     target
 }
 
-/// Empties a file. Devices and pipes are left alone.
+/// Empties a file. It does nothing for devices and pipes.
 ///
 /// # Errors
 /// The error of the operating system.
@@ -117,7 +119,7 @@ pub fn empty(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }
 
-/// True if there is no file at `path`, or an empty one.
+/// Returns true if there is no file at `path`, or an empty one.
 pub fn is_empty(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
 }
@@ -134,32 +136,34 @@ pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     match File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
-        // The system, or a folder without the permission to list it, does not offer this.
+        // Not supported by this system, or by a folder without permission to list it.
         Err(error) if matches!(error.kind(), InvalidInput | PermissionDenied | Unsupported) => Ok(()),
         synced => synced,
     }
 }
 
-/// The folder that `path` lies in: the working directory for a bare name.
+/// Returns the folder of `path`: the working directory for a name alone.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Checks that `file` is still the file at `path`, where it was opened.
+/// Checks that `file` is still the file at `path`.
 ///
 /// # Errors
-/// [`io::ErrorKind::Other`] if there is no file at `path`, or another one; else the error of the operating system.
+/// [`io::ErrorKind::Other`] if there is no file at `path`, or a different one. Otherwise the error of the operating
+/// system.
 pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
-    let gone = || io::Error::other(format!("{} was removed or replaced meanwhile", path.display()));
+    let gone = || io::Error::other(format!("{} was removed or replaced while it was open", path.display()));
     let there = fs::metadata(path).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => gone(),
         _ => error,
     })?;
-    // Elsewhere than on Unix, a file that is open can neither be removed nor replaced.
+    // On other systems than Unix, an open file cannot be removed or replaced.
     if !cfg!(unix) || is_same((path, &file.metadata()?), (path, &there)) { Ok(()) } else { Err(gone()) }
 }
 
-/// True if both names are of one file. Devices and pipes hold nothing that could be lost, so they are never the same.
+/// Returns true if both names belong to the same file. Devices and pipes never count as the same, because they store
+/// nothing.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     match (fs::metadata(a), fs::metadata(b)) {
         (Ok(of_a), Ok(of_b)) => of_a.is_file() && of_b.is_file() && is_same((a, &of_a), (b, &of_b)),
@@ -167,13 +171,13 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-/// True if two files that are to be written are one. They need not exist.
+/// Returns true if writing to both names would write to the same file. The files need not exist.
 pub fn is_same_target(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
     a == b || is_same_file(a, b) || place(a).is_some_and(|a| Some(a) == place(b))
 }
 
-/// True if two files are one: by device and inode where there are such numbers, elsewhere by the full path.
+/// Returns true if two files are the same, by device and inode if the system provides them, otherwise by full path.
 #[cfg(unix)]
 fn is_same((_, a): (&Path, &Metadata), (_, b): (&Path, &Metadata)) -> bool {
     use std::os::unix::fs::MetadataExt;

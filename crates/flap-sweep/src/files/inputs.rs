@@ -1,4 +1,4 @@
-//! The files that a command reads, none of which it may write to.
+//! Files that a command reads. The command must not write to them.
 
 use std::path::{Path, PathBuf};
 
@@ -7,48 +7,48 @@ use crate::files::disk;
 use crate::files::replacement;
 use crate::plan::Plan;
 
-/// The files that a command reads.
+/// Files that a command reads.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     files: Vec<(&'static str, PathBuf)>,
 }
 
-/// A file to be written that is also read.
+/// Error of an output file that is also an input file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("writing {} would overwrite {what} {}", output.display(), input.display())]
+#[error("writing {} would overwrite {what} {}: choose another name", output.display(), input.display())]
 pub struct Overlap {
-    /// The file that was to be written.
+    /// Output file.
     pub output: PathBuf,
-    /// The use of the file that is read, such as "the grid file".
+    /// Description of the input, such as "the grid file".
     pub what: &'static str,
-    /// The file that is read.
+    /// Input file.
     pub input: PathBuf,
 }
 
 impl Inputs {
-    /// No files.
+    /// Returns an empty set.
     pub fn new() -> Inputs {
         Inputs::default()
     }
 
-    /// Adds a file that is read; `what` is its use, such as "the grid file".
+    /// Adds an input file. `what` is its description, such as "the grid file".
     pub fn add(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.files.push((what, path.to_owned()));
         self
     }
 
-    /// Adds results, with the files beside them.
+    /// Adds results and the files beside them.
     pub fn add_results(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.add(what, path);
         for beside in beside::all_of(path) {
-            self.add("the companion of results", &beside);
+            self.add("the file beside the results", &beside);
         }
         self
     }
 
-    /// Adds the files that `plan` was read from.
+    /// Adds the files from which `plan` was read.
     pub fn add_plan(&mut self, plan: &Plan) -> &mut Inputs {
-        // The plan of a preset has the preset's name, and no file.
+        // The plan of a preset has the preset's name and no file.
         if plan.source().name != plan.preset() {
             self.add("the grid file", Path::new(&plan.source().name));
         }
@@ -61,7 +61,7 @@ impl Inputs {
         self
     }
 
-    /// Checks the same for results, their replacement, and the files beside both.
+    /// Checks results, their replacement, and the files beside both, as [`Inputs::protect`] does.
     ///
     /// # Errors
     /// [`Overlap`] with the first file that would be overwritten.
@@ -73,7 +73,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// Checks that the file `output` is none of these, whatever the spelling of the name, and through links.
+    /// Checks that `output` is none of the inputs, also under another spelling or through a link.
     ///
     /// # Errors
     /// [`Overlap`] with the first file that would be overwritten.

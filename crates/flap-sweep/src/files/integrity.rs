@@ -1,8 +1,10 @@
 //! Checks that results are unchanged since they were written.
 //!
-//! A sidecar has checksums of complete results: of the file's bytes, which are fast to compare, and of the rows in blocks,
-//! which locate damage. For unfinished results, the journal records the safe rows and the identity of the sweep: only these
-//! rows are read, and only with a sidecar of the same identity.
+//! A sidecar contains checksums of complete results: of the file's bytes, which are fast to compare, and of blocks of
+//! rows, which locate damage.
+//!
+//! For unfinished results, the journal records the rows that are safe and the identity of the sweep. Only these rows
+//! are read, and only with a sidecar of the same identity.
 
 use std::fmt;
 use std::fs::File;
@@ -18,45 +20,46 @@ use super::results::{BLOCK_ROWS, Checksums, FileSum, Format, FormatError, Reader
 use super::sidecar::{Sidecar, SidecarError, State};
 use crate::notation::text::count;
 
-/// The treatment of damage.
+/// Treatment of damaged results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnDamage {
-    /// Damaged results are not read.
+    /// Damaged results are rejected.
     Refuse,
-    /// Rows that can be read are read, and a [`Note`] tells of the damage.
+    /// Readable rows are read, and a [`Note`] reports the damage.
     Tolerate,
 }
 
-/// Most ranges that a message lists; it counts the others.
+/// Largest number of ranges in a message. It states the number of further ranges.
 const MOST_LISTED: usize = 5;
 
-/// The differences of a file from the one that was written.
+/// Differences between a file and the file that was written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
 pub struct Damage {
-    /// The checksums themselves cannot be read.
+    /// True if the checksums themselves are unreadable.
     pub checksums: bool,
-    /// The header has changed.
+    /// True if the header has changed.
     pub header: bool,
-    /// Ranges of rows, counted from 1, in blocks that have changed: at least one row in each, and all rows behind a missing or
-    /// an added one.
+    /// Ranges of rows, from 1, in changed blocks.
+    ///
+    /// Each contains at least one changed row. After a missing or additional row, all rows count as changed.
     pub rows: Vec<RangeInclusive<u64>>,
-    /// Number of rows in the file and number of rows that were written, if they differ.
+    /// Number of rows in the file and number of written rows, if they differ.
     pub count: Option<(u64, u64)>,
-    /// Reason why the rest of the file cannot be read.
+    /// Reason for an unreadable rest of the file.
     pub unreadable: Option<String>,
-    /// Bytes have changed, perhaps only some that rows do not depend on.
+    /// True if bytes have changed, even if no row depends on them.
     pub bytes: bool,
-    /// Unfinished rows are not those that the journal records.
+    /// True if unfinished rows differ from the rows that the journal records.
     pub altered: bool,
-    /// Number of rows that the journal records and the file lacks.
+    /// Number of rows in the journal that are missing in the file.
     pub lost: u64,
-    /// Differences between the rows that the sidecar describes and those that the journal records, in words.
+    /// Differences between the sidecar and the journal, in words.
     pub foreign_sidecar: Vec<String>,
 }
 
 impl Damage {
-    /// The damage of the text that was found, compared with the `checksums` of the `rows` that were written.
+    /// Returns the damage of a text with the digest `found`, relative to the `checksums` of `rows` written rows.
     fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
         let mut damage = Damage::default();
         if found.text() == checksums.text {
@@ -81,7 +84,7 @@ impl Damage {
         damage
     }
 
-    /// True if there is no damage.
+    /// Returns true if there is no damage.
     pub fn is_none(&self) -> bool {
         *self == Damage::default()
     }
@@ -100,7 +103,7 @@ impl fmt::Display for Damage {
             parts.push(format!("rows {} have changed since they were written", listed(&self.rows)));
         }
         if let Some((found, written)) = self.count {
-            parts.push(format!("it holds {found} rows, but {written} were written"));
+            parts.push(format!("it contains {found} rows, but {written} were written"));
         }
         if let Some(reason) = &self.unreadable {
             parts.push(format!("the rest cannot be read ({reason})"));
@@ -109,10 +112,10 @@ impl fmt::Display for Damage {
             parts.push("it has changed since the sweep wrote it".to_owned());
         }
         if self.lost > 0 {
-            parts.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
+            parts.push(format!("it does not contain {} that its journal records", count(self.lost, "row")));
         }
         if !self.foreign_sidecar.is_empty() {
-            parts.push(format!("its sidecar is of another sweep: {}", self.foreign_sidecar.join("; ")));
+            parts.push(format!("its sidecar belongs to another sweep: {}", self.foreign_sidecar.join("; ")));
         }
         if self.bytes && parts.is_empty() {
             parts.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
@@ -131,13 +134,13 @@ fn listed(ranges: &[RangeInclusive<u64>]) -> String {
     shown.join(", ") + &more
 }
 
-/// Results that cannot be read.
+/// Error of results that cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// The name stands for no format.
+    /// The ending of the name belongs to no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The operating system refuses, or the file is not of its format.
+    /// The operating system reports an error, or the file does not have its format.
     #[error("cannot read {}: {source}", path.display())]
     Read {
         /// The file.
@@ -145,10 +148,10 @@ pub enum OpenError {
         /// The reason.
         source: io::Error,
     },
-    /// Their sidecar cannot be read, or is damaged.
+    /// The sidecar cannot be read or is damaged.
     #[error(transparent)]
     Sidecar(#[from] SidecarError),
-    /// They have changed since they were written.
+    /// The results have changed since they were written.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -158,10 +161,10 @@ pub enum OpenError {
     },
 }
 
-/// A note on results for the user.
+/// A note about results for the user.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
-    /// They have changed since they were written.
+    /// The results have changed since they were written.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -169,18 +172,18 @@ pub enum Note {
         /// The damage.
         damage: Damage,
     },
-    /// Their sidecar is damaged, or of an unknown format.
+    /// The sidecar is damaged or has an unknown format.
     #[error("{0}")]
     Sidecar(String),
-    /// They are not complete.
+    /// The results are unfinished.
     #[error("{} is unfinished: {}", path.display(), so_far(*done))]
     Unfinished {
         /// The file.
         path: PathBuf,
-        /// Number of points that have rows or are excluded, if it is known.
+        /// Number of points that have rows or are excluded, if known.
         done: Option<u64>,
     },
-    /// They cannot be checked.
+    /// The results cannot be checked.
     #[error("{} could not be verified: {why}", path.display())]
     Unverified {
         /// The file.
@@ -190,30 +193,31 @@ pub enum Note {
     },
 }
 
-/// Reason why results cannot be checked.
+/// Reason for results that cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unverified {
-    /// They have no sidecar.
+    /// There is no sidecar.
     #[error("there is no sidecar beside it")]
     NoSidecar,
-    /// Their sidecar has no checksums.
+    /// The sidecar has no checksums.
     #[error("its sidecar has no checksums")]
     NoChecksums,
 }
 
 fn so_far(done: Option<u64>) -> String {
     match done {
-        Some(done) => format!("{} done so far, `flap results resume` continues it", count(done, "point")),
-        None => "there are fewer rows than points to be run".to_owned(),
+        Some(done) => format!("{} done so far; `flap results resume` continues it", count(done, "point")),
+        None => "it has fewer rows than points".to_owned(),
     }
 }
 
-/// The damage of the complete results at `path`; `None` if there is none, or their sidecar has no checksums. Reads the file
-/// once, and a second time if its bytes have changed.
+/// Returns the damage of the complete results at `path`; `None` if there is none, or the sidecar has no checksums.
+///
+/// The file is read once, and a second time if its bytes have changed.
 ///
 /// # Errors
 /// - [`OpenError::Read`] if the file cannot be read
-/// - [`OpenError::Damaged`] if it is damaged and that is not tolerated
+/// - [`OpenError::Damaged`] if it is damaged and `on_damage` is [`OnDamage::Refuse`]
 pub fn check(
     path: &Path,
     format: Format,
@@ -239,7 +243,7 @@ fn find(path: &Path, format: Format, sidecar: &Sidecar) -> io::Result<Option<Dam
     Ok(Some(damage).filter(|damage| !damage.is_none()))
 }
 
-/// The damage of the rows as they are read from the file, with its place.
+/// Returns the damage of the rows, located by reading them from the file.
 fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums) -> io::Result<Damage> {
     let (found, read) = sum_up(File::open(path)?, format);
     let rows = sidecar.rows();
@@ -248,7 +252,7 @@ fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums)
         if error.raw_os_error().is_some() {
             return Err(error);
         }
-        // Rows that cannot be read are not counted.
+        // The number of unreadable rows is unknown.
         damage.count = None;
         damage.unreadable = Some(error.to_string());
     }
@@ -258,24 +262,25 @@ fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums)
 /// Longest row of a result file (bytes).
 const LONGEST_ROW: u64 = 1 << 20;
 
-/// Format of the rows of a Parquet file that is not complete.
+/// Format of the waiting rows of an unfinished Parquet file.
 const WAITING: Format = Format::CsvZstd;
 
-/// Results that can be read.
+/// Results that are open for reading.
 pub struct Opened {
-    /// Their rows.
+    /// Reader of the rows.
     pub reader: Reader,
-    /// Their sidecar, if there is one and it is theirs.
+    /// Sidecar, if there is one that belongs to the rows.
     pub sidecar: Option<Sidecar>,
     /// Notes for the user.
     pub notes: Vec<Note>,
 }
 
-/// The column names of the results at `path`, complete or not. Reads the beginning of the file, or the end of a Parquet file,
-/// and checks nothing.
+/// Returns the column names of the results at `path`, complete or not.
+///
+/// It reads the beginning of the file, or the end of a Parquet file, and checks nothing.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Format`] if the ending of the name belongs to no format
 /// - [`OpenError::Read`] if the file cannot be read
 pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
     let format = Format::of(path)?;
@@ -292,10 +297,10 @@ pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
 /// Opens the results at `path`. Unfinished results end at their last checkpoint.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Format`] if the ending of the name belongs to no format
 /// - [`OpenError::Read`] if the file cannot be read
-/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and that is not tolerated
-/// - [`OpenError::Damaged`] if the results are damaged and that is not tolerated
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and `on_damage` is [`OnDamage::Refuse`]
+/// - [`OpenError::Damaged`] if the results are damaged and `on_damage` is [`OnDamage::Refuse`]
 pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     let format = Format::of(path)?;
     let mut notes = Vec::new();
@@ -330,7 +335,7 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     Ok(Opened { reader, sidecar, notes })
 }
 
-/// The sidecar of the results at `path`; `None` if there is none, or it cannot be used.
+/// Returns the sidecar of the results at `path`; `None` if there is none, or it cannot be used.
 fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Option<Sidecar>, OpenError> {
     let beside = sidecar_of(path);
     match Sidecar::read(&beside) {
@@ -340,7 +345,7 @@ fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Opt
             notes.push(Note::Sidecar(error.to_string()));
             Ok(Sidecar::read_damaged(&beside).ok())
         }
-        // The file may be one of another version, or of another program.
+        // The file may belong to another version or another program.
         Err(error @ SidecarError::Format { .. }) => {
             notes.push(Note::Sidecar(error.to_string()));
             Ok(None)
@@ -349,7 +354,7 @@ fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Opt
     }
 }
 
-/// The whole rows of unfinished results that no journal limits: the last line may be half a row.
+/// Returns the complete rows of unfinished results without a journal. The last line may be incomplete.
 fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     let bytes = file.metadata()?.len();
     if format != Format::Csv && bytes > 0 {
@@ -366,8 +371,10 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     Reader::of_text(file.take(begin + last), format)
 }
 
-/// The rows of unfinished results up to the last checkpoint, all of which must be those that the journal records. If damage is
-/// tolerated, all whole rows in the file, and `sidecar` becomes `None` if it describes other rows.
+/// Returns the rows of unfinished results up to the last checkpoint.
+///
+/// All of them must match the journal. If damage is tolerated, it returns all complete rows, and sets `sidecar` to
+/// `None` if it describes other rows.
 fn unfinished(
     path: &Path,
     format: Format,
@@ -408,7 +415,7 @@ fn unfinished(
     .map_err(unreadable)
 }
 
-/// The result of a check.
+/// Result of a check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Integrity {
     /// The results are unchanged since they were written.
@@ -416,21 +423,21 @@ pub enum Integrity {
         /// Number of rows.
         rows: u64,
     },
-    /// They are not complete; their rows are unchanged since they were written.
+    /// The results are unfinished. Their rows are unchanged since they were written.
     Unfinished {
-        /// Number of points that are done, if it is known.
+        /// Number of finished points, if known.
         done: Option<u64>,
     },
-    /// They cannot be checked.
+    /// The results cannot be checked.
     Unverified(Unverified),
-    /// They have changed since they were written.
+    /// The results have changed since they were written.
     Damaged(Damage),
 }
 
 /// Checks the results at `path` completely: every byte of the file, and every row as it is read.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the name stands for no format
+/// - [`OpenError::Format`] if the ending of the name belongs to no format
 /// - [`OpenError::Read`] if the results cannot be read
 /// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged
 pub fn verify(path: &Path) -> Result<Integrity, OpenError> {
@@ -454,7 +461,7 @@ pub fn verify(path: &Path) -> Result<Integrity, OpenError> {
         return Ok(Integrity::Unverified(Unverified::NoChecksums));
     };
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
-    // The file's bytes are those that were written. This checks that they are read as the rows that were computed.
+    // The file's bytes are unchanged. This checks that reading them gives the computed rows.
     let damage = locate(path, Format::of(path)?, &sidecar, checksums).map_err(unreadable)?;
     if damage.is_none() {
         return Ok(Integrity::Sound { rows: sidecar.rows().unwrap_or_default() });

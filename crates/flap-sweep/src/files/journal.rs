@@ -1,8 +1,8 @@
-//! The file beside unfinished results that records the progress of a run: `<results>.journal`.
+//! Journal of unfinished results, which records the progress of a run: `<results>.journal`.
 //!
-//! Its first line identifies the run; every other line is a checkpoint. Each line begins with its checksum. A line is
-//! added only when the rows that it counts are safe on disk, and lines are never changed. A crash may leave an incomplete
-//! line at the end; its checksum does not agree.
+//! Its first line identifies the run. Every other line is a checkpoint. Each line begins with its checksum. A line is
+//! added only when the rows that it counts are safe on disk, and lines are never changed. A crash may leave an
+//! incomplete line at the end, whose checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
@@ -23,40 +23,41 @@ use crate::run::identity::Identity;
 /// Version of the format.
 const FORMAT: u32 = 1;
 
-/// The first line.
+/// First line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     format: u32,
     /// Start of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// True if earlier results are kept until these are complete.
+    /// True if earlier results are kept until the new ones are complete.
     pub replaces: bool,
-    /// The identity of the run's rows.
+    /// Identity of the run's rows.
     pub identity: Identity,
 }
 
 impl Header {
-    /// The first line of a run that starts now.
+    /// Returns the first line of a run that starts now.
     pub fn new(started: String, replaces: bool, identity: Identity) -> Header {
         Header { format: FORMAT, started, replaces, identity }
     }
 }
 
-/// A place at which a run can be resumed: every line but the first.
+/// A state from which a run can be resumed: every line except the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Running time of all sessions (s).
     pub seconds: f64,
-    /// The part of the file of rows that is written.
+    /// Number and checksum of the bytes written to the file of rows.
     pub file: FileSum,
-    /// Summary of the rows in it.
+    /// Summary of these rows.
     pub summary: Summary,
 }
 
 impl Checkpoint {
-    /// The checkpoint behind the rows that `summary` counts, in a `file` of these bytes, after `seconds` of running.
+    /// Returns the checkpoint after the rows that `summary` counts, with the `file` that contains them, after
+    /// `seconds` of running.
     pub fn new(seconds: f64, file: FileSum, mut summary: Summary) -> Checkpoint {
-        // A checkpoint is one line, and so are reasons.
+        // A checkpoint is one line, so reasons must not contain line ends.
         for invalid in &mut summary.invalid {
             invalid.reason = invalid.reason.replace(['\n', '\r'], " ");
         }
@@ -64,19 +65,20 @@ impl Checkpoint {
     }
 }
 
-/// The contents of a journal.
+/// Contents of a journal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JournalContents {
-    /// The first line.
+    /// First line.
     pub header: Header,
-    /// The other lines, each with the number of bytes up to its end.
+    /// Other lines, each with the number of bytes up to its end.
     pub checkpoints: Vec<(Checkpoint, u64)>,
-    /// Bytes up to the end of the first line.
+    /// Number of bytes up to the end of the first line.
     pub header_bytes: u64,
 }
 
-/// Reads the text of a journal up to the first line that is not whole. `None` if that is the first line, or the journal is
-/// of another format.
+/// Parses the text of a journal up to the first incomplete line.
+///
+/// `None` if the first line is incomplete, or the journal has another format.
 pub fn parse(text: &[u8]) -> Option<JournalContents> {
     let mut lines = text.split_inclusive(|&byte| byte == b'\n');
     let first = lines.next()?;
@@ -92,7 +94,7 @@ pub fn parse(text: &[u8]) -> Option<JournalContents> {
     Some(JournalContents { header, checkpoints, header_bytes })
 }
 
-/// Reads the journal at `path`. `None` if there is none, or its first line is not whole: no row was written then.
+/// Reads the journal at `path`. `None` if there is none, or its first line is incomplete: then no row was written.
 ///
 /// # Errors
 /// The error of the operating system if the file cannot be read.
@@ -104,7 +106,7 @@ pub fn read(path: &Path) -> io::Result<Option<JournalContents>> {
     }
 }
 
-/// The contents of a line, if it is whole.
+/// Returns the contents of a line, if it is complete.
 fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let line = str::from_utf8(line).ok()?.strip_suffix('\n')?;
     let (checksum, contents) = line.split_once(' ')?;
@@ -120,15 +122,15 @@ fn line(contents: &impl Serialize) -> io::Result<String> {
     Ok(format!("{} {text}\n", text::hash(&text)))
 }
 
-/// A journal that is being written.
+/// A journal that is open for writing.
 #[derive(Debug)]
 pub struct Journal(File);
 
 impl Journal {
-    /// Begins a journal.
+    /// Creates a journal.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has its name
+    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has this name
     /// - the error of the operating system if the file cannot be written
     pub fn create(path: &Path, header: &Header) -> io::Result<Journal> {
         let mut journal = Journal(disk::create_new(path)?);
@@ -136,10 +138,10 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Continues a journal after its first `bytes`, and drops the rest.
+    /// Continues a journal after its first `bytes` and removes the rest.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be opened or cut.
+    /// The error of the operating system if the file cannot be opened or truncated.
     pub fn after(path: &Path, bytes: u64) -> io::Result<Journal> {
         let file = OpenOptions::new().append(true).open(path)?;
         file.set_len(bytes)?;
@@ -163,15 +165,15 @@ impl Journal {
 /// The last checkpoint whose rows are in the file.
 pub(crate) struct IntactRows {
     pub(crate) checkpoint: Checkpoint,
-    /// Bytes of the journal up to the checkpoint.
+    /// Number of bytes of the journal up to the checkpoint.
     pub(crate) journal_bytes: u64,
     /// Hash of the rows up to the checkpoint.
     pub(crate) hash: Xxh3Default,
-    /// Number of rows behind it that later checkpoints count.
+    /// Number of rows after it that later checkpoints count.
     pub(crate) lost: u64,
 }
 
-/// Finds the last checkpoint up to which `file` holds the bytes that were written. `None` if it holds other bytes.
+/// Returns the last checkpoint up to which `file` contains the written bytes; `None` if it contains other bytes.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();
     let mut intact = IntactRows {

@@ -1,4 +1,4 @@
-//! Shards of a sweep into the file that one machine would have written.
+//! Merges the shards of a sweep into the file that one machine would have written.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -13,30 +13,30 @@ use crate::plan::selection::{Selection, Shard};
 use crate::run::Summary;
 use crate::run::identity::Identity;
 
-/// The results of one shard.
+/// Results of one shard.
 #[derive(Debug)]
 pub struct Part {
-    /// The result file.
+    /// Result file.
     pub path: PathBuf,
-    /// Its sidecar.
+    /// Sidecar of the results.
     pub sidecar: Sidecar,
 }
 
 impl Part {
-    /// The shard that its sidecar names.
+    /// Returns the shard that the sidecar records.
     fn shard(&self) -> Option<Shard> {
         self.sidecar.shard.as_deref()?.parse().ok()
     }
 }
 
-/// Shards that cannot be merged.
+/// Error of shards that cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// They are not all shards of one sweep, each once. A line for each mistake.
+    /// The parts are not the shards of one sweep, each once. Contains a line for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
-    /// They are by several builds of flap: the first shard of each.
-    #[error("the shards are by several builds of flap, whose rows may differ: {}", .0.join(", "))]
+    /// The parts were computed by several builds of flap. Contains the first shard of each.
+    #[error("the shards were computed by several builds of flap, whose rows may differ: {}", .0.join(", "))]
     Builds(Vec<String>),
     /// A shard cannot be read.
     #[error("cannot read {}: {source}", path.display())]
@@ -51,21 +51,23 @@ pub enum MergeError {
     Write(#[from] io::Error),
 }
 
-/// The treatment of shards by several builds of flap.
+/// Treatment of shards from several builds of flap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnBuilds {
-    /// They are not merged: their rows may differ from those of one build.
+    /// They are rejected, because rows of different builds may differ.
     Refuse,
-    /// They are merged, and the sidecar names all builds.
+    /// They are merged, and the sidecar lists all builds.
     Mix,
 }
 
-/// Checks that `parts` are the complete shards of one sweep, each of them once. No model is run, so they may be by another
-/// build than this one.
+/// Checks that `parts` are the complete shards of one sweep, each once.
+///
+/// No model is run, so the shards may come from another build than this one.
 ///
 /// # Errors
 /// - [`MergeError::Parts`] with all mistakes
-/// - [`MergeError::Builds`] if there are none, but the parts are by several builds, and that is refused
+/// - [`MergeError::Builds`] if there are no mistakes, but the parts come from several builds and `on_builds` is
+///   [`OnBuilds::Refuse`]
 pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     let mut problems = Vec::new();
     let mut seen: BTreeMap<u64, &Path> = BTreeMap::new();
@@ -85,7 +87,7 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
             let first = first.path.display();
             problems.push(format!("{path} does not belong to {first}: {}", differences.join("; ")));
         } else if shard.of() != like.of() {
-            problems.push(format!("{path} is shard {shard}, {} is shard {like}", first.path.display()));
+            problems.push(format!("{path} is shard {shard}, but {} is shard {like}", first.path.display()));
         } else if let Some(other) = seen.insert(shard.number(), &part.path) {
             problems.push(format!("{} and {path} are both shard {shard}", other.display()));
         }
@@ -117,14 +119,15 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     Ok(())
 }
 
-/// The identity that the rows of all shards have in common: without their shard and build.
+/// Returns the identity that the rows of all shards share, without shard and build.
 fn shared(sidecar: &Sidecar) -> Identity {
     let (flap, build) = (String::new(), String::new());
     Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }
 }
 
-/// The sidecar of all `parts` together, without checksums; `None` if there are no parts. It is the sidecar of one sweep on one
-/// machine, but for the versions and builds, of which it names all.
+/// Returns the sidecar of all `parts` together, without checksums; `None` if there are no parts.
+///
+/// It equals the sidecar of one sweep on one machine, except that it lists all versions and builds.
 pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let all = |name: fn(&Sidecar) -> &String| {
@@ -150,11 +153,13 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     Some(whole)
 }
 
-/// Writes the rows of `parts` to `to` in the order of their points. [`check`] has passed the parts, `whole` is their
-/// [`sidecar`]; `readers` read them, in the same order. Rows of tolerant readers that do not belong to their shard are left out.
+/// Writes the rows of `parts` to `to` in the order of their points.
+///
+/// `parts` must have passed [`check`]. `whole` is their [`sidecar`]. `readers` read the parts, in the same order. If
+/// a reader is tolerant, its rows that do not belong to the shard are left out.
 ///
 /// # Errors
-/// - [`MergeError::Read`] if a shard cannot be read, or does not hold the rows that its sidecar records
+/// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records
 /// - [`MergeError::Write`] if rows cannot be written
 pub fn merge(
     parts: &[Part],
@@ -164,7 +169,7 @@ pub fn merge(
     to: (File, Format),
 ) -> Result<Checksums, MergeError> {
     let mut sources = Vec::with_capacity(parts.len());
-    // The next row of every shard, the first point on top.
+    // The next row of every shard, with the first point on top.
     let mut next = BinaryHeap::with_capacity(parts.len());
     for (part, reader) in parts.iter().zip(readers) {
         let mut source = Source::new(part, reader, plan)?;
@@ -180,7 +185,7 @@ pub fn merge(
     Ok(writer.finish()?)
 }
 
-/// The rows of one shard.
+/// Source of the rows of one shard.
 struct Source<'a> {
     path: &'a Path,
     rows: Checked<'a>,
@@ -195,7 +200,7 @@ impl Source<'_> {
         Ok(Source { path: &part.path, rows })
     }
 
-    /// Reads the next row, and gives its point.
+    /// Reads the next row and returns its point.
     fn advance(&mut self) -> Result<Option<u64>, MergeError> {
         self.rows.next().map_err(|source| MergeError::Read { path: self.path.to_owned(), source })
     }

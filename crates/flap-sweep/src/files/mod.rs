@@ -1,8 +1,8 @@
-//! Result files: their formats, and the files beside them that record their origin and the progress of a run.
+//! Result files: formats, and the files beside them that record their origin and the progress of a run.
 //!
-//! From the bottom up: `beside` names the files and `disk` writes them; [`results`] are rows in files; [`journal`] and
-//! [`sidecar`] are the files beside them, and `replacement` removes those that flap wrote; `output` opens a result file,
-//! a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a plan from beginning to end.
+//! `beside` names the files, `disk` writes them, and [`results`] reads and writes rows. [`journal`] and [`sidecar`]
+//! are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a result file, a
+//! [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
 
 pub mod beside;
 pub mod csv_sink;

@@ -1,4 +1,4 @@
-//! Outlines of wings from CSV files.
+//! Wing outlines from CSV files.
 
 use std::path::{Path, PathBuf};
 
@@ -7,44 +7,44 @@ use flap_core::aero::{Outline, OutlineError, Station};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::notation::units;
 
-/// The columns, in the order of [`Station`].
+/// Column names, in the order of [`Station`].
 const COLUMNS: [&str; 3] = ["span", "leading_edge", "trailing_edge"];
 
-/// A file that is no outline.
+/// Error in an outline file.
 #[derive(Debug, thiserror::Error)]
 pub enum OutlineFileError {
-    /// The file has no text to be used.
+    /// The file cannot be read as text.
     #[error("{}: {cause}", path.display())]
     Input {
-        /// The path as given.
+        /// Path of the file.
         path: PathBuf,
         /// The reason.
         #[source]
         cause: InputError,
     },
-    /// A line is no row of a table.
+    /// A line is not a row of the table.
     #[error("{}:{line}: {reason}", path.display())]
     Line {
-        /// The path as given.
+        /// Path of the file.
         path: PathBuf,
         /// Line, from 1.
         line: u64,
-        /// The mistake.
+        /// Mistake in the line.
         reason: String,
     },
-    /// The stations are no outline.
+    /// The stations do not form an outline.
     #[error("{}: {cause}", path.display())]
     Outline {
-        /// The path as given.
+        /// Path of the file.
         path: PathBuf,
-        /// The mistake; stations count from 1.
+        /// Mistake. Stations count from 1.
         #[source]
         cause: OutlineError,
     },
 }
 
 impl OutlineFileError {
-    /// Advice, unless there is no text.
+    /// Returns advice, if there is any.
     pub fn help(&self) -> Option<&'static str> {
         let columns = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
          `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
@@ -52,21 +52,21 @@ impl OutlineFileError {
     }
 }
 
-/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`, each with its
-/// unit in brackets behind the name.
+/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`. Each heading has its
+/// unit in brackets.
 ///
 /// # Errors
-/// [`OutlineFileError`] if the file cannot be read or is no outline.
+/// [`OutlineFileError`] if the file cannot be read or contains no outline.
 pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
     let text = input::text(path, MOST_BYTES)
         .map_err(|cause| OutlineFileError::Input { path: path.to_owned(), cause })?;
     parse(path, &text)
 }
 
-/// Reads an outline from the text of such a file; `path` is its name in messages.
+/// Parses an outline from the text of such a file. `path` is its name in messages.
 ///
 /// # Errors
-/// [`OutlineFileError`] if it is no outline.
+/// [`OutlineFileError`] if the text contains no outline.
 pub fn parse(path: &Path, text: &str) -> Result<Outline, OutlineFileError> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
@@ -102,7 +102,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, OutlineFileError> {
     Outline::new(stations).map_err(|cause| OutlineFileError::Outline { path: path.to_owned(), cause })
 }
 
-/// Place and unit of the column called `name`; the unit is empty if there is none.
+/// Returns position and unit of the column called `name`. The unit is empty if the heading has none.
 fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
     headings.iter().enumerate().find_map(|(place, heading)| {
         let (found, unit) = heading.split_once('[').unwrap_or((heading, ""));

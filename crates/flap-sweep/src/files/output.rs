@@ -1,4 +1,4 @@
-//! Result files: opened and locked, or replaced as a whole, without overwriting anything unasked.
+//! Opens and locks result files, or replaces them as a whole. Files are never overwritten unless requested.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -9,16 +9,16 @@ use super::results::Format;
 use super::sidecar::{Sidecar, State};
 use super::{disk, replacement};
 
-/// A result file that cannot be made.
+/// Error of a result file that cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum CreateError {
-    /// There is a file of that name.
+    /// A file of this name exists.
     #[error("{} exists already", .0.display())]
     Exists(PathBuf),
     /// The file is the unfinished result of an interrupted sweep.
     #[error("{} is the unfinished result of an interrupted sweep", .0.display())]
     Unfinished(PathBuf),
-    /// A file has the name of one that is written beside the results.
+    /// A file has the name of a file that flap would write beside the results.
     #[error("{} exists already: writing {} would overwrite it", path.display(), results.display())]
     InTheWay {
         /// The file.
@@ -29,7 +29,7 @@ pub enum CreateError {
     /// Another process is writing to the file.
     #[error("another run is writing to {}", .0.display())]
     Busy(PathBuf),
-    /// The operating system refuses.
+    /// The operating system reports an error.
     #[error("cannot write {}: {source}", path.display())]
     Io {
         /// The file.
@@ -49,25 +49,26 @@ impl CreateError {
     }
 }
 
-/// A result file that is open.
+/// An open result file.
 #[derive(Debug)]
 pub struct LockedFile {
-    /// The file, locked for as long as it is open.
+    /// File, locked while it is open.
     pub file: File,
-    /// Reason why the file could not be locked: its file system offers no locks. Another run that writes to it would not be
-    /// noticed.
+    /// Reason for a failed lock: the file system does not support locks. Without a lock, another run that writes to
+    /// the file is not detected.
     pub unlocked: Option<io::Error>,
 }
 
-/// Opens a result file for writing from its beginning. A file with contents is an error; with `overwrite`, the contents stay.
+/// Opens a result file for writing from its beginning.
 ///
-/// The file stays locked as long as it is open, so that a second run that writes to it is refused.
-/// Devices and pipes hold no results: they are neither refused nor locked.
+/// A file with contents is an error. If `overwrite` is true, it is opened and its contents stay. The file is locked
+/// while it is open, so a second run cannot write to it. Devices and pipes are neither rejected nor locked.
 ///
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents
 /// - [`CreateError::Unfinished`] if it or its replacement has a journal
-/// - [`CreateError::InTheWay`] if there is a sidecar without rows; with `overwrite`, if a file that is no sidecar has its name
+/// - [`CreateError::InTheWay`] if there is a sidecar without rows; if `overwrite` is true, if a file other than a
+///   sidecar has its name
 /// - [`CreateError::Busy`] if another run has locked it
 /// - [`CreateError::Io`] if it cannot be opened
 pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
@@ -87,7 +88,7 @@ pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     } else if metadata.len() > 0 {
         Err(CreateError::Exists(path.to_owned()))
     } else {
-        // A run that was killed before its first row leaves an empty file and such a sidecar.
+        // A run that was killed before its first row leaves an empty file and a sidecar in this state.
         let is_begun = |sidecar: Sidecar| !is_new && sidecar.state == State::Running;
         check_sidecar(path, Sidecar::read(&sidecar_of(path)).is_ok_and(is_begun))
     };
@@ -98,16 +99,16 @@ pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     allowed.map(|()| LockedFile { file, unlocked })
 }
 
-/// Checks that there is no sidecar, or one that `may` be replaced.
+/// Checks that there is no sidecar, or that it `may` be replaced.
 fn check_sidecar(results: &Path, may: bool) -> Result<(), CreateError> {
     let sidecar = sidecar_of(results);
     if may || !disk::is_taken(&sidecar) { Ok(()) } else { Err(CreateError::in_the_way(sidecar, results)) }
 }
 
-/// Checks that a run may write its journal and its waiting rows beside the empty results that [`create`] opened.
+/// Checks that the names of journal and waiting rows beside the empty results are free.
 ///
 /// # Errors
-/// [`CreateError::InTheWay`] if a file of such a name has contents.
+/// [`CreateError::InTheWay`] if a file with such a name has contents.
 pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateError> {
     let rows = rows_of(results, format);
     for path in [journal_of(results), rows] {
@@ -119,7 +120,9 @@ pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateE
 }
 
 /// Opens a result file that an earlier run has begun, for reading and writing from its beginning, and locks it as
-/// [`create`] does. Makes the file again if it was removed.
+/// [`create`] does.
+///
+/// If the file was removed, it is created again.
 ///
 /// # Errors
 /// - [`CreateError::Busy`] if another run has locked the file
@@ -134,25 +137,28 @@ pub fn reopen(path: &Path) -> Result<LockedFile, CreateError> {
 /// Locks a result file as [`create`] does, if there is one.
 ///
 /// # Errors
-/// Those of [`reopen`].
+/// The errors of [`reopen`].
 pub(crate) fn hold(path: &Path) -> Result<Option<LockedFile>, CreateError> {
     if path.exists() { reopen(path).map(Some) } else { Ok(None) }
 }
 
-/// Locks a file for this process. Gives the reason if its file system has no locks.
+/// Locks a file for this process. Returns the reason if the file system does not support locks.
 fn lock(file: &File, path: &Path) -> Result<Option<io::Error>, CreateError> {
     let unlocked = match file.try_lock() {
         Err(TryLockError::WouldBlock) => return Err(CreateError::Busy(path.to_owned())),
         Err(TryLockError::Error(error)) => Some(error),
         Ok(()) => None,
     };
-    // Another run may have replaced the file after it was opened here.
+    // Another run may have replaced the file between opening and locking it.
     disk::check_in_place(file, path).map_err(CreateError::io(path))?;
     Ok(unlocked)
 }
 
-/// Makes the file at `results`, which [`create`] opened, as a whole: an earlier file stays until the new one is complete.
-/// `write` gives the sidecar of results. A crash leaves the earlier results, or the new ones, or one of them without a sidecar.
+/// Writes the file at `results`, which [`create`] opened, as a whole. An earlier file remains until the new one is
+/// complete.
+///
+/// `write` returns the sidecar of the results. After a crash, the earlier or the new results exist, possibly without
+/// a sidecar.
 ///
 /// # Errors
 /// The error of `write` or of the operating system.

@@ -1,4 +1,4 @@
-//! Measured records: CSV tables of numbers against time.
+//! Measured records: CSV tables of numbers over time.
 
 use std::collections::HashSet;
 use std::io;
@@ -10,28 +10,28 @@ use crate::files::csv_sink::cause;
 use crate::input::{self, MOST_BYTES};
 use crate::notation::text;
 
-/// A quantity that a record may hold.
+/// A quantity in a record.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity<'h> {
-    /// The headings of its columns, with their factors to SI units.
+    /// Possible headings of its column, with their factors to SI units.
     pub headings: &'h [(&'h str, f64)],
-    /// The largest magnitude that is accepted, in SI units: with larger ones, rates and forces are no numbers.
+    /// Largest accepted magnitude, in SI units. With larger ones, rates and forces would overflow.
     pub most: f64,
 }
 
 /// A table of numbers, by column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// The name of the file, for messages.
+    /// Name of the file, for messages.
     name: String,
     headings: Vec<String>,
     columns: Vec<Vec<f64>>,
 }
 
-/// A record that cannot be used.
+/// Error in a record.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordError {
-    /// The file cannot be read, or is not a table.
+    /// The file cannot be read or is not a table.
     #[error("{name}: {source}")]
     Read {
         /// The file.
@@ -40,7 +40,7 @@ pub enum RecordError {
         source: io::Error,
     },
     /// Two columns have the same heading.
-    #[error("{name}: there are two columns {heading}: keep one of them")]
+    #[error("{name}: two columns are called {heading}: keep one of them")]
     Twice {
         /// The file.
         name: String,
@@ -50,15 +50,15 @@ pub enum RecordError {
     /// A column is longer or shorter than the first one.
     #[error("{name}: columns differ in length: {first} has {other} numbers, {heading} has {length}")]
     Lengths {
-        /// The record.
+        /// Name of the record.
         name: String,
-        /// The heading of the column.
+        /// Heading of the column.
         heading: String,
-        /// Its length.
+        /// Length of the column.
         length: usize,
-        /// The heading of the first column.
+        /// Heading of the first column.
         first: String,
-        /// The length of the first column.
+        /// Length of the first column.
         other: usize,
     },
     /// A cell is not a finite number.
@@ -66,9 +66,9 @@ pub enum RecordError {
     Cell {
         /// The file.
         name: String,
-        /// Number of the line, from 1; of the row, for a record in memory.
+        /// Line number from 1. For a record in memory, row number.
         line: u64,
-        /// The heading of the column.
+        /// Heading of the column.
         heading: String,
         /// The cell.
         cell: String,
@@ -84,7 +84,7 @@ pub enum RecordError {
         row: usize,
         /// The number, in the unit of the heading.
         number: f64,
-        /// The largest magnitude that is accepted, in the unit of the heading.
+        /// Largest accepted magnitude, in the unit of the heading.
         most: String,
     },
     /// Two samples are too close in time.
@@ -94,12 +94,12 @@ pub enum RecordError {
         name: String,
         /// Number of the earlier row, from 1.
         row: usize,
-        /// The time between them (s).
+        /// Time between the two samples (s).
         step: f64,
-        /// The least time between samples of this record (s).
+        /// Smallest accepted time between samples of this record (s).
         least: f64,
     },
-    /// The samples are no smooth function of time.
+    /// The samples do not define a smooth function of time.
     #[error("{name}: {error}")]
     Samples {
         /// The file.
@@ -108,14 +108,14 @@ pub enum RecordError {
         #[source]
         error: SamplesError,
     },
-    /// No column has one of the headings wanted.
+    /// No column has one of the expected headings.
     #[error("{name}: there is no column {}; {}", wanted.join(" or "), known(headings))]
     Missing {
         /// The file.
         name: String,
-        /// The headings wanted.
+        /// Expected headings.
         wanted: Vec<String>,
-        /// The headings in the file.
+        /// Headings in the file.
         headings: Vec<String>,
     },
     /// Two columns of the same quantity differ.
@@ -123,9 +123,9 @@ pub enum RecordError {
     Contradiction {
         /// The file.
         name: String,
-        /// The heading of one column.
+        /// Heading of one column.
         first: String,
-        /// The heading of the other one.
+        /// Heading of the other column.
         second: String,
         /// Number of the row, from 1.
         row: usize,
@@ -147,10 +147,10 @@ impl Record {
         }
     }
 
-    /// Reads the text of such a file; `name` stands for it in messages.
+    /// Parses the text of such a file. `name` is its name in messages.
     ///
     /// # Errors
-    /// As [`Record::read`].
+    /// See [`Record::read`].
     pub fn parse(name: String, text: &str) -> Result<Record, RecordError> {
         let fail = |error: csv::Error| RecordError::Read { name: name.clone(), source: cause(error) };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
@@ -175,7 +175,7 @@ impl Record {
         Ok(Record { name, headings, columns })
     }
 
-    /// A record of columns in memory, each of them with a heading; `name` stands for the file in messages.
+    /// Returns a record of columns in memory, each with a heading. `name` is the name in messages.
     ///
     /// # Errors
     /// - [`RecordError::Lengths`] if columns differ in length
@@ -201,12 +201,12 @@ impl Record {
         Ok(Record { name: name.to_owned(), headings, columns })
     }
 
-    /// The column of a quantity in SI units; the first if there are more that agree.
+    /// Returns the column of a quantity in SI units. If several columns agree, it is the first one.
     ///
     /// # Errors
-    /// - [`RecordError::Missing`] if there is none
+    /// - [`RecordError::Missing`] if there is no such column
     /// - [`RecordError::TooLarge`] if a number in it is too large
-    /// - [`RecordError::Contradiction`] if there are two that differ
+    /// - [`RecordError::Contradiction`] if two columns differ
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
         let found = quantity.headings.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
@@ -245,10 +245,10 @@ impl Record {
         Ok(column)
     }
 
-    /// The points called `name` in every image, from the columns `NAME_x` and `NAME_y`.
+    /// Returns the points called `name` in every image, from the columns `NAME_x` and `NAME_y`.
     ///
     /// # Errors
-    /// As [`Record::column`].
+    /// See [`Record::column`].
     pub fn points(&self, name: &str) -> Result<Vec<[f64; 2]>, RecordError> {
         let coordinate = |axis: &str| {
             self.column(&Quantity { headings: &[(&format!("{name}_{axis}"), 1.0)], most: COORDINATE })
@@ -256,11 +256,11 @@ impl Record {
         Ok(coordinate("x")?.into_iter().zip(coordinate("y")?).map(|(x, y)| [x, y]).collect())
     }
 
-    /// A quantity as a smooth function of the record's time.
+    /// Returns a quantity as a smooth function of the record's time.
     ///
     /// # Errors
     /// - [`RecordError::TooClose`] if two samples are too close in time
-    /// - [`RecordError::Samples`] if the samples are no such function
+    /// - [`RecordError::Samples`] if the samples do not define a smooth function
     /// - the errors of [`Record::column`], for the time and for the quantity
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
@@ -275,13 +275,13 @@ impl Record {
     }
 }
 
-/// The least time between two samples, in seconds and as a share of the duration.
+/// Smallest time between two samples, in seconds and relative to the duration.
 const LEAST_STEP: f64 = 1e-12;
 
-/// Largest difference of the same number in two units, as a share of the column's largest number.
+/// Largest relative difference of equal numbers in two units, relative to the column's largest number.
 const SAME: f64 = 1e-6;
 
-/// The headings of a file in words.
+/// Returns the headings of a file in words.
 fn known(headings: &[String]) -> String {
     if headings.iter().all(String::is_empty) {
         "the file has no columns".to_owned()
@@ -290,30 +290,30 @@ fn known(headings: &[String]) -> String {
     }
 }
 
-/// The first of the headings that is there twice.
+/// Returns the first repeated heading.
 fn repeated(headings: &[String]) -> Option<&String> {
     let mut seen = HashSet::new();
     headings.iter().find(|heading| !heading.is_empty() && !seen.insert(*heading))
 }
 
-/// Times (s).
+/// Time (s).
 pub const TIME: Quantity<'_> = Quantity { headings: &[("time_s", 1.0), ("time_ms", 1e-3)], most: 1e12 };
 
-/// Strokes (rad).
+/// Stroke (rad).
 pub const STROKE: Quantity<'_> =
     Quantity { headings: &[("stroke_rad", 1.0), ("stroke_deg", RADIANS)], most: ANGLE };
 
-/// Pitch angles (rad).
+/// Pitch (rad).
 pub const PITCH: Quantity<'_> =
     Quantity { headings: &[("pitch_rad", 1.0), ("pitch_deg", RADIANS)], most: ANGLE };
 
-/// Waveforms of unit amplitude.
+/// Waveform of unit amplitude.
 pub const WAVE: Quantity<'_> = Quantity { headings: &[("wave", 1.0)], most: 1e6 };
 
-/// The largest coordinate of a point in an image, in any unit.
+/// Largest coordinate of a point in an image, in any unit.
 const COORDINATE: f64 = 1e12;
 
 const RADIANS: f64 = core::f64::consts::PI / 180.0;
 
-/// The largest angle (rad): 10,000 turns.
+/// Largest angle (rad): 10,000 turns.
 const ANGLE: f64 = 3.6e6 * RADIANS;

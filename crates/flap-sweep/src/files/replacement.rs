@@ -1,15 +1,14 @@
-//! The files beside results that flap wrote itself. No other files are ever removed or replaced.
+//! Files beside results that flap wrote. No other files are ever removed or replaced.
 //!
-//! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the journal
-//! beside them: it is begun only where there is no file of their name.
+//! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the
+//! journal beside them, because a journal is begun only if no file has their name.
 //!
-//! With `--restart`, the earlier results keep their names until the new ones are complete. Until then the new results of `rows.csv` are
-//! `rows.new.csv`, with a sidecar and a journal of that name. The journal records that they are a replacement, so a file that
-//! only has such a name is never taken for one.
+//! With `--restart`, the earlier results keep their names until the new ones are complete. Until then the new results
+//! of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that they are a
+//! replacement, so another file of this name is never taken for one.
 //!
-//! Results without a sidecar count as unverified, never as damaged. [`commit`] therefore removes the earlier sidecar before it
-//! renames the rows, and writes the new sidecar afterwards. It may be killed anywhere, and completes its work when it is called
-//! again.
+//! Results without a sidecar count as unverified, not as damaged. [`commit`] therefore removes the earlier sidecar,
+//! renames the rows, and then writes the new sidecar. If it is killed at any time, the next call completes its work.
 
 use std::fs;
 use std::io::{self, Write};
@@ -20,20 +19,21 @@ use super::results::Format;
 use super::sidecar::Sidecar;
 use super::{disk, journal};
 
-/// True if there is a sidecar beside the results, damaged or not.
+/// Returns true if there is a sidecar beside the results, damaged or not.
 pub(crate) fn has_sidecar(results: &Path) -> bool {
     Sidecar::read_damaged(&sidecar_of(results)).is_ok()
 }
 
-/// True if there is a journal beside the results.
+/// Returns true if there is a journal beside the results.
 ///
 /// # Errors
-/// The error of the operating system if a file of that name cannot be read.
+/// The error of the operating system if a file of this name cannot be read.
 pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
     Ok(journal::read(&journal_of(results))?.is_some())
 }
 
-/// Removes the waiting rows and the journal. Killed in between, the journal still names the rows as flap's.
+/// Removes the waiting rows, then the journal. If it is killed in between, the journal still identifies the rows as
+/// flap's.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -58,43 +58,46 @@ pub(crate) fn remove_companions(results: &Path) -> io::Result<()> {
     remove_progress(results)
 }
 
-/// The unfinished replacement of the results at `results`, such as `rows.new.csv`. `None` if there is none.
+/// Returns the unfinished replacement of the results at `results`, such as `rows.new.csv`; `None` if there is none.
 pub fn unfinished(results: &Path) -> Option<PathBuf> {
     let new = of(results);
     let past = journal::read(&journal_of(&new)).ok()??;
     past.header.replaces.then_some(new)
 }
 
-/// The results that `flap results resume` continues: the unfinished replacement if there is one, else `results`.
+/// Returns the results that `flap results resume` continues: the unfinished replacement if there is one, otherwise
+/// `results`.
 pub fn to_resume(results: &Path) -> PathBuf {
     unfinished(results).filter(|new| sidecar_of(new).exists()).unwrap_or_else(|| results.to_owned())
 }
 
-/// The path of a replacement: it lies beside the rows, wherever a link to them is.
+/// Returns the path of a replacement. It is in the folder of the rows, also if `results` is a link to them.
 pub(crate) fn of(results: &Path) -> PathBuf {
     replacement_of(&disk::target(results))
 }
 
-/// True if nothing but the journal of the replacement `new` is left: it has replaced the earlier results, or was dropped.
+/// Returns true if only the journal of the replacement `new` is left: it has replaced the earlier results, or was
+/// discarded.
 pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }
 
-/// Drops the unfinished replacement of `results`, if there is one.
+/// Discards the unfinished replacement of `results`, if there is one.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
 pub(crate) fn discard(results: &Path) -> io::Result<()> {
     let Some(new) = unfinished(results) else { return Ok(()) };
     disk::remove_if_there(&new)?;
-    // The journal goes last: without it the others would be nobody's.
+    // The journal is removed last: without it, the other files could not be identified.
     remove_companions(&new)
 }
 
-/// Puts the replacement of `results`, which is complete with its sidecar, in their place.
+/// Replaces `results` by their complete replacement with its sidecar.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be renamed, written or removed. The next call goes on from there.
+/// The error of the operating system if a file cannot be renamed, written or removed. The next call continues from
+/// there.
 pub(crate) fn commit(results: &Path) -> io::Result<()> {
     let new = of(results);
     let beside = sidecar_of(&new);
@@ -106,7 +109,7 @@ pub(crate) fn commit(results: &Path) -> io::Result<()> {
         disk::rename(&new, &disk::target(results))?;
     }
     if beside.exists() {
-        // Copied, since a link to the rows and its sidecar may lie in another file system.
+        // The sidecar is copied, because a link to the rows and its sidecar may be in another file system.
         let whole = disk::Whole::begin(&sidecar_of(results))?;
         whole.file().write_all(&fs::read(&beside)?)?;
         whole.commit()?;

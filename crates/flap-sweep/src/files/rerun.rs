@@ -1,4 +1,4 @@
-//! Points of earlier results that are to be run again.
+//! Points of earlier results to be run again.
 
 use flap_core::simulate::Status;
 
@@ -6,37 +6,37 @@ use crate::files::results::{Checked, Reader, RowCheck, RowsError};
 use crate::plan::Plan;
 use crate::plan::selection::MOST_LISTED;
 
-/// The rows that are to be computed again.
+/// Selection of rows to be computed again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
     /// Rows with one of these statuses.
     pub statuses: Vec<Status>,
-    /// Rows whose `error_estimate` exceeds this.
+    /// Rows with an `error_estimate` above this value.
     pub accuracy: Option<f64>,
 }
 
-/// Points that cannot be listed.
+/// Error of points that cannot be selected.
 #[derive(Debug, thiserror::Error)]
 pub enum RerunError {
-    /// The rows cannot be read, or are not those of the plan.
+    /// The rows cannot be read, or do not belong to the plan.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// Nothing tells which rows are inaccurate.
+    /// The rows have no error estimate.
     #[error("the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]")]
     NoEstimate,
-    /// There are more than [`MOST_LISTED`] of them.
+    /// More than [`MOST_LISTED`] points are selected.
     #[error("more than {MOST_LISTED} points would be run again: change the grid file instead")]
     TooMany,
 }
 
 impl Wanted {
-    /// The kinds of rows in words: statuses, and `inaccurate`.
+    /// Returns the kinds of rows in words: statuses, and `inaccurate`.
     pub fn words(&self) -> Vec<String> {
         let inaccurate = self.accuracy.map(|_| "inaccurate");
         self.statuses.iter().map(|status| status.name()).chain(inaccurate).map(str::to_owned).collect()
     }
 
-    /// True if a row with these cells is wanted.
+    /// Returns true if the selection contains a row with these cells.
     fn includes(&self, status: Option<&str>, estimate: Option<&str>) -> bool {
         let estimate = estimate.and_then(|cell| cell.parse::<f64>().ok());
         self.statuses.iter().any(|wanted| status == Some(wanted.name()))
@@ -44,13 +44,14 @@ impl Wanted {
     }
 }
 
-/// The indices of the rows that are `wanted`, rising. The results are those of `plan`; `rows` is the number of rows that were
-/// written, if it is known.
+/// Returns the indices of the `wanted` rows, in ascending order.
+///
+/// The results must belong to `plan`. `rows` is the number of written rows, if known.
 ///
 /// # Errors
-/// - [`RerunError::Rows`] if the rows cannot be read, or are not those of the plan
-/// - [`RerunError::NoEstimate`] if inaccurate rows are wanted, and the rows have no estimate of their error
-/// - [`RerunError::TooMany`] if there are more than [`MOST_LISTED`] of them
+/// - [`RerunError::Rows`] if the rows cannot be read, or do not belong to the plan
+/// - [`RerunError::NoEstimate`] if inaccurate rows are selected, and the rows have no error estimate
+/// - [`RerunError::TooMany`] if more than [`MOST_LISTED`] points are selected
 pub fn points(
     reader: &mut Reader,
     wanted: &Wanted,

@@ -1,11 +1,11 @@
-//! The hold of a run on its result file: rows into it, checkpoints beside it, and the continuation of an earlier run.
+//! A run's access to its result file: it writes rows and checkpoints, and continues earlier runs.
 //!
-//! Checkpoints are at places where the bytes so far do not depend on later rows: behind any row, or in compressed files
-//! at the end of a frame. A resumed run drops the rows behind the last checkpoint and computes them again, to the same
-//! bytes.
+//! Checkpoints are after rows, or in compressed files at the end of a frame. The bytes up to there do not depend on
+//! later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the same bytes.
 //!
-//! A Parquet file can be neither read nor continued before its last byte is written. Its rows are first written to
-//! `<results>.part`, compressed text like that of a `.csv.zst` file, and become columns when the run is complete.
+//! A Parquet file can be neither read nor continued before its last byte is written. Its rows are therefore first
+//! written to `<results>.part`, as compressed text like a `.csv.zst` file. They become columns when the run is
+//! complete.
 
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom};
@@ -31,19 +31,20 @@ use crate::table::layout::Cell;
 pub struct SessionOptions {
     /// Options of the run.
     pub run: RunOptions,
-    /// Time between checkpoints, each of which waits for the disk twice. A run that is killed loses the rows of this time.
+    /// Time between checkpoints. Each checkpoint waits for the disk twice. A run that is killed loses the rows of
+    /// this time.
     pub checkpoint: Duration,
 }
 
-/// Writes the rows of a plan to a file such that the run can be resumed.
+/// Writer of the rows of a plan to a file, such that the run can be resumed.
 pub struct Session {
     path: PathBuf,
     format: Format,
-    /// Locked for as long as the session lasts.
+    /// Locked during the session.
     results: File,
     rows: TextRows,
     provenance: Provenance,
-    /// Checksum of a Parquet file, once rows have been turned into columns.
+    /// Checksum of a Parquet file, once rows have been converted to columns.
     columns: Option<FileSum>,
     journal: Journal,
     checkpoint: Duration,
@@ -52,7 +53,7 @@ pub struct Session {
     seconds_before: f64,
 }
 
-/// A session that continues the work of earlier ones.
+/// A session that continues earlier sessions.
 pub struct Resumed {
     /// The session.
     pub session: Session,
@@ -60,25 +61,25 @@ pub struct Resumed {
     pub before: Summary,
     /// Start of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// Number of rows that had been written but are no longer in the file.
+    /// Number of rows that had been written but are missing in the file.
     pub lost: u64,
-    /// Reason why the results could not be locked.
+    /// Reason for a failed lock.
     pub unlocked: Option<io::Error>,
 }
 
-/// A run that cannot be resumed.
+/// Error of a run that cannot be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
     /// The results cannot be written.
     #[error(transparent)]
     Create(#[from] CreateError),
-    /// The name stands for no format.
+    /// The ending of the name belongs to no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// There is nothing to resume.
+    /// There is no journal.
     #[error("{} has no journal: it is not the result of an interrupted sweep", .0.display())]
     NoJournal(PathBuf),
-    /// The remaining rows would differ from those of the earlier run.
+    /// The remaining rows would differ from the rows of the earlier run.
     #[error("{} cannot be resumed: {}", path.display(), changes.join("; "))]
     Changed {
         /// The results.
@@ -86,14 +87,15 @@ pub enum ResumeError {
         /// The differences, in words.
         changes: Vec<String>,
     },
-    /// Another program has written to the results.
+    /// Another program has changed the results.
     #[error("{} cannot be resumed: it has changed since the sweep wrote it", .0.display())]
     Altered(PathBuf),
 }
 
 impl Session {
-    /// Begins to write to `results`, an empty file which [`output::create`] opened at `path`. The
-    /// journal records the time `started`, and in `replaces` that the results are to replace earlier ones.
+    /// Begins to write to `results`, an empty file that [`output::create`] opened at `path`.
+    ///
+    /// The journal records the time `started`, and in `replaces` that the results will replace earlier ones.
     ///
     /// # Errors
     /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file of waiting rows
@@ -124,10 +126,10 @@ impl Session {
     /// Continues the results at `path`.
     ///
     /// # Errors
-    /// - [`ResumeError::Format`] if the name stands for no format
+    /// - [`ResumeError::Format`] if the ending of the name belongs to no format
     /// - [`ResumeError::Create`] if a file cannot be opened
     /// - [`ResumeError::NoJournal`] if there is no journal
-    /// - [`ResumeError::Changed`] if the journal is of other rows
+    /// - [`ResumeError::Changed`] if the journal belongs to other rows
     /// - [`ResumeError::Altered`] if the results have changed since they were written
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
@@ -155,7 +157,7 @@ impl Session {
         };
         cut(&rows_file).map_err(refused)?;
         let journal = Journal::after(&journal_path, journal_bytes).map_err(refused)?;
-        // Computed anew from all rows, checksums are those of a run that was not interrupted.
+        // Checksums computed from all rows equal the checksums of an uninterrupted run.
         let (text, summed) = text_sum(File::open(&rows_path).map_err(refused)?, format);
         summed.map_err(refused)?;
         let rows = TextRows::after(rows_file, format, (hash, bytes), text).map_err(refused)?;
@@ -164,7 +166,7 @@ impl Session {
         Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, unlocked })
     }
 
-    /// A session that writes `rows` for the results at `path`, and their checkpoints to `journal`.
+    /// Returns a session that writes `rows` for the results at `path`, and their checkpoints to `journal`.
     fn new(
         results: File,
         (path, format): (&Path, Format),
@@ -194,17 +196,18 @@ impl Session {
         self.seconds_before += seconds;
     }
 
-    /// Running time so far of all sessions (s).
+    /// Returns the running time of all sessions so far (s).
     pub fn seconds(&self) -> f64 {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// The file that holds the rows until they are complete: not the results themselves for a Parquet file.
+    /// Returns the path of the file that contains the rows until they are complete. For a Parquet file it is not the
+    /// result file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
     }
 
-    /// Adds the last checkpoint, after [`Sink::finish`]; completes the results if the run came to its end.
+    /// Adds the last checkpoint, after [`Sink::finish`]. Completes the results if the run has ended.
     ///
     /// # Errors
     /// - [`io::ErrorKind::Other`] if a file was removed or replaced
@@ -223,17 +226,17 @@ impl Session {
         Ok(())
     }
 
-    /// The checksums of complete results.
+    /// Returns the checksums of complete results.
     pub fn checksums(&self) -> Checksums {
         self.rows.checksums(self.columns.clone())
     }
 
-    /// The results.
+    /// Returns the path of the results.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Makes the rows durable, then adds a checkpoint behind them.
+    /// Makes the rows durable, then adds a checkpoint after them.
     fn note(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
@@ -272,7 +275,7 @@ impl Sink for Session {
     }
 }
 
-/// Writes the rows that wait in `part` to the empty file `results`, and gives its checksums.
+/// Writes the waiting rows in `part` to the empty file `results`, and returns its checksums.
 ///
 /// # Errors
 /// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`

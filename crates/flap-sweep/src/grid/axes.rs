@@ -12,21 +12,20 @@ use super::table::{self, Entry};
 use super::{range, value};
 use crate::plan::axes::{Axis, TooManyPoints, Values};
 
-/// An axis and where it stands in the file.
+/// An axis and its position in the file.
 pub(super) struct Placed {
     pub(super) axis: Axis,
-    /// The key of the axis, or the header of its `[[zip]]`.
+    /// Key of the axis, or header of its `[[zip]]`.
     pub(super) span: Range<usize>,
-    /// The keys of its parameters, in the order of the axis.
+    /// Keys of its parameters, in the order of the axis.
     pub(super) keys: Vec<Range<usize>>,
-    /// True for each of them whose values are written with units, see [`value::has_units`].
+    /// For each parameter, true if its values have units, see [`value::has_units`].
     pub(super) with_units: Vec<Option<bool>>,
 }
 
-/// The axes of the section.
+/// Reads the axes of the section.
 ///
-/// A parameter whose values are wrong still makes an axis, an empty one, so that it takes part in the checks
-/// that follow.
+/// A parameter with wrong values still gives an axis, an empty one, which takes part in later checks.
 pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let mut axes = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -44,12 +43,12 @@ pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Pl
     axes
 }
 
-/// The empty list, in place of values that could not be read.
+/// Returns the empty list, which replaces wrong values.
 pub(super) fn none() -> Values {
     Values::List(Vec::new())
 }
 
-/// The values of one parameter along an axis: a list, or a range. `None`, with a report, if there are none.
+/// Returns the values of one parameter along an axis: a list or a range. `None`, with a report, if there are none.
 pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     match entry.value.get_ref() {
         DeValue::Array(list) if list.is_empty() => {
@@ -80,7 +79,7 @@ pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Pr
     }
 }
 
-/// Reports parameters that more than one axis varies, and axes that would override `[params]`.
+/// Reports parameters that several axes vary, and axes that would override `[params]`.
 pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], lookup: &mut Lookup<'_>) {
     let mut seen: Vec<(usize, Range<usize>)> = Vec::new();
     for placed in axes {
@@ -102,7 +101,7 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
     }
 }
 
-/// Reports that the axes multiply to more points than a plan can have, at the axis that is one too many.
+/// Reports that the axes have more points than a plan can have, at the axis that exceeds the limit.
 pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize>], problems: &mut Problems) {
     let span = spans.get(error.axis).cloned().unwrap_or(0..0);
     let lengths: Vec<String> = error.lengths.iter().map(u64::to_string).collect();
@@ -113,7 +112,7 @@ pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize
         .help("use fewer or shorter axes");
 }
 
-/// One axis per table.
+/// Reads one axis per table.
 pub(super) fn read_zip(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let Some(entry) = entry else {
         return Vec::new();
@@ -134,7 +133,7 @@ pub(super) fn read_zip(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Ve
 
 fn report_not_tables(value: &Spanned<DeValue<'_>>, lookup: &mut Lookup<'_>) {
     let message = match value.get_ref() {
-        DeValue::Table(_) => "`zip` takes double brackets: there may be several".to_owned(),
+        DeValue::Table(_) => "`zip` must have double brackets, because there may be several".to_owned(),
         other => format!("`zip` must be a table of parameters, not {}", table::kind(other)),
     };
     lookup
@@ -155,7 +154,7 @@ fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Opt
     let mut parameters = Vec::new();
     let mut keys: Vec<Range<usize>> = Vec::new();
     let mut with_units = Vec::new();
-    // The first list of values that could be read: the others must be as long.
+    // The first list of values without mistakes. The others must have the same length.
     let mut first: Option<(&Entry<'_>, u64)> = None;
     for entry in &entries {
         let Some((index, parameter)) = lookup.parameter(entry) else {
@@ -177,7 +176,7 @@ fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Opt
 
 fn report_unequal(entry: &Entry<'_>, length: u64, first: &Entry<'_>, wanted: u64, lookup: &mut Lookup<'_>) {
     let message = format!(
-        "`{}` has {length} values but `{}` has {wanted}: parameters that move together need as many each",
+        "`{}` has {length} values but `{}` has {wanted}: parameters that move together must have the same number of values",
         entry.key, first.key
     );
     lookup

@@ -1,4 +1,4 @@
-//! The design that a grid begins with: a preset, or a device with its own `[params]`; and the section `[params]`.
+//! The design at the start of a grid: a preset, or a device with its `[params]`; and the section `[params]`.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -17,33 +17,33 @@ use crate::notation::nearest;
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::{Robot, Source, Value, WithUnits};
 
-/// The keys of a device.
+/// Keys of a device.
 const DEVICE_KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
 
-/// The design that a grid begins with.
+/// The design at the start of a grid.
 pub(super) struct Base {
     pub(super) robot: Robot,
-    /// The preset at the root.
+    /// Preset at the root of the devices.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
-    /// The parameters whose values are written with their units.
+    /// Parameters whose values have units.
     pub(super) with_units: WithUnits,
     pub(super) uncertainty: Uncertainty,
-    /// The devices read, the grid's own first.
+    /// Devices, the grid's own device first.
     pub(super) devices: Vec<Source>,
 }
 
-/// The places that devices are read from.
+/// Source of device files.
 #[derive(Clone, Copy)]
 pub(super) enum DeviceSource<'s> {
     /// The disk.
     Disk,
-    /// Those that results recorded, by their names.
+    /// Devices recorded with results, by name.
     Recorded(&'s [Source]),
 }
 
 impl DeviceSource<'_> {
-    /// The text of a device, or the reason why it cannot be read.
+    /// Returns the text of a device, or the reason why it cannot be read.
     fn text(self, path: &Path) -> Result<String, String> {
         match self {
             DeviceSource::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
@@ -56,7 +56,7 @@ impl DeviceSource<'_> {
     }
 }
 
-/// A reader of devices.
+/// Reader of devices.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'r> {
     pub(super) models: &'r [&'static dyn Simulator],
@@ -64,12 +64,13 @@ pub(super) struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    /// The design that the keys `preset` or `device` at the top of a file name. `None`, with a report, if there is none.
+    /// Returns the design that the keys `preset` or `device` at the top of a file name. `None`, with a report, if
+    /// there is none.
     pub(super) fn base(self, root: &[Entry<'_>], problems: &mut Problems) -> Option<Base> {
         self.of_file(root, &mut Vec::new(), problems)
     }
 
-    /// The same for a file that devices on the way to it are made of.
+    /// Returns the design of a file. `chain` contains the devices that refer to it.
     fn of_file(self, root: &[Entry<'_>], chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         if let Some(description) = table::find(root, "description") {
             value::text("description", description.value, problems);
@@ -90,7 +91,7 @@ impl Reader<'_> {
             problems
                 .report(
                     preset.key_span.clone(),
-                    "a design begins with a preset or with a device, not with both",
+                    "a design starts from a preset or from a device, not from both",
                 )
                 .related(entry.key_span.clone(), "the device")
                 .help("keep one of them: a device names its own preset");
@@ -102,8 +103,8 @@ impl Reader<'_> {
             let names: Vec<String> =
                 chain.iter().chain([&path]).map(|path| path.display().to_string()).collect();
             problems
-                .report(entry.value.span(), format!("the device begins with itself: {}", names.join(" → ")))
-                .help("begin one of them with a preset");
+                .report(entry.value.span(), format!("the device refers to itself: {}", names.join(" → ")))
+                .help("start one of them from a preset");
             return None;
         }
         let text = match self.source.text(&path) {
@@ -126,7 +127,7 @@ impl Reader<'_> {
         Some(base)
     }
 
-    /// The design in the text of a device.
+    /// Returns the design in the text of a device.
     fn device(self, text: &str, chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         let (root, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
@@ -145,7 +146,7 @@ impl Reader<'_> {
 }
 
 impl Base {
-    /// Puts `[params]` and `[[correlation]]` of a file on top.
+    /// Applies `[params]` and `[[correlation]]` of a file.
     pub(super) fn set(
         &mut self,
         root: &[Entry<'_>],
@@ -165,8 +166,9 @@ impl Base {
     }
 }
 
-/// Puts the values of `[params]` into `base`, whether they have units into `with_units`, and their standard errors into `errors`.
-/// Returns which parameters the section names, and where.
+/// Reads `[params]` into `base`, the use of units into `with_units`, and standard errors into `errors`.
+///
+/// Returns the parameters in the section with their positions.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &mut [Value],
@@ -181,7 +183,7 @@ pub(super) fn read(
         };
         report_both_names(parameter, &entry, index, &set, lookup.problems);
         set.push((index, entry.key_span.clone()));
-        // Not a value: the resonance is searched for.
+        // No value: the resonance is computed later.
         if resonance::is_asked_for(&entry) {
             continue;
         }
@@ -212,7 +214,7 @@ fn report_both_names(
 
 type Chosen = (&'static dyn Simulator, &'static Preset);
 
-/// The preset that the file names, with its model.
+/// Returns the preset that the file names, and its model.
 pub(super) fn read_preset(
     root: &[Entry<'_>],
     models: &[&'static dyn Simulator],
@@ -222,7 +224,7 @@ pub(super) fn read_preset(
         models.iter().flat_map(|model| model.presets().iter().map(|preset| (*model, preset))).collect();
     let Some(entry) = table::find(root, "preset") else {
         if root.iter().any(|entry| is_slip(entry.key)) {
-            // The unknown key is reported, with the one that was meant.
+            // The misspelt key is reported elsewhere, with the correct one.
             return None;
         }
         let message = if root.is_empty() { "the file is empty" } else { "`preset` is missing" };
@@ -244,7 +246,7 @@ pub(super) fn read_preset(
     chosen
 }
 
-/// True if a key at the top of the file is a slip for one that says what to start from.
+/// Returns true if a key at the top of the file is a misspelling of `preset` or `device`.
 fn is_slip(key: &str) -> bool {
     let meant = nearest(key, table::KEYS).filter(|_| !table::KEYS.contains(&key));
     meant.is_some_and(|meant| ["preset", "device"].contains(&meant))

@@ -1,4 +1,4 @@
-//! Mistakes in a grid file: their places, their causes and their remedies.
+//! Mistakes in a grid file: their positions, causes and remedies.
 
 use std::fmt;
 use std::ops::{Deref, Range};
@@ -13,35 +13,35 @@ use crate::plan::Source;
 /// One mistake in a grid file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// The file the mistake is in.
+    /// File with the mistake.
     pub source: Arc<Source>,
-    /// The mistake, in one line.
+    /// Description of the mistake in one line.
     pub message: String,
-    /// Bytes of the source at fault. May be empty where something is missing.
+    /// Bytes of the source with the mistake. Empty if something is missing.
     pub span: Range<usize>,
-    /// A few words to print at the span; may be empty.
+    /// A few words at the span. May be empty.
     pub label: String,
-    /// Other places that have to do with it.
+    /// Related positions.
     pub related: Vec<Related>,
-    /// The values or forms that are allowed.
+    /// Allowed values or forms.
     pub notes: Vec<String>,
     /// Advice.
     pub help: Vec<String>,
-    /// True if it is counted and not shown: then it needs no help.
+    /// True if the mistake is counted but not shown. It needs no help.
     pub(crate) is_only_counted: bool,
 }
 
-/// A second place that a diagnostic is about.
+/// A second position of a diagnostic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Related {
     /// Bytes of the source.
     pub span: Range<usize>,
-    /// A few words to print there.
+    /// A few words at this position.
     pub label: String,
 }
 
 impl Diagnostic {
-    /// A diagnostic that has only a message, to be filled in with the methods below.
+    /// Returns a diagnostic with a message only. Use the methods below to complete it.
     pub(crate) fn new(source: Arc<Source>, span: Range<usize>, message: &str) -> Diagnostic {
         Diagnostic {
             source,
@@ -61,13 +61,13 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a second place.
+    /// Adds a second position.
     pub(crate) fn related(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Diagnostic {
         self.related.push(Related { span, label: label.into() });
         self
     }
 
-    /// Adds a line about the values or forms that are allowed.
+    /// Adds a line about allowed values or forms.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
         self.notes.push(shortened(&note.into()).into_owned());
         self
@@ -79,7 +79,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds the nearest of `names` if `name` resembles one.
+    /// Adds the nearest of `names` if `name` resembles it.
     pub(crate) fn did_you_mean<'n>(
         &mut self,
         name: &str,
@@ -93,18 +93,18 @@ impl Diagnostic {
         self
     }
 
-    /// Line of the start of the span, from 1.
+    /// Returns the line of the span's start, from 1.
     pub fn line(&self) -> usize {
         position(&self.source.text, self.span.start).0
     }
 
-    /// Column of the start of the span in characters, from 1.
+    /// Returns the column of the span's start in characters, from 1.
     pub fn column(&self) -> usize {
         position(&self.source.text, self.span.start).1
     }
 }
 
-/// `grid.toml:3:13: message`, on one line.
+/// Prints the mistake on one line: `grid.toml:3:13: message`.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: {}", self.source.name, self.line(), self.column(), self.message)
@@ -113,7 +113,8 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
-/// The mistakes in a grid file: the first [`Mistakes::MOST_SHOWN`] in the order of the file, and the number of the others.
+/// The mistakes in a grid file: the first [`Mistakes::MOST_SHOWN`] in the order of the file, and the number of
+/// further mistakes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mistakes {
     shown: Vec<Diagnostic>,
@@ -121,28 +122,29 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// The most mistakes that are shown. A file with more usually has one mistake many times.
+    /// Largest number of mistakes that are shown. A file with more of them usually repeats one mistake.
     pub const MOST_SHOWN: usize = 20;
 
-    /// The first ones of `found`, which is in the order of the file; `more` others were found, too.
+    /// Returns the first mistakes of `found`, which is in the order of the file, and the number `more` of further
+    /// mistakes.
     pub(crate) fn new(mut found: Vec<Diagnostic>, more: usize) -> Mistakes {
         let more = more + found.len().saturating_sub(Mistakes::MOST_SHOWN);
         found.truncate(Mistakes::MOST_SHOWN);
         Mistakes { shown: found, more }
     }
 
-    /// Mistakes that are not shown.
+    /// Returns the number of mistakes that are not shown.
     pub fn more(&self) -> usize {
         self.more
     }
 
-    /// All mistakes, shown or not.
+    /// Returns the number of all mistakes.
     pub fn count(&self) -> usize {
         self.shown.len() + self.more
     }
 }
 
-/// The mistakes that are shown.
+/// The shown mistakes.
 impl Deref for Mistakes {
     type Target = [Diagnostic];
 
@@ -151,8 +153,9 @@ impl Deref for Mistakes {
     }
 }
 
-/// The text of the `mistakes` that are shown, with the lines of the grid file that they are about, and the number of the
-/// others; with colours if `styled`.
+/// Returns the text of the shown `mistakes` with their lines of the grid file, and the number of further mistakes.
+///
+/// The text has colours if `styled` is true.
 pub fn render(mistakes: &Mistakes, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
     let text: String =

@@ -1,9 +1,9 @@
-//! Names of earlier versions in a grid file.
+//! Former names of parameters in a grid file.
 
 use flap_core::parameter::Parameter;
 use toml::de::{DeTable, DeValue};
 
-/// The parameters that the grid calls by their former names, in keys, lists and expressions.
+/// Returns the parameters that the grid calls by former names, in keys, lists and expressions.
 pub(super) fn used(
     root: &DeTable<'_>,
     parameters: &'static [Parameter<'static>],
@@ -14,7 +14,7 @@ pub(super) fn used(
     parameters.iter().filter(|parameter| !parameter.former.is_empty()).filter(is_used).collect()
 }
 
-/// Keys, and the words of texts.
+/// Collects keys and the words of texts.
 fn collect<'t>(table: &'t DeTable<'_>, words: &mut Vec<&'t str>) {
     for (key, value) in table {
         words.push(key.get_ref());

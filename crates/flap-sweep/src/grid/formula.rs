@@ -1,4 +1,4 @@
-//! Expressions in a grid file and the names that they may use: the sections `[derived]`, `[where]` and `[measure]`.
+//! Expressions in a grid file and their names: the sections `[derived]`, `[where]` and `[measure]`.
 
 use std::ops::Range;
 
@@ -19,34 +19,34 @@ use crate::plan::Value;
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::table::layout::is_fixed;
 
-/// The prefix of a parameter's name that stands for its value in the preset.
+/// Prefix of a parameter's name for its value in the preset.
 const PRESET: &str = "preset.";
 
-/// The prefix that stands for its value in the device.
+/// Prefix of a parameter's name for its value in the device.
 const DEVICE: &str = "device.";
 
-/// The others that a drive frequency follows that is to be the resonance.
+/// Description of a drive frequency that follows the resonance.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
-/// The names of parameters, of their values in the preset, and of measures. Values stand in this order: the
-/// parameters, the model's measures, the user's own.
+/// Names of parameters, of their values in the preset, and of measures. Values have this order: parameters, the
+/// model's measures, the user's measures.
 pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
-    /// The values of the preset.
+    /// Values of the preset.
     pub(super) preset: Vec<Value>,
-    /// The values of the device, if the grid begins with one.
+    /// Values of the device, if the grid starts from one.
     pub(super) device: Option<Vec<Value>>,
-    /// For each parameter without a value of its own, the others that it follows.
+    /// For each parameter without its own value, description of the parameters that it follows.
     pub(super) unset: Vec<Option<&'static str>>,
-    /// The model's measures, without the user's own.
+    /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
-    /// True if the model's measures may be used: not before a point is run.
+    /// True if the model's measures are allowed. They are unknown before a point is run.
     pub(super) are_measured: bool,
-    /// The user's own measures that may be used.
+    /// User's measures that are allowed.
     pub(super) own: Vec<OwnMeasure>,
 }
 
-/// The others that a parameter follows, in words, if it has no value of its own.
+/// Returns the description of the parameters that a parameter follows, if it has no own value.
 pub(super) fn followed(value: Value) -> Option<&'static str> {
     match value {
         Value::Given(_) => None,
@@ -60,7 +60,8 @@ impl Names<'_> {
         Parameter::index(self.parameters, name)
     }
 
-    /// The parameter whose value one has: a wing's own that is not set has that of all wings.
+    /// Returns the index of the parameter whose value this one has: an unset parameter of one wing has the value of
+    /// all wings.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
         shared.unwrap_or(index)
@@ -75,7 +76,7 @@ impl Names<'_> {
         }
     }
 
-    /// The meaning of a parameter's value in a design that does not change: the preset or the device.
+    /// Returns the meaning of a parameter's value in a fixed design: the preset or the device.
     fn of_fixed(&self, design: &[Value], index: usize) -> Option<Meaning> {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
@@ -129,8 +130,10 @@ impl Scope for Names<'_> {
     }
 }
 
-/// The expression that `entry` holds, which must be of the kind `wanted` and known before points are run. `None`, with
-/// reports, if it is not.
+/// Returns the expression of `entry`. It must be of the kind `wanted`, and its value must be known before points are
+/// run.
+///
+/// `None`, with reports, if there are mistakes.
 pub(super) fn read(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -151,16 +154,16 @@ pub(super) fn read(
             && names.columns.iter().any(|column| column.name == *name)
         {
             diagnostic.help.clear();
-            diagnostic.help("it is measured when a point has run: only [measure] can use it");
+            diagnostic.help("its value is known only after a point has run: use it in [measure]");
         }
     }
     None
 }
 
-/// The expression that `entry` holds; `None`, with a report, if it holds something else.
+/// Returns the expression of `entry`; `None`, with a report, if it is not text.
 ///
 /// # Errors
-/// The mistakes in the expression, not reported yet.
+/// Mistakes in the expression, which are not reported yet.
 pub(super) fn check(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -176,7 +179,7 @@ pub(super) fn check(
     Ok(None)
 }
 
-/// Reports a mistake in the expression of `entry`, at its place in the file.
+/// Reports a mistake in the expression of `entry`, at its position in the file.
 pub(super) fn report<'p>(
     entry: &Entry<'_>,
     error: &ExpressionError,
@@ -191,16 +194,16 @@ pub(super) fn report<'p>(
     diagnostic
 }
 
-/// A parameter that is set, and where.
+/// A parameter that is set, and its position.
 pub(super) type Place = (usize, Range<usize>);
 
-/// An entry of the section that is about a parameter.
+/// An entry of the section for a parameter.
 pub(super) struct Draft<'t> {
     pub(super) parameter: usize,
     entry: Entry<'t>,
 }
 
-/// The parameters that the section names, with their entries.
+/// Returns the parameters in the section, with their entries.
 pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> Vec<Draft<'t>> {
     let mut drafts = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -219,7 +222,7 @@ pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<
     drafts
 }
 
-/// Reports derived parameters that are varied as well, or `set` in the way that goes before each list.
+/// Reports derived parameters that are also varied, or set in the way that each list of `set` names.
 pub(super) fn report_derived_twice(
     drafts: &[Draft<'_>],
     axes: &[Placed],
@@ -241,7 +244,7 @@ pub(super) fn report_derived_twice(
     }
 }
 
-/// The expressions of the section, in an order in which they can be computed.
+/// Returns the expressions of the section, in an order in which they can be computed.
 pub(super) fn read_derived(drafts: &[Draft<'_>], names: &Names<'_>, problems: &mut Problems) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
@@ -260,7 +263,7 @@ pub(super) fn read_derived(drafts: &[Draft<'_>], names: &Names<'_>, problems: &m
     Derived::new(formulas, order)
 }
 
-/// Places of the formulas that `expression` reads.
+/// Returns the positions of the formulas that `expression` depends on.
 fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize> {
     expression
         .reads()
@@ -268,7 +271,8 @@ fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize
         .collect()
 }
 
-/// Every formula behind those that it needs. Those in cycles, and those that need them, are left out.
+/// Returns the formulas ordered so that each follows its dependencies. Formulas in cycles, and formulas that depend
+/// on them, are left out.
 fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
     let mut waiting: Vec<usize> = (0..needs.len()).collect();
@@ -283,11 +287,11 @@ fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     }
 }
 
-/// Reports formulas that need themselves, each cycle once. `order` has the formulas that do not.
+/// Reports formulas that depend on themselves, each cycle once. `order` contains the other formulas.
 fn report_cycles(needs: &[Vec<usize>], order: &[usize], entries: &[&Entry<'_>], problems: &mut Problems) {
     let mut visited: Vec<usize> = order.to_vec();
     for start in 0..needs.len() {
-        // From formula to formula, until there is one that was met before: on this way, or on an earlier one.
+        // Follows dependencies from formula to formula until one repeats: in this path or an earlier one.
         let mut way: Vec<usize> = Vec::new();
         let mut next = Some(start);
         while let Some(place) = next.filter(|place| !visited.contains(place)) {
@@ -305,13 +309,13 @@ fn report_cycles(needs: &[Vec<usize>], order: &[usize], entries: &[&Entry<'_>], 
         let diagnostic = problems
             .report(first.key_span.clone(), format!("`{}` is derived from itself: {path}", first.key));
         for &place in &cycle[1..] {
-            diagnostic.related(entries[place].key_span.clone(), "by way of this");
+            diagnostic.related(entries[place].key_span.clone(), "through this");
         }
         diagnostic.help("use `preset.` for the value in the preset, or set one of them under [params]");
     }
 }
 
-/// The conditions of the section, in the order of the file.
+/// Returns the conditions of the section, in the order of the file.
 pub(super) fn read_conditions(
     entry: Option<&Entry<'_>>,
     names: &Names<'_>,
@@ -326,9 +330,9 @@ pub(super) fn read_conditions(
     conditions
 }
 
-/// Puts the measures of the section into `names`, one by one: each may use those above it.
+/// Adds the measures of the section to `names`, one by one. Each may use the measures above it.
 ///
-/// Returns the names that measures may have, also those of measures whose expressions are wrong.
+/// Returns the names of all measures, including measures with wrong expressions.
 pub(super) fn read_measures(
     entry: Option<&Entry<'_>>,
     names: &mut Names<'_>,
@@ -351,14 +355,14 @@ pub(super) fn read_measures(
                         }
                         _ => None,
                     };
-                    // The mistakes in a measure above are reported there.
+                    // The mistake in the earlier measure is reported there.
                     if unknown.is_some_and(|unknown| unknown < place) {
                         continue;
                     }
                     let diagnostic = report(entry, &error, problems);
                     if unknown.is_some() {
                         diagnostic.help.clear();
-                        diagnostic.help("a measure can use only measures above it");
+                        diagnostic.help("a measure can use only the measures above it");
                     }
                 }
             }
@@ -368,7 +372,7 @@ pub(super) fn read_measures(
     sound.map(|entry| entry.key.to_owned()).collect()
 }
 
-/// True if a column may be called `name`, and be used in expressions.
+/// Checks that `name` is allowed for a column and in expressions.
 fn name_is_sound(name: &str, names: &Names<'_>) -> bool {
     expression::is_free_name(name)
         && !is_fixed(name)

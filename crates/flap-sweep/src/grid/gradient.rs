@@ -1,4 +1,4 @@
-//! The section `[gradient]`: columns with the derivatives of measures by parameters.
+//! Section `[gradient]`: columns with the derivatives of measures by parameters.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
@@ -15,8 +15,8 @@ use crate::plan::gradient::{Gradient, Per, check};
 
 pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
-/// The derivatives that the section asks for. `names` has the measures of rows, and `derived` the parameters that others
-/// decide.
+/// Returns the derivatives in the section. `names` contains the measures of rows, and `derived` the derived
+/// parameters.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     simulator: &dyn Simulator,
@@ -31,7 +31,7 @@ pub(super) fn read(
     if at_resonance {
         problems
             .report(entry.key_span.clone(), "rows at the resonance of each design have no derivatives")
-            .note("the resonance moves with the design, and flap does not know how")
+            .note("the resonance changes with the design, and flap does not compute this change")
             .help("set drive_frequency, or remove [gradient]");
     }
     if let Err(error) = simulator.gradients() {
@@ -52,7 +52,7 @@ pub(super) fn read(
     Some(Gradient { of, with_respect_to, per: Per::Cent })
 }
 
-/// The indices of the names in a list, which `index` finds or reports.
+/// Returns the indices of the names in a list. `index` finds each name or reports it.
 fn listed(
     entry: &Entry<'_>,
     problems: &mut Problems,
@@ -77,7 +77,7 @@ fn listed(
     indices
 }
 
-/// The index of a measure: the model's columns, then the user's own.
+/// Returns the index of a measure: the model's columns come first, then the user's measures.
 fn measure(
     name: &str,
     item: &Spanned<DeValue<'_>>,
@@ -101,7 +101,7 @@ fn measure(
     Some(index)
 }
 
-/// The index of a parameter whose share can change.
+/// Returns the index of a parameter whose share can change.
 fn parameter(
     name: &str,
     item: &Spanned<DeValue<'_>>,

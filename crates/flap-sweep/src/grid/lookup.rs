@@ -1,4 +1,4 @@
-//! Parameters by name, and the reasons why a vehicle lacks some.
+//! Look-up of parameters by name, and the reasons for parameters that a vehicle lacks.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use flap_core::vehicle::{DIFFERENCE, Vehicle, of_all_wings};
 use super::problems::Problems;
 use super::table::Entry;
 
-/// The model in which parameters are looked up, and the list in which unknown ones are reported.
+/// Model whose parameters are looked up, and the list for reports of unknown parameters.
 pub(super) struct Lookup<'l> {
     pub(super) simulator: &'l dyn Simulator,
     pub(super) models: &'l [&'static dyn Simulator],
@@ -17,7 +17,7 @@ pub(super) struct Lookup<'l> {
 }
 
 impl<'l> Lookup<'l> {
-    /// The parameter called `name`, with its index; a name that is not known is reported at `span`.
+    /// Returns the parameter called `name` and its index. An unknown name is reported at `span`.
     pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'l Parameter<'l>)> {
         let known = self.simulator.parameters();
         let found = Parameter::index(known, name).map(|index| (index, &known[index]));
@@ -27,7 +27,7 @@ impl<'l> Lookup<'l> {
         found
     }
 
-    /// The parameter that `entry` is for, with its index.
+    /// Returns the parameter of `entry` and its index.
     pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'l Parameter<'l>)> {
         self.named(entry.key, entry.key_span.clone())
     }
@@ -58,22 +58,23 @@ impl<'l> Lookup<'l> {
         }
     }
 
-    /// The name of parameter number `index`.
+    /// Returns the name of parameter number `index`.
     pub(super) fn name(&self, index: usize) -> &'l str {
         self.simulator.parameters()[index].name
     }
 }
 
-/// The reason why a vehicle with these parameters has none called `name`, where the name says what was meant: a choice or the
-/// frequency of one wing, a difference of wings of one side, a phase. `None` if these are not the parameters of a vehicle.
+/// Returns the reason why a vehicle with these parameters has none called `name`, if the name shows the intention.
+///
+/// The name may be a choice or the frequency of one wing, a difference of wings on one side, or a phase. `None` if
+/// the parameters do not belong to a vehicle.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
         return None;
     }
     if is_phase(parameters, name) {
         return Some(
-            "a drive has no phase of its own: the phase between wings changes no mean force or torque"
-                .to_owned(),
+            "you cannot set a phase between wings: it would not change any mean force or torque".to_owned(),
         );
     }
     parameters.iter().enumerate().find_map(|(index, known)| {
@@ -84,7 +85,7 @@ pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
         }
         let has_own = (0..parameters.len()).any(|own| of_all_wings(parameters, own) == Some(index));
         (first == DIFFERENCE && has_own).then(|| {
-            "a left-right difference needs wings on both sides: some with mirrored = true, and some without"
+            "a left-right difference requires wings on both sides: some with mirrored = true, and some without"
                 .to_owned()
         })
     })
@@ -94,7 +95,7 @@ fn is_wing(parameters: &[Parameter], name: &str) -> bool {
     parameters.iter().any(|known| known.name.strip_suffix("_position_x") == Some(name))
 }
 
-/// True if the name is that of a drive's phase: of all wings, of one, or of a difference.
+/// Returns true if the name is the phase of a drive: of all wings, of one wing, or of a difference.
 fn is_phase(parameters: &[Parameter], name: &str) -> bool {
     let Some(first) = name.strip_suffix("phase_difference").or(name.strip_suffix("phase")) else {
         return false;

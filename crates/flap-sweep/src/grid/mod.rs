@@ -1,6 +1,6 @@
-//! Grid files: from text to a [`Plan`](crate::plan::Plan), or to all mistakes in the text.
+//! Grid files: from text to a [`Plan`](crate::plan::Plan), or to a list of all mistakes in the text.
 //!
-//! Each part of the file has its own module below; all report mistakes into one list, so that one check finds all
+//! Each part of the file has its own module. All modules report mistakes into one list, so one check finds all
 //! mistakes of a file. See `docs/reference/grid.md` for the format.
 
 mod axes;

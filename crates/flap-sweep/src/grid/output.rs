@@ -1,4 +1,4 @@
-//! The section `[output]`: the file that rows go to, and its columns.
+//! Section `[output]`: the file for rows, and its columns.
 
 use std::path::PathBuf;
 
@@ -16,10 +16,10 @@ use crate::table::layout::{POINT, RUN, STATUS};
 
 pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 
-/// A model, and the names of the columns that rows measure, the user's own included.
+/// A model, and the names of the measured columns, including the user's measures.
 type Measured<'m> = (&'m dyn Simulator, &'m [String]);
 
-/// The section; column names are checked only if the model is known.
+/// Reads the section. Column names are checked only if the model is known.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     model: Option<Measured<'_>>,
@@ -35,7 +35,7 @@ pub(super) fn read(
     Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
 }
 
-/// The file that rows go to, or `-` for stdout.
+/// Returns the file for rows, or `-` for stdout.
 fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
     let path = PathBuf::from(value::text("path", entry.value, problems)?);
     if path.as_os_str() != "-"
@@ -46,7 +46,7 @@ fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
     Some(path)
 }
 
-/// The indices of the columns that `value` lists.
+/// Returns the indices of the columns that `value` lists.
 fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Vec<usize> {
     let list = value.get_ref().as_array().filter(|list| !list.is_empty());
     let Some(list) = list else {
@@ -76,7 +76,7 @@ fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut 
     chosen.into_iter().map(|(index, _)| index).collect()
 }
 
-/// The names of the columns that can be chosen: measures, then those on the course of a run.
+/// Returns the names of the columns that can be chosen: measures, then columns about the run.
 fn names(measures: &[String]) -> impl Iterator<Item = &str> {
     measures.iter().map(String::as_str).chain(RUN.iter().map(|column| column.name))
 }
@@ -96,7 +96,7 @@ fn report_unknown(
     if Parameter::index(model.parameters(), name).is_some() {
         problems
             .report(item.span(), format!("`{name}` is a parameter, not a measure"))
-            .note("rows have all varied and derived parameters")
+            .note("rows contain all varied and derived parameters")
             .help(format!("remove `{name}`"));
         return;
     }

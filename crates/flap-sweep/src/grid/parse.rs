@@ -1,4 +1,4 @@
-//! The whole of a grid file, from a path or from its text.
+//! Reading of whole grid files, from a path or from text.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,18 +23,18 @@ use crate::plan::formula::{Condition, Derived};
 use crate::plan::{Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
-/// Checks the grid file `text` and makes its plan. Presets are looked up in `models`; `name` is for messages.
+/// Checks the grid file `text` and returns its plan. Presets are looked up in `models`; `name` appears in messages.
 ///
 /// # Errors
-/// The mistakes found, in the order of the file. A file that is not TOML is reported for that alone.
+/// The mistakes, in the order of the file. For a file that is not TOML, only syntax errors are reported.
 pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
     plan(name, text, Reader { models, source: DeviceSource::Disk })
 }
 
-/// The same for a grid that results recorded, with the devices that they recorded in place of files.
+/// Returns the plan of a grid that was recorded with results, with the recorded devices in place of files.
 ///
 /// # Errors
-/// The mistakes found, in the order of the file.
+/// The mistakes, in the order of the file.
 pub fn parse_recorded(
     name: &str,
     text: &str,
@@ -61,7 +61,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     report_unknown_keys(&root, model, &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
     let output_entry = table::find(&root, "output");
-    // Without a model there are no parameters and columns to check against.
+    // Without a model, parameters and columns cannot be checked.
     let Some(base) = base else {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
@@ -109,7 +109,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     }))
 }
 
-/// The sections of a grid file about its points.
+/// Sections of a grid file about its points.
 struct Points<'n> {
     base: Base,
     axes: Vec<axes::Placed>,
@@ -117,12 +117,12 @@ struct Points<'n> {
     resonance: Option<AtResonance>,
     derived: Derived,
     conditions: Vec<Condition>,
-    /// Parameters of all wings that the grid sets, and that each wing has of its own.
+    /// Parameters of all wings that the grid sets, although each wing has its own value.
     unreached: Vec<&'static Parameter<'static>>,
     names: Names<'n>,
 }
 
-/// The sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
+/// Reads the sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
 fn read_points<'n>(
     root: &[Entry<'_>],
     mut base: Base,
@@ -184,8 +184,9 @@ fn read_points<'n>(
     Points { base, axes, sample_file, resonance, derived, conditions, unreached, names }
 }
 
-/// The values of parameters that are not sampled, which are the means of normal distributions that name none. A wing's own
-/// parameter that is not set has the value of all wings, unless an axis varies that.
+/// Returns the values of parameters that are not sampled. They are the default means of normal distributions.
+///
+/// An unset parameter of one wing has the value of all wings, unless an axis varies this value.
 fn means(base: &Base, simulator: &dyn Simulator, axes: &[axes::Placed]) -> Vec<Value> {
     let is_varied = |parameter: usize| {
         axes.iter().flat_map(|placed| placed.axis.parameters()).any(|(varied, _)| *varied == parameter)
@@ -210,28 +211,28 @@ fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>
     }
 }
 
-/// The reason why there is no plan.
+/// Reason for a missing plan.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// The file has no text to be used.
+    /// The file cannot be read as text.
     #[error("{}", placed(path, error))]
     Input {
-        /// The path as given.
+        /// Path of the file.
         path: PathBuf,
         /// The reason.
         #[source]
         error: InputError,
     },
-    /// The file holds results.
-    #[error("{}: this looks like results, not like a grid file", .0.display())]
+    /// The file contains results.
+    #[error("{} contains results and is not a grid file", .0.display())]
     Results(PathBuf),
-    /// The text is not a proper grid: the mistakes, in the order of the file.
+    /// The text is not a valid grid. Contains the mistakes, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Grid(Mistakes),
 }
 
 impl ReadError {
-    /// Advice, if there is any.
+    /// Returns advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match self {
             ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
@@ -243,7 +244,7 @@ impl ReadError {
     }
 }
 
-/// The reason with the path, and with line and column behind it as terminals link to them.
+/// Returns the reason with the path, line and column, in the form that terminals turn into links.
 fn placed(path: &Path, error: &InputError) -> String {
     let path = path.display();
     match error {
@@ -262,20 +263,21 @@ fn one_per_line(mistakes: &Mistakes) -> String {
     lines.join("\n")
 }
 
-/// Reads the grid file at `path` and makes its plan, with the presets of all models.
+/// Reads the grid file at `path` and returns its plan, with the presets of `models`.
 ///
 /// # Errors
-/// If the file cannot be read, or there are mistakes in it.
+/// If the file cannot be read or has mistakes.
 pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
     let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
     read_from(file, path, models)
 }
 
-/// Reads a grid from a stream, such as stdin, and makes its plan, with the presets of all models. `name` stands for the
-/// stream in messages and in the sidecar of rows. Files that the grid names are relative to the folder of `name`.
+/// Reads a grid from a stream, such as stdin, and returns its plan, with the presets of `models`.
+///
+/// `name` represents the stream in messages and in sidecars. Paths in the grid are relative to the folder of `name`.
 ///
 /// # Errors
-/// If the stream cannot be read, or there are mistakes in the grid.
+/// If the stream cannot be read or the grid has mistakes.
 pub fn read_from(
     source: impl io::Read,
     name: &Path,
@@ -290,7 +292,7 @@ pub fn read_from(
     parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
-/// True if a file that begins with these bytes is compressed, Parquet, or has the header of results.
+/// Returns true if a file with these first bytes is compressed, Parquet, or has the header of results.
 fn looks_like_results(bytes: &[u8]) -> bool {
     const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The mistakes found so far, and those of TOML's syntax.
+//! The mistakes found so far, and mistakes of TOML syntax.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -8,15 +8,15 @@ use std::sync::Arc;
 use super::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
 
-/// Diagnostics that are kept. Others are only counted, so that a file with millions of mistakes takes neither time nor memory
-/// for mistakes that are not shown.
+/// Largest number of stored diagnostics. Further ones are counted, so that a file with millions of mistakes takes
+/// little time and memory.
 const MOST_KEPT: usize = 1000;
 
-/// Collects diagnostics about one file.
+/// Collector of diagnostics about one file.
 pub(super) struct Problems {
     source: Arc<Source>,
     found: Vec<Diagnostic>,
-    /// The last of those that are only counted.
+    /// Last diagnostic that was counted but not stored.
     last: Option<Diagnostic>,
     only_counted: usize,
 }
@@ -26,7 +26,7 @@ impl Problems {
         Problems { source, found: Vec::new(), last: None, only_counted: 0 }
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub(super) fn text(&self) -> &str {
         &self.source.text
     }
@@ -35,7 +35,7 @@ impl Problems {
         self.found.is_empty()
     }
 
-    /// Number of mistakes.
+    /// Returns the number of mistakes.
     pub(super) fn count(&self) -> usize {
         self.found.len() + self.only_counted
     }
@@ -48,12 +48,12 @@ impl Problems {
         }
     }
 
-    /// Adds a diagnostic, and hands it back for labels, notes and help.
+    /// Adds a diagnostic, and returns it for labels, notes and help.
     pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
         self.add(Diagnostic::new(Arc::clone(&self.source), span, &message.into()))
     }
 
-    /// Adds a diagnostic about another file.
+    /// Adds a diagnostic about another file, and returns it.
     pub(super) fn report_in(
         &mut self,
         source: &Arc<Source>,
@@ -63,7 +63,7 @@ impl Problems {
         self.add(Diagnostic::new(Arc::clone(source), span, &message.into()))
     }
 
-    /// The mistake that was reported last, for more help.
+    /// Returns the last mistake, for more help.
     pub(super) fn newest(&mut self) -> Option<&mut Diagnostic> {
         self.last.as_mut().or(self.found.last_mut())
     }
@@ -78,12 +78,12 @@ impl Problems {
         &mut self.found[place]
     }
 
-    /// The path of a file that the grid file names: relative to the folder of the grid file.
+    /// Returns the path of a file that the grid file names, relative to the folder of the grid file.
     pub(super) fn beside(&self, path: &str) -> PathBuf {
         Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// All diagnostics, in the order of the file, then those about other files.
+    /// Returns all diagnostics: in the order of the file, then about other files.
     pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found
@@ -92,7 +92,7 @@ impl Problems {
     }
 }
 
-/// Reports the errors of the TOML parser: one per line, since one slip makes several.
+/// Reports the errors of the TOML parser, at most one per line, because one slip often causes several.
 pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems) {
     let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
     let mut lines = HashSet::new();
@@ -111,9 +111,9 @@ pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems)
     }
 }
 
-/// The parser's message about `text` in the words of someone who writes grid files, and advice.
+/// Returns a clearer form of the parser's message about `text`, and advice.
 ///
-/// Other messages pass through as they are.
+/// Other messages are returned unchanged.
 fn explain(message: &str, text: &str) -> (String, Option<String>) {
     let said = |begins: &str| message.starts_with(begins);
     if message == "duplicate key" {

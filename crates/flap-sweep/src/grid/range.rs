@@ -11,7 +11,7 @@ use crate::plan::axes::{Axes, Values};
 pub(super) const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
-/// A `to` that the steps miss by less than this fraction of a step counts as hit: 0.1 is no binary fraction.
+/// Tolerance for steps that should end at `to`, as a fraction of a step: 0.1 is not exact in binary.
 const HIT: f64 = 1e-9;
 
 /// The two ends, with their entries for messages.
@@ -22,15 +22,15 @@ struct Ends<'e, 't> {
     to_entry: &'e Entry<'t>,
 }
 
-/// The spacing of the values between the ends, with the entry for messages.
+/// Spacing of the values between the ends, with its entry for messages.
 enum Spacing<'e, 't> {
-    /// Their number.
+    /// Number of values.
     Count(&'e Entry<'t>, u64),
-    /// Their distance.
+    /// Distance between values.
     Step(&'e Entry<'t>, f64),
 }
 
-/// The values of a range. `None`, with a report, if it makes no sense.
+/// Returns the values of a range. `None`, with a report, if there are mistakes.
 pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     let DeValue::Table(table) = axis.value.get_ref() else {
         return None;
@@ -39,7 +39,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
         return None;
     }
     let entries = table::entries(table);
-    // With a misspelt key, what seems to be missing is not.
+    // If a key is misspelt, the report of a missing key would be misleading.
     let complain = table::check_keys(&entries, &KEYS, "in a range", problems);
     let from = end(parameter, "from", &entries, problems);
     let to = end(parameter, "to", &entries, problems);
@@ -72,7 +72,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     }
 }
 
-/// `from` or `to`, with its entry.
+/// Returns `from` or `to`, with its entry.
 fn end<'e, 't>(
     parameter: &Parameter,
     key: &str,
@@ -84,7 +84,7 @@ fn end<'e, 't>(
     Some((value, entry))
 }
 
-/// `n` or `step`, with its entry.
+/// Returns `n` or `step`, with its entry.
 fn spacing<'e, 't>(
     parameter: &Parameter,
     entries: &'e [Entry<'t>],
@@ -108,7 +108,7 @@ fn spacing<'e, 't>(
     Some(Spacing::Step(entry, size))
 }
 
-/// The keys without which there is no range, in words; empty if all are there.
+/// Returns the missing keys in words; empty if none is missing.
 fn missing_keys(entries: &[Entry<'_>]) -> String {
     let has = |key: &str| table::find(entries, key).is_some();
     let keys = [
@@ -120,7 +120,7 @@ fn missing_keys(entries: &[Entry<'_>]) -> String {
     missing.join(", ")
 }
 
-/// `count` values from end to end.
+/// Returns `count` values from end to end.
 fn counted(
     ends: &Ends<'_, '_>,
     n: &Entry<'_>,
@@ -152,7 +152,7 @@ fn counted(
     if is_log {
         return Some(Values::Log { from, to, count });
     }
-    // The largest number met on the way to a value between the ends.
+    // Largest number in the computation of the values between the ends.
     if !((to - from) * count as f64).is_finite() {
         report_too_wide(ends, problems);
         return None;
@@ -196,7 +196,7 @@ fn report_too_wide(ends: &Ends<'_, '_>, problems: &mut Problems) {
         .related(ends.from_entry.value.span(), "from here");
 }
 
-/// Values `step` apart.
+/// Returns values at distances of `step`.
 fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Problems) -> Option<Values> {
     let Ends { from, to, .. } = *ends;
     if step == 0.0 {
@@ -224,7 +224,7 @@ fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Pro
         problems.report(entry.value.span(), "the range has more than 2^63 values").help("use a larger step");
         return None;
     }
-    // A float below 2^63 that is whole and not negative.
+    // A whole number that is not negative and less than 2^63.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked just above")]
     let count = whole as u64 + 1;
     let hits_end = (steps - whole).abs() <= HIT;

@@ -1,4 +1,4 @@
-//! `drive_frequency = "resonance"`, and the section `[resonance]`: each design at its own resonance.
+//! `drive_frequency = "resonance"` and the section `[resonance]`: each design at its own resonance.
 
 use flap_core::simulate::Simulator;
 use toml::Spanned;
@@ -12,15 +12,16 @@ use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// The word for a drive frequency that is to be the resonance.
+/// Value of a drive frequency that follows the resonance.
 pub(super) const WORD: &str = "resonance";
 
-/// True if this sets the drive frequency to the resonance.
+/// Returns true if `entry` sets the drive frequency to the resonance.
 pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
-/// The resonances to run at, if `[params]` ask for them: the drive frequency of `base` is then [`Value::Resonance`].
+/// Returns the search for resonances, if `[params]` requests it. The drive frequency of `base` is then
+/// [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
@@ -46,7 +47,7 @@ pub(super) fn read(
     if is_vehicle {
         problems
             .report(asked.value.span(), "vehicles are not run at their resonance")
-            .note("wings that differ have resonances that differ")
+            .note("different wings have different resonances")
             .help("vary drive_frequency under [axes], or give it the number that `flap test resonance` prints for one wing");
         return None;
     }
@@ -87,7 +88,7 @@ fn range(section: &Entry<'_>, problems: &mut Problems) -> Range {
     range
 }
 
-/// A frequency of more than zero (Hz).
+/// Returns a frequency, which must be more than zero (Hz).
 fn frequency(key: &str, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<f64> {
     let number = value::quantity(key, "Hz", value, problems)?;
     if number > 0.0 && number.is_finite() {

@@ -1,4 +1,4 @@
-//! The section `[sample]`: points spread over the design space, or listed in a file. They make one axis.
+//! Section `[sample]`: points spread over the design space, or listed in a file. They form one axis.
 
 pub(super) mod distribution;
 mod file;
@@ -20,13 +20,13 @@ use crate::plan::{PointsFile, Value};
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
 pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
-/// Samples of something else than listed parameters.
+/// Allowed values of `of`: samples without a list of parameters.
 pub(super) const OF: [&str; 1] = ["device"];
 
-/// The sample of the section, and the file that lists its points, if one does. `base` has the standard errors of parameters,
-/// `means` their values where they are not sampled.
+/// Returns the sample of the section, and the file that lists its points, if there is one.
 ///
-/// A parameter whose distribution is wrong still takes part, without values, in the checks that follow.
+/// `base` contains the standard errors of parameters, `means` the values of parameters that are not sampled. A
+/// parameter with a wrong distribution still takes part, without values, in later checks.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &Base,
@@ -99,7 +99,7 @@ pub(super) fn read(
     Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units }, None))
 }
 
-/// Builds of a device: all parameters that have standard errors, with their correlations.
+/// Returns a sample of builds of the device: all parameters with standard errors, and their correlations.
 fn of_device(
     section: &Entry<'_>,
     of: &Entry<'_>,
@@ -126,13 +126,13 @@ fn of_device(
         } else {
             (
                 format!("a sample has at most {most} parameters"),
-                "leave out standard errors that hardly matter",
+                "leave out standard errors with little effect",
             )
         };
         lookup.problems.report(of.value.span(), message).help(help);
         return None;
     }
-    // Contradicting correlations are reported where they stand.
+    // Contradicting correlations are reported at their positions.
     let factor = base.uncertainty.factor()?;
     let design = Arc::new(Design::new(method, seed, count, errors.len()));
     let axis = errors.iter().zip(factor).filter_map(|(&(index, sd), weights)| {
@@ -144,7 +144,7 @@ fn of_device(
     Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units })
 }
 
-/// The number of points, or `None` with a report.
+/// Returns the number of points, or `None` with a report.
 fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let Some(entry) = table::find(entries, "n") else {
         problems
@@ -155,7 +155,7 @@ fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) ->
     value::count("n", Design::MAX_POINTS, entry.value, problems)
 }
 
-/// The seed, if there is one.
+/// Returns the seed, if there is one.
 fn seed(entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let value = table::find(entries, "seed")?.value;
     let integer = value.get_ref().as_integer();

@@ -1,4 +1,4 @@
-//! The section `[solver]`: tolerances and limits of the integration.
+//! Section `[solver]`: tolerances and limits of the integration.
 
 use flap_core::simulate::{SettingKind, SolverSettings};
 use toml::Spanned;
@@ -8,7 +8,7 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 
-/// The settings, with defaults for those that are not set.
+/// Returns the settings, with defaults for settings that are not given.
 pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> SolverSettings {
     let mut settings = SolverSettings::default();
     let Some(entry) = entry else {
@@ -41,7 +41,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> Solver
     settings
 }
 
-/// A number more than zero and less than `limit`.
+/// Returns a number that is more than zero and less than `limit`.
 fn tolerance(key: &str, limit: f64, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<f64> {
     let number = value::number(key, value, problems)?;
     if number > 0.0 && number < limit {

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::problems::Problems;
 use crate::grid::diagnostic::Diagnostic;
 
-/// The keys at the top of a grid file.
+/// Keys at the top of a grid file.
 pub(super) const KEYS: [&str; 16] = [
     "description",
     "preset",
@@ -28,14 +28,14 @@ pub(super) const KEYS: [&str; 16] = [
     "output",
 ];
 
-/// One `key = value`.
+/// An entry `key = value`.
 pub(super) struct Entry<'t> {
     pub(super) key: &'t str,
     pub(super) key_span: Range<usize>,
     pub(super) value: &'t Spanned<DeValue<'t>>,
 }
 
-/// The entries of `table` as they stand in the file; the table itself is sorted by key.
+/// Returns the entries of `table` in the order of the file. The table itself is sorted by key.
 pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     let mut entries: Vec<Entry<'t>> =
         table.iter().map(|(key, value)| Entry { key: key.get_ref(), key_span: key.span(), value }).collect();
@@ -43,12 +43,12 @@ pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     entries
 }
 
-/// The entry called `key`.
+/// Returns the entry called `key`.
 pub(super) fn find<'e, 't>(entries: &'e [Entry<'t>], key: &str) -> Option<&'e Entry<'t>> {
     entries.iter().find(|entry| entry.key == key)
 }
 
-/// The type of `value`, for messages.
+/// Returns the type of `value`, for messages.
 pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "text",
@@ -60,7 +60,7 @@ pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-/// The entries of a section such as `[solver]`.
+/// Returns the entries of a section such as `[solver]`.
 pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Entry<'t>> {
     if let DeValue::Table(table) = entry.value.get_ref() {
         return entries(table);
@@ -85,7 +85,7 @@ pub(super) fn report_unknown_key<'p>(
         .did_you_mean(entry.key, allowed.iter().copied())
 }
 
-/// Reports every key that is not among `allowed`. Returns whether there were none.
+/// Reports every key that is not among `allowed`. Returns true if there is none.
 pub(super) fn check_keys(
     entries: &[Entry<'_>],
     allowed: &[&str],

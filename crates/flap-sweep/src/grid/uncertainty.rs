@@ -13,8 +13,9 @@ use crate::plan::uncertainty::{Correlation, Uncertainty};
 pub(super) const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
 pub(super) const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
 
-/// The value of an entry of `[params]` and its standard error, if it has one. The value is `None`, with a report, if it makes
-/// no sense.
+/// Returns the value of an entry of `[params]` and its standard error, if it has one.
+///
+/// The value is `None`, with a report, if there are mistakes.
 pub(super) fn of_parameter(
     parameter: &Parameter,
     entry: &Entry<'_>,
@@ -26,7 +27,7 @@ pub(super) fn of_parameter(
     }
 }
 
-/// True of a range, which an axis takes.
+/// Returns true for a range, which belongs to an axis.
 fn is_range(table: &DeTable<'_>) -> bool {
     ["from", "to", "values"].into_iter().any(|key| table.contains_key(key))
 }
@@ -54,7 +55,7 @@ fn of_table(
     (number, number.and_then(|number| standard_error(parameter, number, &entries, problems)))
 }
 
-/// The standard error in the unit of the parameter.
+/// Returns the standard error in the unit of the parameter.
 fn standard_error(
     parameter: &Parameter,
     number: f64,
@@ -86,7 +87,8 @@ fn standard_error(
     if error > 0.0 && error.is_finite() {
         return Some(error);
     }
-    let message = format!("`{}` must come to more than zero, not {}", entry.key, value::shown(error));
+    let message =
+        format!("`{}` must give a standard error of more than zero, not {}", entry.key, value::shown(error));
     problems.report(entry.value.span(), message).help("leave it out if the value is exact");
     None
 }
@@ -114,8 +116,8 @@ pub(super) fn correlations(
         lookup
             .problems
             .report(entry.key_span.clone(), "the correlations contradict each other")
-            .note("no parameters can have all of them at once: their matrix is not positive definite")
-            .help("take them from one fit, with enough digits");
+            .note("no parameters can have all these correlations at once: the correlation matrix is not positive definite")
+            .help("take all correlations from one fit, with enough digits");
     }
 }
 
@@ -125,7 +127,7 @@ fn report_not_tables(value: &Spanned<DeValue<'_>>, problems: &mut Problems) {
         .help("write [[correlation]] above `between` and `coefficient`, once for each pair");
 }
 
-/// Adds a correlation; returns its pair, which must not be one of `earlier` pairs of the file.
+/// Adds a correlation. Returns its pair, which must not be one of the `earlier` pairs of the file.
 fn correlation(
     table: &DeTable<'_>,
     place: &Spanned<DeValue<'_>>,
@@ -163,7 +165,7 @@ fn correlation(
     Some(pair)
 }
 
-/// The two parameters, which must have standard errors.
+/// Returns the two parameters, which must have standard errors.
 fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -> Option<[usize; 2]> {
     let names = entry.value.get_ref().as_array().filter(|names| names.len() == 2);
     let Some(names) = names else {

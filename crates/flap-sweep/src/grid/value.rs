@@ -1,4 +1,4 @@
-//! Single values: of parameters, and of settings.
+//! Single values of parameters and settings.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::notation::value::{self, UnitOf, ValueError};
 
 type Value<'t> = Spanned<DeValue<'t>>;
 
-/// The value of `parameter`: a number in SI units, or the index of an option.
+/// Returns the value of `parameter`: a number in SI units, or the index of an option.
 pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let found = match (&parameter.kind, value.get_ref()) {
         (_, DeValue::String(text)) => value::of_text(parameter, text, UnitOf::Text),
@@ -28,7 +28,7 @@ pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &
     found.map_err(|error| report(parameter, &error, value, problems)).ok()
 }
 
-/// Reports a value that `parameter` does not take.
+/// Reports a value that `parameter` does not accept.
 fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems: &mut Problems) {
     let name = parameter.name;
     let text = value.get_ref().as_str().unwrap_or_default();
@@ -45,10 +45,10 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     }
 }
 
-/// The keys of numbers in a value with an error, a range or a distribution.
+/// Keys of numbers in a value with an error, a range or a distribution.
 const NUMBERS: [&str; 4] = ["value", "from", "to", "mean"];
 
-/// True if all numbers of a value, list, range or distribution have units; `None` if it has no numbers of its own.
+/// Returns true if all numbers of a value, list, range or distribution have units; `None` if it contains no numbers.
 pub(super) fn has_units(value: &Value<'_>) -> Option<bool> {
     match value.get_ref() {
         DeValue::String(text) => Some(units::has_unit(text)),
@@ -62,7 +62,7 @@ pub(super) fn has_units(value: &Value<'_>) -> Option<bool> {
     }
 }
 
-/// The index of the option that `value` names.
+/// Returns the index of the option that `value` names.
 pub(super) fn option(
     name: &str,
     options: &[&str],
@@ -80,7 +80,7 @@ pub(super) fn option(
     index
 }
 
-/// Reports a choice that is not text.
+/// Reports the value of a choice that is not text.
 fn report_no_text(name: &str, options: &[&str], value: &Value<'_>, problems: &mut Problems) {
     let message = format!("`{name}` is a choice between options, not {}", table::kind(value.get_ref()));
     problems.report(value.span(), message).note(listed(options));
@@ -95,13 +95,13 @@ fn report_no_option(name: &str, options: &[&str], text: &str, value: &Value<'_>,
         .did_you_mean(text, options.iter().copied());
 }
 
-/// The options in quotes.
+/// Returns the options in quotes.
 fn listed(options: &[&str]) -> String {
     let quoted: Vec<String> = options.iter().map(|option| format!("\"{option}\"")).collect();
     format!("options: {}", quoted.join(", "))
 }
 
-/// A number in the SI unit `unit`, bare or as text with a unit.
+/// Returns a number in the SI unit `unit`, given bare or as text with a unit.
 pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let DeValue::String(text) = value.get_ref() else {
         if let DeValue::Integer(_) | DeValue::Float(_) = value.get_ref() {
@@ -129,7 +129,7 @@ pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut
     }
 }
 
-/// A bare number, for settings that have no unit.
+/// Returns a bare number, for settings without a unit.
 pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let number = match value.get_ref() {
         DeValue::Integer(integer) => integer_as_float(integer),
@@ -143,7 +143,7 @@ pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> 
     number.map_err(|error| report_unit_error(name, value.span(), &error, problems)).ok()
 }
 
-/// `true` or `false`.
+/// Returns `true` or `false`.
 pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<bool> {
     let found = value.get_ref().as_bool();
     if found.is_none() {
@@ -153,7 +153,7 @@ pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) ->
     found
 }
 
-/// A whole number from 1 to `most`.
+/// Returns a whole number from 1 to `most`.
 pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Problems) -> Option<u64> {
     let found = match value.get_ref() {
         DeValue::Integer(integer) => match integer_as_float(integer) {
@@ -167,7 +167,7 @@ pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Pro
     None
 }
 
-/// The integer, if it is not more than `most`.
+/// Returns the integer, if it is at most `most`.
 fn at_most(
     name: &str,
     most: u64,
@@ -182,13 +182,13 @@ fn at_most(
     count
 }
 
-/// A number as people write it: `5`, not `5.0`.
+/// Returns a number in its usual form: `5`, not `5.0`.
 pub(super) fn shown(number: f64) -> String {
     let text = format!("{number:?}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Text, not empty.
+/// Returns text that is not empty.
 pub(super) fn text<'t>(name: &str, value: &'t Value<'_>, problems: &mut Problems) -> Option<&'t str> {
     match value.get_ref().as_str() {
         Some("") => {
@@ -211,7 +211,7 @@ fn report_unit_error(name: &str, span: Range<usize>, error: &UnitError, problems
     }
 }
 
-/// The float nearest to a TOML integer of any size.
+/// Returns the float nearest to a TOML integer of any size.
 fn integer_as_float(integer: &DeInteger<'_>) -> Result<f64, UnitError> {
     if integer.radix() == 10 {
         return decimal(integer.as_str());
@@ -232,9 +232,9 @@ fn decimal(text: &str) -> Result<f64, UnitError> {
     number.shifted(0).map_err(|problem| UnitError { span: 0..length, problem })
 }
 
-/// The bytes `part` of the text of a TOML string, as bytes of the file.
+/// Returns the bytes of the file for the bytes `part` in the text of a TOML string.
 ///
-/// If escapes make the text differ from what stands in the file, it is the whole string.
+/// If escapes make the text differ from the file, it returns the bytes of the whole string.
 pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
     let raw = file.get(span.clone()).unwrap_or_default();
     let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|quotes| raw.starts_with(quotes));
@@ -248,7 +248,8 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     }
 }
 
-/// Reports a parameter that is a choice: it takes a list and no `shape`, such as "ranges". False if it is not one.
+/// Reports a parameter that is a choice, which accepts a list and no `shape`, such as "ranges". Returns false if it
+/// is no choice.
 pub(super) fn report_choice(
     parameter: &Parameter,
     entry: &Entry<'_>,

@@ -1,4 +1,4 @@
-//! The section `[vehicle]`: wings, their places, and what differs between them.
+//! Section `[vehicle]`: wings, their positions, and their differences.
 
 use std::ops::Range;
 
@@ -23,23 +23,23 @@ pub(super) const WING_KEYS: [&str; 7] =
     ["name", "mirrored", "position", "plane", "preset", "device", "params"];
 pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
 
-/// The axes of the body, last parts of names of parameters.
+/// Body axes: last parts of the names of parameters.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The group of the parameters that wings share with the grid even where they have a design of their own.
+/// Group of the parameters that all wings share with the grid, even if they have their own design.
 const DRIVE: &str = "drive";
 
-/// The facts of this section that other sections of a grid file need.
+/// Results of this section that other sections of a grid file need.
 #[derive(Default)]
 pub(super) struct VehicleSettings {
-    /// The parameters that the section sets, and where.
+    /// Parameters that the section sets, with their positions.
     pub(super) set: Vec<(usize, Range<usize>)>,
-    /// Wings whose designs have another drive frequency than the grid's, each as a place and a message.
+    /// Wings whose designs have another drive frequency than the grid, each as a position and a message.
     frequencies: Vec<(Range<usize>, String)>,
 }
 
 impl VehicleSettings {
-    /// Reports wings of other drive frequencies, unless the grid `sets` that of all wings.
+    /// Reports wings with other drive frequencies, unless the grid `sets` the frequency of all wings.
     pub(super) fn report_frequencies(
         self,
         parameters: &[Parameter],
@@ -56,7 +56,7 @@ impl VehicleSettings {
     }
 }
 
-/// Makes a vehicle of the design `base` if the section is there. `None`, with a report, if it cannot be made.
+/// Turns the design `base` into a vehicle if the section is present. `None`, with a report, if this is impossible.
 pub(super) fn read(
     root: &[Entry<'_>],
     base: Base,
@@ -101,8 +101,9 @@ pub(super) fn read(
     Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, settings))
 }
 
-/// The parameters of all wings among those `chosen` by the grid that reach no wing: each has one of its own, as `is_own` says
-/// of a parameter of the vehicle.
+/// Returns the parameters among `chosen` that affect no wing, because each wing has its own value.
+///
+/// `is_own` returns true for a parameter of the vehicle that a wing sets.
 pub(super) fn unreached(
     vehicle: &Vehicle,
     chosen: &[usize],
@@ -117,10 +118,10 @@ pub(super) fn unreached(
     unreached.map(|(_, parameter)| parameter).collect()
 }
 
-/// A wing's table, and its entries.
+/// Table of a wing, and its entries.
 type WingTable<'t> = (&'t Spanned<DeValue<'t>>, Vec<Entry<'t>>);
 
-/// The tables of the wings.
+/// Returns the tables of the wings.
 fn wings<'t>(
     section: &Entry<'t>,
     entries: &[Entry<'t>],
@@ -128,7 +129,7 @@ fn wings<'t>(
 ) -> Option<Vec<WingTable<'t>>> {
     const HELP: &str = "write [[vehicle.wings]] above the keys of each wing, such as name = \"left\"";
     let Some(entry) = table::find(entries, "wings") else {
-        problems.report(section.key_span.clone(), "a vehicle has one wing or more").help(HELP);
+        problems.report(section.key_span.clone(), "a vehicle needs at least one wing").help(HELP);
         return None;
     };
     let tables: Option<Vec<(&Spanned<DeValue<'t>>, &DeTable<'t>)>> =
@@ -148,7 +149,7 @@ fn wings<'t>(
     Some(wings)
 }
 
-/// Name and side of a wing.
+/// Returns name and side of a wing.
 fn mount((item, entries): &WingTable<'_>, problems: &mut Problems) -> Option<Mount> {
     let Some(name) = table::find(entries, "name") else {
         problems.report(item.span(), "the wing has no `name`").help("write name = \"left\"");
@@ -162,8 +163,8 @@ fn mount((item, entries): &WingTable<'_>, problems: &mut Problems) -> Option<Mou
             if mirrored.is_none() {
                 problems
                     .report(entry.value.span(), "`mirrored` must be true or false")
-                    .note("a mirrored wing is the image of the one at its position, behind the plane of x and z")
-                    .help("there is no other plane: write mirrored = true for a wing on the right");
+                    .note("a mirrored wing is the mirror image, in the x-z plane, of a wing at its position")
+                    .help("write mirrored = true for a wing on the right");
             }
             mirrored?
         }
@@ -171,7 +172,7 @@ fn mount((item, entries): &WingTable<'_>, problems: &mut Problems) -> Option<Mou
     Some(Mount { name, mirrored })
 }
 
-/// Reports a vehicle that cannot be made, at the wing concerned.
+/// Reports a vehicle that cannot be created, at the wing concerned.
 fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], problems: &mut Problems) {
     let wanted = match error {
         VehicleError::Name(name) | VehicleError::SameName(name) => Some(name),
@@ -193,7 +194,7 @@ fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], pr
     }
 }
 
-/// The remedy of a vehicle that cannot be made.
+/// Returns the remedy for a vehicle that cannot be created.
 fn remedy(error: &VehicleError) -> &'static str {
     match error {
         VehicleError::NoWings => {
@@ -207,16 +208,16 @@ fn remedy(error: &VehicleError) -> &'static str {
     }
 }
 
-/// True if a wing sets the parameter itself.
+/// Returns true if a wing sets the parameter itself.
 fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
     let params = table::find(entries, "params").and_then(|entry| entry.value.get_ref().as_table());
     params.is_some_and(|params| params.contains_key(parameter))
 }
 
-/// The values of a vehicle, in which those of its wings are put.
+/// Values of a vehicle, to which the values of its wings are added.
 struct Own<'o> {
     vehicle: &'o Vehicle,
-    /// The design of all wings, with the values of the vehicle.
+    /// Design of all wings, with the values of the vehicle.
     shared: Base,
     settings: VehicleSettings,
     problems: &'o mut Problems,
@@ -224,7 +225,7 @@ struct Own<'o> {
 }
 
 impl Own<'_> {
-    /// A parameter of the vehicle.
+    /// Reads a parameter of the vehicle.
     fn number(&mut self, name: &str, entry: &Entry<'_>) {
         let parameters = self.vehicle.parameters();
         let Some(index) = Parameter::index(parameters, name) else { return };
@@ -244,13 +245,13 @@ impl Own<'_> {
         self.shared.uncertainty.set(index, error);
     }
 
-    /// Three lengths along the axes of the body.
+    /// Reads three lengths along the body axes.
     fn vector(&mut self, entry: &Entry<'_>, name: impl Fn(&str) -> String) {
         let list = entry.value.get_ref().as_array().filter(|list| list.len() == 3);
         let Some(list) = list else {
             self.problems
                 .report(entry.value.span(), format!("`{}` must be a list of three lengths", entry.key))
-                .note("along x, forward; y, to the left; and z, upwards")
+                .note("x points forward, y to the left, z upwards")
                 .help(format!("write {} = [\"0 mm\", \"4 mm\", \"0 mm\"]", entry.key));
             return;
         };
@@ -260,7 +261,7 @@ impl Own<'_> {
         }
     }
 
-    /// Place, design and parameters of a wing.
+    /// Reads position, design and parameters of a wing.
     fn wing(&mut self, index: usize, (_, entries): &WingTable<'_>) {
         let name = &self.vehicle.mounts()[index].name;
         if let Some(entry) = table::find(entries, "position") {
@@ -279,7 +280,7 @@ impl Own<'_> {
         }
     }
 
-    /// Orientation of a wing's stroke plane.
+    /// Reads the orientation of a wing's stroke plane.
     fn plane(&mut self, wing: &str, entry: &Entry<'_>) {
         const HELP: &str = "write plane = { roll = \"5 deg\", pitch = \"0 deg\", yaw = \"0 deg\" }, or those that are not zero";
         let Some(angles) = entry.value.get_ref().as_table() else {
@@ -301,7 +302,7 @@ impl Own<'_> {
         }
     }
 
-    /// The preset or the device of a wing: all of its numbers but those of the drive.
+    /// Reads the preset or device of a wing: all of its numbers except the drive.
     fn design(&mut self, index: usize, entries: &[Entry<'_>]) {
         let Some(begin) = table::find(entries, "preset").or_else(|| table::find(entries, "device")) else {
             return;
@@ -311,13 +312,13 @@ impl Own<'_> {
         let (model, name) = (self.vehicle.model(), &self.vehicle.mounts()[index].name);
         if design.robot.name() != model.name() {
             let message = format!(
-                "the wing `{name}` is of the model {}, the vehicle of the model {}",
+                "the wing `{name}` has the model {}, but the vehicle has the model {}",
                 design.robot.name(),
                 model.name()
             );
             self.problems
                 .report(span, message)
-                .help("the wings of a vehicle are of one model: choose a preset of it");
+                .help("all wings of a vehicle have the same model: choose a preset of this model");
             return;
         }
         for (place, parameter) in model.parameters().iter().enumerate() {
@@ -325,7 +326,7 @@ impl Own<'_> {
             if parameter.name == DRIVE_FREQUENCY && own != shared {
                 let shown = |value: Value| value.given().map_or_else(String::new, value::shown);
                 let (own, shared) = (shown(own), shown(shared));
-                let message = format!("the wing `{name}` flaps at {own} Hz, the vehicle at {shared} Hz");
+                let message = format!("the wing `{name}` flaps at {own} Hz, but the vehicle at {shared} Hz");
                 self.settings.frequencies.push((span.clone(), message));
             }
             if parameter.group == DRIVE {
@@ -333,9 +334,11 @@ impl Own<'_> {
             }
             if !Vehicle::may_differ(parameter) {
                 if own != shared {
-                    let message =
-                        format!("the wing `{name}` has another `{}` than the vehicle", parameter.name);
-                    let help = "choices are the same for all wings of a vehicle";
+                    let message = format!(
+                        "the wing `{name}` and the vehicle have different values of `{}`",
+                        parameter.name
+                    );
+                    let help = "all wings of a vehicle have the same choices";
                     self.problems.report(span.clone(), message).help(help);
                 }
                 continue;
@@ -349,7 +352,7 @@ impl Own<'_> {
                 }
                 (_, Value::Given(_)) if !sets(entries, parameter.name) => {
                     let message = format!(
-                        "`{0}` is not set in the design of the wing `{name}`, but set in that of the vehicle",
+                        "`{0}` is not set in the design of the wing `{name}`, but set in the design of the vehicle",
                         parameter.name
                     );
                     let help =
@@ -362,7 +365,7 @@ impl Own<'_> {
         self.shared.devices.extend(design.devices);
     }
 
-    /// A parameter that a wing has of its own.
+    /// Reads a parameter that belongs to one wing.
     fn own_parameter(&mut self, index: usize, entry: &Entry<'_>) {
         let model = self.vehicle.model();
         let mut lookup = Lookup { simulator: model, models: self.models.models, problems: self.problems };

@@ -1,4 +1,4 @@
-//! Devices as text.
+//! Device files as text.
 
 use std::fmt::Write as _;
 
@@ -8,18 +8,20 @@ use crate::notation::{text, units};
 use crate::plan::uncertainty::Correlation;
 use crate::plan::{Plan, Value};
 
-/// Width of comments.
+/// Width of comments, in characters.
 const WIDTH: usize = 110;
 
 const HEAD: &str = "\
-# Name this file wherever a preset is named: `flap run mybee.toml`, or device = \"mybee.toml\" in a grid file.
-# A number is in SI units, or text with a unit. It may say how well it is known, and where it comes from:
+# Use this file in place of a preset: `flap run mybee.toml`, or device = \"mybee.toml\" in a grid file.
+# A number is in SI units, or text with a unit. It may have a standard error and a source:
 #   hinge_stiffness = { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\", source = \"bending test, 12 March\" }
-# Parameters that are not named here have the values of the preset.
+# Parameters that are not listed here have the values of the preset.
 ";
 
-/// The text of a device with all values of a plan before its axes are applied: every parameter with its unit, range and
-/// meaning as a comment. Read again, it gives the same numbers bit for bit.
+/// Returns the text of a device with all values of a plan before its axes are applied.
+///
+/// Every parameter has a comment with its description and range. Read again, the text gives the same numbers bit for
+/// bit.
 ///
 /// ```
 /// use flap_sweep::grid;
@@ -57,7 +59,7 @@ pub fn device(plan: &Plan) -> String {
     page
 }
 
-/// Meaning, symbol and range of a parameter.
+/// Returns description, symbol and range of a parameter.
 fn comment(parameter: &Parameter) -> String {
     let mut facts = Vec::new();
     if !parameter.symbol.is_empty() {
@@ -69,12 +71,12 @@ fn comment(parameter: &Parameter) -> String {
         Kind::Choice(options) => options.join(" | "),
     });
     if parameter.is_fitted {
-        facts.push("in the preset a fit to one vehicle".to_owned());
+        facts.push("the preset's value was fitted to one vehicle".to_owned());
     }
     wrapped(&format!("{} [{}]", parameter.doc, facts.join("; ")))
 }
 
-/// A comment in lines of at most [`WIDTH`] characters, if words are shorter.
+/// Returns a comment in lines of at most [`WIDTH`] characters, unless a word is longer.
 fn wrapped(text: &str) -> String {
     let mut page = String::new();
     let mut line = "#".to_owned();
@@ -90,7 +92,7 @@ fn wrapped(text: &str) -> String {
     page + &line + "\n"
 }
 
-/// The line of a parameter; as a comment if it has no value of its own.
+/// Returns the line of a parameter, as a comment if it has no own value.
 fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
     let Parameter { name, unit, .. } = parameter;
     let Some(value) = value.given() else {
@@ -110,8 +112,11 @@ fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
     }
 }
 
-/// The text of a device with the parameters of a wing, by name, in SI units, on top of a preset or a device called `base`.
-/// Values are rounded to ten digits; those before stand behind them as comments, with a mark on a preset's fits.
+/// Returns the text of a device with the `parameters` of a wing (by name, in SI units), based on a preset or device
+/// called `base`.
+///
+/// Values are rounded to ten digits. A comment after each value shows the previous value, and marks fitted values of
+/// a preset.
 pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     let kind = if base == plan.preset() { "preset" } else { "device" };
     let mut page = format!("{kind} = \"{base}\"\n\n[params]\n");
@@ -132,7 +137,7 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     page
 }
 
-/// A number with ten digits: what is computed from an outline has no more.
+/// Rounds a number to ten digits. Values computed from an outline are not more accurate.
 fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

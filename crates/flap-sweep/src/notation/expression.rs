@@ -1,11 +1,11 @@
 //! Expressions of grid files: `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
 //!
-//! An expression is checked once, when it is read: its names are looked up, and numbers are told from conditions. It
-//! is then a flat list of operations. Elementary functions are those of `libm`, so that its value has the same bits on
-//! every machine. See `docs/reference/grid.md` for the language.
+//! An expression is checked once, when it is read: names are looked up, and numbers are distinguished from
+//! conditions. The result is a flat list of operations. Elementary functions come from `libm`, so values have the
+//! same bits on every machine. See `docs/reference/grid.md` for the language.
 //!
-//! Results of NaN are NaN. A comparison with NaN is unknown, neither true nor false; `and`, `or` and `not` of unknown
-//! conditions are unknown unless the other side decides.
+//! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. `and`, `or` and `not` of
+//! unknown conditions are unknown, unless the other side decides.
 
 mod error;
 mod evaluate;
@@ -18,7 +18,7 @@ pub use error::{ExpressionError, ExpressionProblem};
 use evaluate::Operation;
 pub use scope::{Kind, Meaning, Scope};
 
-/// True if `name` can be given to something that expressions are to use.
+/// Returns true if `name` is allowed for a new name in expressions.
 pub fn is_free_name(name: &str) -> bool {
     let mut characters = name.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
@@ -28,7 +28,7 @@ pub fn is_free_name(name: &str) -> bool {
         && evaluate::constant(name).is_none()
 }
 
-/// An expression that has passed every check.
+/// An expression without mistakes.
 #[derive(Clone, Debug)]
 pub struct Expression {
     kind: Kind,
@@ -36,21 +36,20 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Checks the expression `text`, whose names are those of `scope`.
+    /// Checks the expression `text`, whose names must be in `scope`.
     ///
     /// # Errors
-    /// Everything that is wrong with the names, or the first thing that is wrong with the rest. Spans are bytes of
-    /// `text`.
+    /// All mistakes in names, or the first mistake of another kind. Spans are bytes of `text`.
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
         parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
     }
 
-    /// Its type: a number or a condition.
+    /// Returns its type: a number or a condition.
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// The places of the values that it reads, in the order of the text.
+    /// Returns the indices of the values that it reads, in the order of the text.
     pub fn reads(&self) -> impl Iterator<Item = usize> + '_ {
         self.operations.iter().filter_map(|operation| match operation {
             Operation::Read(place) => Some(*place),
@@ -58,8 +57,7 @@ impl Expression {
         })
     }
 
-    /// Its value where names have these `values`: a number; 1 for a condition that is true and 0 for one that is
-    /// false; NaN for an unknown value.
+    /// Returns its value for these `values` of names: a number, 1 for true, 0 for false, or NaN for an unknown value.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }

@@ -1,4 +1,4 @@
-//! Numbers and options as text, the same in result files and on the terminal; names that resemble another; positions in texts.
+//! Numbers and options as text, for result files and the terminal. Also similar names, and positions in texts.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -6,11 +6,11 @@ use std::fmt::Write as _;
 use flap_core::parameter::{Kind, Parameter};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// The shortest decimal text that reads back as the same number.
+/// Returns the shortest decimal text that reads back as the same number.
 ///
-/// Sizes from 1e-4 up to 1e9 are written out (`0.0012`, `100.0`), others with an exponent (`1.52e-6`, `1.43e10`).
-/// There is always a point or an exponent, so that readers which guess column types from the first rows
-/// guess a floating-point column. NaN is the empty text: an empty cell.
+/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), others with an exponent (`1.52e-6`,
+/// `1.43e10`). The text always has a point or an exponent, so that programs that infer column types from the first
+/// rows infer floats. NaN is the empty text, which is an empty cell.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::float(120.0), "120.0");
@@ -26,10 +26,11 @@ pub fn float(value: f64) -> String {
 /// Appends the text of [`float`] to `text`.
 pub(crate) fn push_float(text: &mut String, value: f64) {
     let size = value.abs();
-    // Elsewhere zmij writes noughts where an exponent should be, or a plus sign in the exponent.
+    // In other ranges, zmij's format differs: zeros instead of an exponent, or a plus sign in the exponent.
     let is_size_alike = size < 1e-5 || (1e-4..1e9).contains(&size);
-    // Half-way between two shortest texts zmij takes the even digit and the standard library the upper one. Of the numbers
-    // below 1e9, only some with at most 39 significant bits lie there: the others end in fewer zero bits.
+    // Half-way between two shortest texts, zmij chooses the even digit and the standard library the upper one. Among
+    // the numbers below 1e9, only numbers with at most 39 significant bits can lie there; the others end in fewer
+    // zero bits.
     if is_size_alike && value.to_bits().trailing_zeros() < 14 {
         text.push_str(zmij::Buffer::new().format_finite(value));
     } else {
@@ -37,7 +38,7 @@ pub(crate) fn push_float(text: &mut String, value: f64) {
     }
 }
 
-/// The same text as [`float`], for all numbers, in several times the time.
+/// Returns the same text as [`float`] for all numbers, but takes several times longer.
 fn float_by_standard_library(value: f64) -> String {
     if value.is_nan() {
         return String::new();
@@ -53,7 +54,7 @@ fn float_by_standard_library(value: f64) -> String {
     text
 }
 
-/// A number of things in words: `1 row`, `2 rows`.
+/// Returns a number of things in words: `1 row`, `2 rows`.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::count(1, "periodic row"), "1 periodic row");
@@ -63,10 +64,11 @@ pub fn count(number: u64, thing: &str) -> String {
     if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }
 
-/// Most names that a message lists.
+/// Largest number of names in a message.
 const MOST_NAMES: usize = 20;
 
-/// Names for a message: all of them, or of more than 20 the first, with their number and what they are: `a, b and 3 more columns`.
+/// Returns names for a message: at most 20, then the number of further ones and the word `thing`, such as `a, b and 3
+/// more columns`.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
     let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();
@@ -77,7 +79,7 @@ pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> Stri
     }
 }
 
-/// `true` for 1 and `false` for 0. NaN, which stands for unknown, is the empty text.
+/// Returns `true` for 1, `false` for 0, and the empty text for NaN, which is an unknown value.
 pub fn truth(value: f64) -> String {
     if value.is_nan() {
         return String::new();
@@ -85,13 +87,13 @@ pub fn truth(value: f64) -> String {
     (value != 0.0).to_string()
 }
 
-/// Words longer than this, in characters, are shortened. Paths seldom are.
+/// Length in characters above which words are shortened. Paths are seldom longer.
 const LONGEST_WORD: usize = 300;
 
-/// Characters that are left of a longer word: at its beginning, and at its end.
+/// Number of characters at the beginning and at the end of a shortened word.
 const ENDS: [usize; 2] = [60, 20];
 
-/// A message with its longest words shortened: a file may hold names of any length, and a terminal does not.
+/// Returns a message with its longest words shortened, because names in a file may have any length.
 pub fn shortened(message: &str) -> Cow<'_, str> {
     if message.split_whitespace().all(|word| word.len() <= LONGEST_WORD) {
         return Cow::Borrowed(message);
@@ -110,7 +112,7 @@ pub fn shortened(message: &str) -> Cow<'_, str> {
     Cow::Owned(text)
 }
 
-/// A text with its control characters written out, such as `\u{1b}`: neither XML nor a terminal takes them as they are.
+/// Returns a text with its control characters escaped, such as `\u{1b}`, for XML and terminals.
 pub fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -123,7 +125,7 @@ pub fn printable(text: &str) -> String {
     out
 }
 
-/// The value of a parameter: a number, or the name of the option it chooses.
+/// Returns the value of a parameter: a number, or the name of an option.
 pub fn value(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {
         Some(name) => name.to_owned(),
@@ -131,40 +133,43 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// The reason why a parameter that is not set has no number, if it follows no others: as a sentence, from the text that says what
-/// it follows.
+/// Returns the reason why an unset parameter has no number, if it follows no other parameters.
+///
+/// `follows` is the text of [`Kind::Following`].
 pub(crate) fn no_default(follows: &str) -> Option<String> {
     let reason = follows.strip_prefix("nothing: ").map(|without| format!("it has no default ({without})"));
     reason.or_else(|| (follows == "not known").then(|| "it has no default".to_owned()))
 }
 
-/// The option that `value` chooses, if the parameter is a choice.
+/// Returns the option with the index `value`, if the parameter is a choice.
 pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
     let Kind::Choice(options) = parameter.kind else { return None };
-    // A choice is the index of its option: comparing avoids a cast that could be out of range.
+    // Comparing numbers avoids a cast that could be out of range.
     (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value).map(|(_, name)| *name)
 }
 
-/// XXH3 of a text, of 64 bits, in hexadecimal digits.
+/// Returns the 64-bit XXH3 hash of a text, in hexadecimal digits.
 pub(crate) fn hash(text: &str) -> String {
     digits(xxh3_64(text.as_bytes()))
 }
 
-/// A hash of 64 bits in hexadecimal digits.
+/// Returns a 64-bit hash in hexadecimal digits.
 pub(crate) fn digits(hash: u64) -> String {
     format!("{hash:016x}")
 }
 
-/// Longer names than this, in bytes, are no misspelt ones.
+/// Length in bytes above which a name is not compared with others.
 const LONGEST_NAME: usize = 200;
 
-/// Shorter names than this, in bytes, stand at the beginning of too many others.
+/// Length in bytes below which a name is not searched for within others, because it occurs in too many.
 const SHORTEST_PART: usize = 4;
 
-/// The one of `names` that `name` most likely stands for, if any is close: the first that begins with it, as `lift_mean_mn` for
-/// `lift`, the first that contains it as a word, or the one that it is a misspelling of.
+/// Returns the most similar one of `names`, if any is close to `name`.
+///
+/// It is the first that begins with `name` (`lift_mean_mn` for `lift`), the first that contains it as a word, or the
+/// closest spelling.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    // The time of a comparison grows with the product of both lengths.
+    // The time of a comparison is proportional to the product of both lengths.
     if name.len() > LONGEST_NAME {
         return None;
     }
@@ -191,7 +196,7 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Line and column of a byte of `text`, both from 1; columns count characters.
+/// Returns line and column of a byte of `text`, both from 1. Columns count characters.
 pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
     let mut end = byte.min(text.len());
     while !text.is_char_boundary(end) {
@@ -211,7 +216,7 @@ mod tests {
 
     use super::*;
 
-    /// Any bits, sizes that rows hold, and numbers with few bits, of which some lie half-way between two texts.
+    /// Any bits, typical values in rows, and numbers with few bits, some of which lie half-way between two texts.
     fn numbers() -> impl Strategy<Value = f64> {
         let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
             .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());

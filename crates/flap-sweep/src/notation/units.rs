@@ -1,8 +1,8 @@
-//! Quantities with units, as grid files write them: `"200 V"`, `"1.52 uN*m/rad"`, `"45 °"`.
+//! Quantities with units in grid files: `"200 V"`, `"1.52 uN*m/rad"`, `"45 °"`.
 //!
-//! A quantity is a number, then a unit: symbols with SI prefixes, joined by `*`, `·` and `/`, with powers
-//! such as `^2` or `²`. Decimal units are converted in the text of the number, before it is rounded to a
-//! float, so that `"135 um"` is the very float that `135e-6` is.
+//! A quantity is a number, then a unit: symbols with SI prefixes, joined by `*`, `·` and `/`, with powers such as
+//! `^2` or `²`. Powers of ten of units are applied to the text of the number before it is rounded to a float, so
+//! `"135 um"` is exactly the float `135e-6`.
 
 mod number;
 mod prefixed;
@@ -15,16 +15,16 @@ pub use number::{UnitError, UnitProblem};
 pub use prefixed::{exact, meant, prefixed};
 use unit::Unit;
 
-/// The value in SI units of the quantity `text`, which must measure the same as `si_unit`.
+/// Returns the value in SI units of the quantity `text`, whose dimension must match `si_unit`.
 ///
-/// An empty `si_unit` is a pure number. Only there may `text` do without a unit.
+/// An empty `si_unit` is a pure number. Only then may `text` have no unit.
 ///
-/// If `si_unit` is not a unit of flap, such as `rpm` in the table of a model that a program brings, `text` must have this very
+/// If `si_unit` is not a unit of flap, such as `rpm` in a model of another program, `text` must have exactly this
 /// unit.
 ///
 /// # Errors
-/// If there is no number, the unit is unknown or malformed, the unit measures something else, or the value
-/// is not a finite float. Spans are bytes of `text`.
+/// If there is no number, the unit is unknown or malformed or has another dimension, or the value is not a finite
+/// float. Spans are bytes of `text`.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let start = text.len() - text.trim_start().len();
     let trimmed = text.trim();
@@ -59,7 +59,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
 
     let at_number = |problem| UnitError { span: start..start + length, problem };
     let decimal = number.shifted(unit.shift).map_err(at_number)?;
-    // Multiplying and dividing by 1 changes nothing: decimal units stay exact.
+    // Multiplication and division by 1 are exact, so decimal units stay exact.
     let value = decimal * unit.above / unit.below;
     if value.is_finite() {
         Ok(value)
@@ -68,7 +68,7 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
-/// True if a text is a number with a unit, or with a `%`, behind it.
+/// Returns true if a text is a number with a unit or `%`.
 ///
 /// ```
 /// use flap_sweep::notation::units::has_unit;
@@ -80,14 +80,15 @@ pub fn has_unit(text: &str) -> bool {
     scan(text).is_ok_and(|(_, length)| !text[length..].trim().is_empty())
 }
 
-/// Moves an error along by `start` bytes.
+/// Shifts an error by `start` bytes.
 fn offset(error: UnitError, start: usize) -> UnitError {
     let Range { start: from, end } = error.span;
     UnitError { span: from + start..end + start, ..error }
 }
 
-/// Adds to an unknown unit within `text` which ones would do, and a guess at what it was meant to be: one that
-/// makes the whole measure the same as `si_unit` before any other.
+/// Adds suggestions to an unknown unit within `text`.
+///
+/// Units that give the whole quantity the dimension of `si_unit` come first.
 fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
     let span = error.span.clone();
     if let UnitProblem::UnknownUnit { unit, nearest, usual } = &mut error.problem {

@@ -1,32 +1,32 @@
-//! Values of parameters: read from text, and checked against the parameter's range or options.
+//! Values of parameters: parsed from text, and checked against the parameter's range or options.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
 use super::units::{self, UnitError};
 
-/// A text or number that is not a value of a parameter.
+/// A text or number that is not a valid value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueError {
-    /// The text names none of the options.
+    /// The text is none of the options.
     NoOption {
         /// The text.
         text: String,
-        /// The options of the parameter.
+        /// Options of the parameter.
         options: &'static [&'static str],
     },
-    /// The text is not a quantity of the parameter's dimension.
+    /// The text is not a quantity with the parameter's dimension.
     NoQuantity(UnitError),
-    /// The number is out of the parameter's range.
+    /// The number is outside the parameter's range.
     OutOfRange {
         /// The number in SI units.
         value: f64,
-        /// The range of the parameter.
+        /// Range of the parameter.
         allowed: Range,
     },
 }
 
 impl ValueError {
-    /// The message about the parameter called `name`, which shows a number that is out of range as `shown`.
+    /// Returns the message about the parameter called `name`. `shown` is the text of a number that is out of range.
     pub fn message(&self, name: &str, shown: &str) -> String {
         match self {
             ValueError::NoOption { text, .. } => format!("`{name}` has no option `{text}`"),
@@ -37,7 +37,7 @@ impl ValueError {
         }
     }
 
-    /// The line on what to do, if there is one.
+    /// Returns advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match self {
             ValueError::NoOption { options, .. } => Some(format!("options: {}", options.join(", "))),
@@ -47,21 +47,21 @@ impl ValueError {
     }
 }
 
-/// The unit of numbers in a text.
+/// Unit of numbers in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitOf<'a> {
     /// The text has the unit, unless the parameter is a pure number.
     Text,
     /// The text has the unit, or is a bare number in SI units.
     TextOrSi,
-    /// The text has no unit: it is this one.
+    /// The text has no unit. Contains the unit.
     Column(&'a str),
 }
 
-/// The value of `parameter` that `text` says: a number in SI units, or the index of an option.
+/// Returns the value of `parameter` in `text`: a number in SI units, or the index of an option.
 ///
 /// # Errors
-/// [`ValueError`] if the text names no option, is not a quantity of the parameter's dimension, or is out of range.
+/// [`ValueError`] if the text names no option, does not have the parameter's dimension, or is out of range.
 pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f64, ValueError> {
     if let Kind::Choice(options) = parameter.kind {
         let index = options.iter().position(|option| *option == text);
@@ -76,10 +76,10 @@ pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f6
     of_number(parameter, number.map_err(ValueError::NoQuantity)?)
 }
 
-/// The number itself, if `parameter` takes it: a number in SI units, or the index of an option.
+/// Returns the number itself, if `parameter` accepts it: a number in SI units, or the index of an option.
 ///
 /// # Errors
-/// [`ValueError::OutOfRange`] if the number is out of range, [`ValueError::NoOption`] if it is the index of no option.
+/// [`ValueError::OutOfRange`] if the number is out of range, [`ValueError::NoOption`] if no option has this index.
 pub fn of_number(parameter: &Parameter, value: f64) -> Result<f64, ValueError> {
     match parameter.kind {
         Kind::Number(allowed) | Kind::Following(allowed, _) if !allowed.contains(value) => {

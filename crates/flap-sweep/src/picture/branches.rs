@@ -1,45 +1,48 @@
-//! The branches of a response, and the jumps between them.
+//! Branches of a response, and the jumps between them.
 
 use super::colours::{DARK, SERIES};
 
-/// A branch as it is drawn.
+/// Name and colour of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
-    /// The name, in the column `branch` and in legends.
+    /// Name in the column `branch` and in legends.
     pub name: &'static str,
-    /// The colour in a picture of one design.
+    /// Colour in a picture of one design.
     pub colour: &'static str,
 }
 
-/// The branches, in the order of drawing.
+/// All branches, in the order of drawing.
 pub const BRANCHES: [Branch; 3] = [
     Branch { name: "up", colour: SERIES[0] },
     Branch { name: "down", colour: SERIES[1] },
     Branch { name: "unstable", colour: DARK },
 ];
 
-/// A branch in the order in which it was followed.
+/// Rows of a branch in the order in which they were computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Way<'a> {
-    /// Values of the parameter that is followed.
+    /// Values of the followed parameter.
     pub x: &'a [f64],
-    /// Values of the measure; NaN for none.
+    /// Values of the measure; NaN if missing.
     pub y: &'a [f64],
-    /// True where the ways have different motions: the column `bistable`.
+    /// Column `bistable`: true if the branches up and down have different motions.
     pub bistable: &'a [bool],
 }
 
-/// The difference between the ways up and down.
+/// Difference between the branches up and down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// First and last value of each run of values where the ways have different motions.
+    /// First and last value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
-    /// The rows of the way up after which it jumps to the motion of the other way, and the same rows of the way down: the ways
-    /// differ there, and agree at the next row.
+    /// Rows of the branch up after which it jumps to the motion of the other branch, and the same rows of the branch
+    /// down.
+    ///
+    /// The branches differ at such a row, and agree at the next.
     pub jumps: [Vec<usize>; 2],
 }
 
-/// The bands and the jumps of the ways up and down, which have the same values of the parameter. A way alone has none.
+/// Returns the bands and jumps of the branches up and down, which must have the same parameter values. A single
+/// branch has none.
 pub fn compared(up: Way<'_>, down: Way<'_>) -> Comparison {
     if up.x.is_empty() || down.x.is_empty() {
         return Comparison { bands: Vec::new(), jumps: [Vec::new(), Vec::new()] };
@@ -90,7 +93,7 @@ mod tests {
         assert_eq!(found.jumps, [vec![1, 3], vec![1, 3]]);
     }
 
-    /// A jump to or from a row without a motion has no ends.
+    /// A jump next to a row without a motion is undefined.
     #[test]
     fn gaps_are_no_jumps() {
         let x = [1.0, 2.0, 3.0];

@@ -1,31 +1,33 @@
 //! Colours of lines, points and cells.
 
-/// Colours of series that people with any colour vision tell apart (Okabe and Ito), the darker ones first.
+/// Colours of series that are distinct for any colour vision (Okabe and Ito), the darker ones first.
 pub const SERIES: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
 
-/// Lines and letters over a picture: fronts, percentiles, unstable orbits.
+/// Colour of lines and letters over a picture: fronts, percentiles, unstable orbits.
 pub const DARK: &str = "#222222";
 
-/// Points and bars without a colour of their own.
+/// Colour of points and bars without an own colour.
 pub const PLAIN: &str = "#8FB0C9";
 
-/// Cells and points without a value.
+/// Colour of cells and points without a value.
 pub const MISSING: &str = "#c9c9c9";
 
-/// Bands with two stable motions.
+/// Colour of bands with two stable motions.
 pub const BISTABLE: &str = "#f3e3b3";
 
-/// The part of the sequential map that lines use: its lightest colours are hard to see on white.
+/// Part of the sequential map for lines. Its lightest colours are hard to see on white.
 pub const MOST_OF_MAP: f64 = 0.88;
 
-/// The place in the sequential map, from 0 to [`MOST_OF_MAP`], of line `index` of `count`, which have an order; none for a
-/// line alone, which has the first colour of [`SERIES`].
+/// Returns the position in the sequential map, from 0 to [`MOST_OF_MAP`], of line `index` of `count` ordered lines.
+///
+/// `None` for a single line, which has the first colour of [`SERIES`].
 pub fn shade(index: usize, count: usize) -> Option<f64> {
     (count > 1).then(|| MOST_OF_MAP * index as f64 / (count - 1) as f64)
 }
 
-/// True if numbers from `low` to `high` have both signs: then the map is a diverging one, with zero in its middle. The
-/// smaller side is at least 2 % of the larger one.
+/// Returns true if numbers from `low` to `high` have both signs.
+///
+/// The map is then a diverging one with zero in its middle. The smaller side must be at least 2 % of the larger one.
 pub fn is_signed(low: f64, high: f64) -> bool {
     const LEAST: f64 = 0.02;
     low < 0.0 && high > 0.0 && (-low).min(high) > LEAST * (-low).max(high)

@@ -1,22 +1,22 @@
-//! The measures that a picture shows if none is named.
+//! Default measures of pictures.
 
 use crate::table::layout;
 
-/// The part that a measure plays in a picture.
+/// Role of a measure in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Drawn over a parameter: a response, a hysteresis loop.
+    /// Vertical axis over a parameter: a response, a hysteresis loop.
     Response,
-    /// The benefit of a design: the colour of a map, the y of a scatter, the measure of a histogram or a tornado.
+    /// Benefit of a design: colour of a map, y of a scatter plot, measure of a histogram or a tornado chart.
     Benefit,
-    /// The cost of a design: the x of a scatter.
+    /// Cost of a design: x of a scatter plot.
     Cost,
-    /// The size of the motion: the colour of a scatter.
+    /// Size of the motion: colour of a scatter plot.
     Motion,
 }
 
 impl Role {
-    /// The role called `name`: `response`, `benefit`, `cost` or `motion`.
+    /// Returns the role called `name`: `response`, `benefit`, `cost` or `motion`.
     pub fn of(name: &str) -> Option<Role> {
         match name {
             "response" => Some(Role::Response),
@@ -27,7 +27,7 @@ impl Role {
         }
     }
 
-    /// The measures that play this part, the preferred first.
+    /// Returns the measures for this role, the preferred one first.
     fn names(self) -> &'static [&'static str] {
         match self {
             Role::Response => {
@@ -40,8 +40,9 @@ impl Role {
     }
 }
 
-/// The index in `columns` of the measure that plays a part: the first that is usual for it, else the first measure.
-/// Columns of the run, such as `cycles`, are no measures, and neither are those in `taken`.
+/// Returns the index in `columns` of the measure for a role: the first usual measure, otherwise the first measure.
+///
+/// Columns about the run, such as `cycles`, and columns in `taken` are not considered.
 pub fn usual<'n>(role: Role, columns: &[&'n str], taken: &[&'n str]) -> Option<usize> {
     let is_free = |column: &&str| !taken.contains(column) && !layout::is_fixed(column);
     let places = |wanted: &str| columns.iter().position(|column| *column == wanted && is_free(column));

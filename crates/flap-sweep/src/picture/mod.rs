@@ -1,4 +1,4 @@
-//! The choices that pictures of the command and of Python share: measures, colours, branches, numbers of a sample.
+//! Choices that the pictures of the command and of Python share: measures, colours, branches, statistics of a sample.
 
 pub mod branches;
 pub mod colours;

@@ -1,17 +1,17 @@
-//! Numbers that sum up a sample: percentiles, bars of a histogram, rank correlations.
+//! Statistics of a sample: percentiles, bars of a histogram, rank correlations.
 
-/// The percentiles that a histogram marks (percent).
+/// Percentiles that a histogram marks (percent).
 pub const MARKED: [u32; 3] = [5, 50, 95];
 
-/// The value below which this share (0 to 1) of the rising `values` lies, interpolated between two of them; NaN if there is
-/// none.
+/// Returns the value below which the share (0 to 1) of the ascending `values` lies, by linear interpolation; NaN if
+/// there are no values.
 pub fn percentile(values: &[f64], share: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the last place")]
     let below = place.floor() as usize;
     let part = place - below as f64;
-    // The product of nought and an infinite difference is no number.
+    // Zero times an infinite difference would be NaN.
     if part == 0.0 {
         return values[below];
     }
@@ -20,27 +20,28 @@ pub fn percentile(values: &[f64], share: f64) -> f64 {
     if difference.is_finite() { low + part * difference } else { low * (1.0 - part) + high * part }
 }
 
-/// The bars of a histogram, and the percentiles of its values.
+/// Bars of a histogram, and percentiles of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
-    /// The ends of the bars, rising and evenly spaced, from the smallest to the largest value.
+    /// Ends of the bars, ascending and equidistant, from the smallest to the largest value.
     pub edges: Vec<f64>,
-    /// The number of values in each bar.
+    /// Number of values in each bar.
     pub counts: Vec<usize>,
-    /// The values at the percentiles [`MARKED`].
+    /// Values at the percentiles [`MARKED`].
     pub marked: [f64; 3],
 }
 
-/// The histogram of the finite ones of `values`; none if there are none. Bars are as wide as the rule of Freedman and
-/// Diaconis has it, twice the spread of the middle half over the cube root of the number of values; there are 5 to 60 of
-/// them.
+/// Returns the histogram of the finite `values`; `None` if there are none.
+///
+/// The width of bars follows the rule of Freedman and Diaconis: twice the interquartile range over the cube root of
+/// the number of values. The number of bars is limited to 5 to 60.
 pub fn histogram(values: &[f64]) -> Option<Histogram> {
     const FEWEST: f64 = 5.0;
     const MOST: f64 = 60.0;
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let (&low, &high) = (sorted.first()?, sorted.last()?);
-    // Differences beyond the largest float: smaller values have the same bars.
+    // The range exceeds the largest float. Scaled values have the same bars.
     if !(high - low).is_finite() {
         const SMALLER: f64 = 256.0;
         let smaller: Vec<f64> = sorted.iter().map(|value| value / SMALLER).collect();
@@ -49,7 +50,7 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
         return Some(Histogram { edges, counts, marked: marked.map(|value| SMALLER * value) });
     }
     let marked = MARKED.map(|percent| percentile(&sorted, f64::from(percent) / 100.0));
-    // Values that are equal but for rounding are one bar.
+    // Values that are equal to rounding share one bar.
     if high - low <= 1e-12 * high.abs().max(low.abs()) {
         let half = if low == 0.0 { 0.5 } else { 0.05 * low.abs() };
         return Some(Histogram { edges: vec![low - half, high + half], counts: vec![sorted.len()], marked });
@@ -69,8 +70,10 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
     Some(Histogram { edges, counts, marked })
 }
 
-/// Spearman's rank correlation of two columns, from -1 to 1, over rows in which both are finite. Equal values share the mean
-/// of their ranks. NaN if there are fewer than three such rows, or if one column has the same value in all of them.
+/// Returns Spearman's rank correlation of two columns, from -1 to 1, over rows in which both are finite.
+///
+/// Equal values share the mean of their ranks. NaN if there are fewer than three such rows, or if a column is
+/// constant in them.
 pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     let (x, y): (Vec<f64>, Vec<f64>) =
         x.iter().zip(y).filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, y)| (*x, *y)).unzip();
@@ -85,7 +88,7 @@ pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     if size == 0.0 { f64::NAN } else { (product(&x, &y) / size).clamp(-1.0, 1.0) }
 }
 
-/// The rank of each value, from 0; equal values have the mean of their ranks.
+/// Returns the rank of each value, from 0. Equal values share the mean of their ranks.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -101,8 +104,11 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// The rank correlation of each parameter with a measure, by falling size, with the index of the parameter. A parameter
-/// whose order is that of an earlier one, or its reverse, follows it and is left out, as is one without a correlation.
+/// Returns the rank correlation of each parameter with a measure, in descending order of magnitude, with the
+/// parameter's index.
+///
+/// Parameters without a correlation are left out. So are parameters with the same or the reverse order as an earlier
+/// one.
 pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
     const SAME: f64 = 1.0 - 1e-9;
     let mut found: Vec<(usize, f64)> = Vec::new();
@@ -153,7 +159,7 @@ mod tests {
         let found = histogram(&[2.0, 2.0, f64::NAN]).unwrap();
         assert_eq!(found, Histogram { edges: vec![1.9, 2.1], counts: vec![2], marked: [2.0; 3] });
         assert_eq!(histogram(&[f64::NAN]), None);
-        // Most values are the same: the middle half has no width.
+        // Most values are equal, so the interquartile range is zero.
         assert_eq!(histogram(&[0.0, 1.0, 1.0, 1.0, 1.0]).unwrap().counts.len(), 60);
     }
 
@@ -170,7 +176,7 @@ mod tests {
         assert!((three_quarters / (most / 2.0) - 1.0).abs() < 1e-15, "{three_quarters}");
     }
 
-    /// Spearman (1904) by the formula 1 - 6 sum d² / (n (n² - 1)) for ranks without ties.
+    /// Spearman (1904): 1 - 6 sum d² / (n (n² - 1)) for ranks without ties.
     #[test]
     fn rank_correlations_are_spearmans() {
         // Ranks 1 to 5 against 2, 1, 4, 3, 5: the sum of d² is 4.

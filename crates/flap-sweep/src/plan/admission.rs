@@ -1,4 +1,4 @@
-//! The decision whether a point is run.
+//! Decision about running a point.
 
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 
@@ -6,19 +6,19 @@ use super::Plan;
 use super::axes::Values;
 use crate::notation::text;
 
-/// The decision whether a point is run.
+/// Decision about running a point.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Admission {
-    /// It is run.
+    /// The point is run.
     Runs,
-    /// It does not satisfy the conditions with these numbers. It has no row.
+    /// The point does not satisfy the conditions with these indices. It has no row.
     Excluded(Vec<usize>),
-    /// It cannot be run, but has a row that says so.
+    /// The point cannot be run. Its row contains the reason.
     Invalid(Invalid),
 }
 
 impl Plan {
-    /// The decision whether the point with these values is run.
+    /// Returns the decision about the point with these values.
     pub fn judge(&self, values: &[f64]) -> Admission {
         let held: Vec<Option<bool>> =
             self.conditions().iter().map(|condition| condition.holds(values)).collect();
@@ -44,7 +44,7 @@ impl Plan {
     }
 }
 
-/// The parameters whose values have not been checked: sampled and derived ones, and those that a program gives.
+/// Returns the parameters with unchecked values: sampled and derived parameters, and parameters set by a program.
 fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
     let unchecked = plan.axes().parameters().filter(|(_, values)| {
         matches!(values, Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_))
@@ -52,7 +52,7 @@ fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
     unchecked.map(|(parameter, _)| *parameter).chain(plan.derived().parameters())
 }
 
-/// The error of a computed value that cannot be used.
+/// Returns the error of a computed value that is not allowed.
 fn not_allowed(parameter: &Parameter, value: f64) -> Invalid {
     let Parameter { name, unit, .. } = parameter;
     if value.is_nan() {
@@ -63,7 +63,7 @@ fn not_allowed(parameter: &Parameter, value: f64) -> Invalid {
     Invalid::new(format!("`{name}` is computed as {}, but must be {allowed}", value.trim_end()))
 }
 
-/// The numbers that a parameter accepts.
+/// Returns the numbers that a parameter accepts.
 fn range(parameter: &Parameter) -> Range {
     match parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => range,

@@ -1,4 +1,4 @@
-//! Changes of a plan that keep it true.
+//! Changes of a plan that keep it valid.
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
@@ -12,63 +12,63 @@ use super::value::Value;
 use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
 
-/// A change that would make a plan untrue.
+/// Error of a change that would make a plan invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChangeError {
     /// An axis varies the parameter.
-    #[error("`{0}` is varied by an axis")]
+    #[error("an axis varies `{0}`")]
     Varied(String),
     /// The parameter is computed from others.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
     /// The drive frequency is the resonance of each design.
-    #[error("`{0}` is the resonance of each design")]
+    #[error("`{0}` is set to the resonance of each design")]
     Resonance(String),
-    /// The parameter does not take the value.
+    /// The parameter does not accept the value.
     #[error("`{parameter}` does not take this value")]
     Value {
         /// Name of the parameter.
         parameter: String,
-        /// The mistake in the value.
+        /// Mistake in the value.
         error: Box<ValueError>,
     },
     /// These parameters have no value.
     #[error("these parameters have no value: {}", .0.join(", "))]
     Missing(Vec<String>),
-    /// The points would be more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS).
+    /// The plan would have more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS) points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// The plan has no point of this index, or the indices do not rise.
-    #[error("point {0} is not in the grid, or not in rising order")]
+    /// The plan has no point with this index, or the indices are not in ascending order.
+    #[error("point {0} is not in the grid, or not in ascending order")]
     NoPoint(u64),
-    /// Rows have no such measure, or it is named twice.
-    #[error("there is no measure `{0}`, or it is named twice")]
+    /// Rows have no such measure, or it is listed twice.
+    #[error("there is no measure `{0}`, or it is listed twice")]
     NoColumn(String),
-    /// Rows have no derivatives by this parameter.
+    /// Rows have no derivatives with respect to this parameter.
     #[error("`{0}` {1}")]
     NoShares(String, NoShares),
     /// The measure is true or false.
     #[error("`{0}` is true or false, and has no derivatives")]
     NoSlope(String),
-    /// Rows at the resonance of each design have neither derivatives nor a state from which they begin.
-    #[error("each design runs at its own resonance")]
+    /// Rows at the resonance of each design have neither derivatives nor initial states.
+    #[error("each design runs at its own resonance, so rows have neither derivatives nor states")]
     AtResonance,
-    /// The model has single rows only, for this reason.
+    /// The model computes rows alone, for this reason.
     #[error("{0}")]
     NoMotions(String),
-    /// There must be a state for each of so many points.
+    /// The number of states differs from the number of points.
     #[error("{0} states for {1} points")]
     States(usize, u64),
-    /// The solver takes no such settings.
+    /// The solver does not accept these settings.
     #[error("`{0}` is out of its range")]
     Solver(&'static str),
 }
 
 impl Plan {
-    /// The plan with these tolerances and limits.
+    /// Returns the plan with these tolerances and limits.
     ///
     /// # Errors
-    /// [`ChangeError::Solver`] if one of them is out of its range.
+    /// [`ChangeError::Solver`] if a setting is out of its range.
     pub fn with_solver(mut self, solver: SolverSettings) -> Result<Plan, ChangeError> {
         let is_allowed = |setting: &Setting| match setting.kind {
             SettingKind::Number { below, get, .. } => get(&solver) > 0.0 && get(&solver) < below,
@@ -82,11 +82,12 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan with `parameter` set to `value`: a number in SI units, or the index of an option.
+    /// Returns the plan with `parameter` set to `value`: a number in SI units, or the index of an option.
     ///
     /// # Errors
-    /// [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the parameter has its values from
-    /// elsewhere, [`ChangeError::Value`] if it does not take the value.
+    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the value comes from an
+    ///   axis, a formula or the resonance
+    /// - [`ChangeError::Value`] if the parameter does not accept the value
     pub fn with_parameter(mut self, parameter: usize, value: f64) -> Result<Plan, ChangeError> {
         self.check_free(parameter)?;
         let known = &self.parameters()[parameter];
@@ -99,11 +100,12 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan whose rows have these measures alone: names of columns of the model, or of the plan's own measures, in the order
-    /// wanted.
+    /// Returns the plan whose rows contain only these measures, in this order.
+    ///
+    /// `names` are names of columns of the model or of the plan's own measures.
     ///
     /// # Errors
-    /// [`ChangeError::NoColumn`] if there is no such column, or it is named before.
+    /// [`ChangeError::NoColumn`] if there is no such column, or it is listed twice.
     pub fn with_columns(mut self, names: &[String]) -> Result<Plan, ChangeError> {
         let known: Vec<&str> = self.measured().collect();
         let mut columns = Vec::with_capacity(names.len());
@@ -115,12 +117,15 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan whose rows have derivatives of their measures by these parameters, per SI unit of each: of the columns that
-    /// [`Plan::with_columns`] chose, or of all measures that are numbers.
+    /// Returns the plan whose rows contain derivatives of their measures with respect to these parameters, per SI
+    /// unit.
+    ///
+    /// The measures are the columns of [`Plan::with_columns`], or all measures that are numbers.
     ///
     /// # Errors
-    /// [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives,
-    /// [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives
+    /// - [`ChangeError::AtResonance`]
+    /// - [`ChangeError::NoMotions`]
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         for &parameter in &by {
@@ -131,7 +136,7 @@ impl Plan {
                 Value::Follows(follows) if !is_varied(parameter) => Some(follows),
                 Value::Given(_) | Value::Follows(_) | Value::Resonance => None,
             };
-            // A wing's own parameter that is not set has the value of all wings.
+            // An unset parameter of one wing has the value of all wings.
             let follows = follows(parameter)
                 .and_then(|own| of_all_wings(self.parameters(), parameter).map_or(Some(own), follows));
             gradient::check(known, is_derived, follows)
@@ -154,10 +159,12 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan whose motions begin at these states, one per point; at rest where there is `None`. All points are run.
+    /// Returns the plan whose motions begin at these states, one per point; `None` for rest. All points are run.
     ///
     /// # Errors
-    /// [`ChangeError::States`] if there are fewer or more, [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    /// - [`ChangeError::States`] if the number of states differs from the number of points
+    /// - [`ChangeError::AtResonance`]
+    /// - [`ChangeError::NoMotions`]
     pub fn begun_at(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         if states.len() as u64 != self.len() {
@@ -168,7 +175,8 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan whose rows have the state at the beginning of a drive period of the motion, from which others can begin.
+    /// Returns the plan whose rows contain the state at the beginning of a drive period, at which other motions can
+    /// begin.
     ///
     /// # Errors
     /// [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
@@ -177,16 +185,16 @@ impl Plan {
         Ok(self)
     }
 
-    /// The names of the columns that rows measure: those of the model, then the plan's own.
+    /// Returns the names of the measured columns: the model's columns, then the plan's own.
     pub fn measured(&self) -> impl Iterator<Item = &str> + '_ {
         let of_model = self.rows().columns().iter().map(|column| column.name.as_str());
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
-    /// The plan without its preset, where `given` parameters are set or to be varied: others follow those.
+    /// Returns the plan without its preset. Parameters in `given` are set or varied later; others follow them.
     ///
     /// # Errors
-    /// [`ChangeError::Missing`] if parameters that neither follow others nor have a default are not among those `given`.
+    /// [`ChangeError::Missing`] if parameters without a default that follow no others are not in `given`.
     pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
         let mut missing = Vec::new();
         let parameters = self.space.robot.parameters();
@@ -206,13 +214,15 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan crossed with rows of values that a program gives for some parameters, as many for each: an axis before all
-    /// others. All of its points are run. The values need not be in range: a point with one that is not has a row that says
-    /// so.
+    /// Returns the plan crossed with an axis, before all others, of values from a program.
+    ///
+    /// `parameters` contains equally many values for each parameter. All points are run. Values need not be in range:
+    /// a point with a value out of range has a row with the status invalid.
     ///
     /// # Errors
-    /// [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a parameter has its values from
-    /// elsewhere, [`ChangeError::TooManyPoints`].
+    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a value comes from an
+    ///   axis, a formula or the resonance
+    /// - [`ChangeError::TooManyPoints`]
     pub fn crossed_with(mut self, parameters: Vec<(usize, Vec<f64>)>) -> Result<Plan, ChangeError> {
         for (place, (parameter, _)) in parameters.iter().enumerate() {
             self.check_free(*parameter)?;
@@ -227,8 +237,10 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan without the axis that varies `parameter` and no other, and the values of that axis; `None` if there is no
-    /// such axis. All points of the plan are run.
+    /// Returns the plan without the axis that varies `parameter` alone, and the values of this axis; `None` if there
+    /// is no such axis.
+    ///
+    /// All points of the plan are run.
     pub fn without_axis(mut self, parameter: usize) -> (Plan, Option<Values>) {
         let (axes, values) = self.space.axes.without(parameter);
         self.space.axes = axes;
@@ -236,23 +248,24 @@ impl Plan {
         (self, values)
     }
 
-    /// The plan each of whose points is a design with a curve of rows, along which a parameter rises and falls. That parameter
-    /// has no axis.
+    /// Returns the plan whose points are designs, each with a curve of rows along which a parameter rises and falls.
+    ///
+    /// The parameter must not have an axis.
     pub fn following(mut self, along: Along) -> Plan {
         self.followed = Some(along);
         self
     }
 
-    /// The plan of which one of several equal parts is run.
+    /// Returns the plan that runs one of several equal parts.
     pub fn with_shard(mut self, shard: Shard) -> Plan {
         self.selection = Selection::Shard(shard);
         self
     }
 
-    /// The plan of which these points are run: indices of the plan, rising.
+    /// Returns the plan that runs these points: indices of the plan, in ascending order.
     ///
     /// # Errors
-    /// [`ChangeError::NoPoint`] if an index is not less than [`Plan::len`], or not more than the index before it.
+    /// [`ChangeError::NoPoint`] if an index is not less than [`Plan::len`], or not larger than the previous index.
     pub fn with_points(mut self, list: Vec<u64>) -> Result<Plan, ChangeError> {
         let falls = list.windows(2).find(|two| two[0] >= two[1]).map(|two| two[1]);
         if let Some(index) = falls.or(list.last().copied().filter(|last| *last >= self.len())) {
@@ -262,13 +275,13 @@ impl Plan {
         Ok(self)
     }
 
-    /// The plan of which all points are run.
+    /// Returns the plan that runs all points.
     pub fn with_all_points(mut self) -> Plan {
         self.selection = Selection::All;
         self
     }
 
-    /// The components of the states of the model's motions.
+    /// Returns the names of the states of the model's motions.
     fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
         if self.resonance().is_some() {
             return Err(ChangeError::AtResonance);

@@ -6,44 +6,45 @@ use flap_core::vehicle::standing;
 
 use crate::notation::text;
 
-/// The derivatives that rows have: of each of some measures by each of some parameters.
+/// Derivatives in rows: of each of some measures with respect to each of some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
-    /// Indices of the measures: the model's columns, then the plan's own.
+    /// Indices of the measures: the model's columns come first, then the plan's own.
     pub of: Vec<usize>,
     /// Indices into the model's parameter table.
     pub with_respect_to: Vec<usize>,
-    /// The change of the parameter that they are per.
+    /// Change of the parameter to which derivatives refer.
     pub per: Per,
 }
 
-/// The change of a parameter that derivatives are per.
+/// Change of a parameter to which derivatives refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
     /// One per cent of the parameter.
     Cent,
-    /// One of its SI unit.
+    /// One SI unit of the parameter.
     Unit,
 }
 
 impl Gradient {
-    /// The number of derivatives.
+    /// Returns the number of derivatives.
     pub fn len(&self) -> usize {
         self.of.len() * self.with_respect_to.len()
     }
 
-    /// True if there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The derivatives in the order of their columns: measure and parameter.
+    /// Returns the derivatives in the order of their columns: measure and parameter.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.of.iter().flat_map(|&of| self.with_respect_to.iter().map(move |&by| (of, by)))
     }
 }
 
-/// The name of the column with the change of the measure `of` per per cent or per SI unit of the parameter `by`.
+/// Returns the name of the column with the change of the measure `of` per per cent or per SI unit of the parameter
+/// `by`.
 ///
 /// ```
 /// use flap_sweep::plan::gradient::{Per, column_name};
@@ -58,7 +59,7 @@ pub fn column_name(of: &str, by: &str, per: Per) -> String {
     }
 }
 
-/// Measure, parameter and change in the name of a column, as [`column_name`] writes it; `None` for other names.
+/// Returns measure, parameter and change from a column name of [`column_name`]; `None` for other names.
 ///
 /// ```
 /// use flap_sweep::plan::gradient::{Per, parts};
@@ -73,7 +74,7 @@ pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
         .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
 }
 
-/// The unit of a derivative: the unit `of` of the measure per per cent, or per unit `by` of the parameter.
+/// Returns the unit of a derivative: the unit `of` of the measure per per cent, or per unit `by` of the parameter.
 ///
 /// ```
 /// use flap_sweep::plan::gradient::{Per, unit};
@@ -95,7 +96,8 @@ pub fn unit(of: &str, by: &str, per: Per) -> String {
     }
 }
 
-/// The meaning of the column with the change of the measure `of`, which has this unit, by the parameter `by`.
+/// Returns the description of the column with the change of the measure `of`, which has this unit, by the parameter
+/// `by`.
 pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     let change = match per {
         Per::Cent => "1 %",
@@ -105,45 +107,51 @@ pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     format!("change of {of}{unit} per {change} of {by}")
 }
 
-/// The reason why rows cannot have derivatives by a parameter, as the end of a sentence about it.
+/// Reason why rows cannot have derivatives with respect to a parameter, as the end of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoShares {
-    /// Formulas decide it.
+    /// Formulas determine the parameter.
     #[error("is derived from other parameters")]
     Derived,
-    /// It is a named option.
-    #[error("has fixed values, so there is no derivative by it")]
+    /// The parameter is a named option.
+    #[error("is a choice, so there is no derivative with respect to it")]
     Choice,
-    /// It is a count.
-    #[error("has fixed values, so there is no derivative by it")]
+    /// The parameter is a count.
+    #[error("has whole numbers as values, so there is no derivative with respect to it")]
     Whole,
-    /// It has no value of its own, and follows those that are told.
+    /// The parameter is not set. The text describes the parameters that it follows.
     #[error("is not set: {}", following(.0))]
     Unset(&'static str),
 }
 
-/// The parameters that one that is not set follows, as a sentence, or that it has no default.
+/// Returns a sentence about the parameters that an unset parameter follows, or that it has no default.
 fn following(others: &str) -> String {
     text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }
 
 impl NoShares {
-    /// The remedy in a grid file; empty if there is none.
+    /// Returns the remedy in a grid file; empty if there is none.
     pub fn help(self) -> &'static str {
         match self {
-            NoShares::Derived => "name those: derivatives by them include what follows from them",
+            NoShares::Derived => {
+                "list these parameters instead: their derivatives include the effect of derived parameters"
+            }
             NoShares::Choice | NoShares::Whole => "",
             NoShares::Unset(_) => "set it under [params]",
         }
     }
 }
 
-/// The share of the largest published value below which a value of a parameter is small. It is no larger because robots may be
-/// far smaller than the published ones.
+/// Share of the largest published value below which a value counts as small.
+///
+/// It is not larger because robots may be far smaller than the published ones.
 const SMALL: f64 = 1e-3;
 
-/// The size of a parameter (SI), of which a small share changes it: its value or, where that is zero or so small that its shares
-/// would be lost in rounding, a typical size. `None` if it is zero and none is known.
+/// Returns the size (SI) to which relative changes of a parameter refer; `None` if it is zero and has no typical
+/// size.
+///
+/// It is the parameter's value. For a value of zero, or so small that changes would be lost in rounding, it is a
+/// typical size.
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
     let known = (value != 0.0 && value.is_finite()).then_some(value);
@@ -155,7 +163,7 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
-/// True if a parameter is zero and can be no less: its differences are one-sided.
+/// Returns true if a parameter is zero and cannot be negative, so that its differences are one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
     let range = match parameters[index].kind {
         Kind::Number(range) | Kind::Following(range, _) => range,
@@ -164,7 +172,7 @@ pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
-/// A value after a change by a share of its [`size`].
+/// Returns a value after a change by a share of its [`size`].
 pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     match size {
         Some(size) if size != value => share.mul_add(size, value),
@@ -172,8 +180,10 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     }
 }
 
-/// The size below which values of a parameter are small (SI): that of all wings' for one wing's and for a difference, the
-/// published ones', else that of such quantities in robots of the size of an insect.
+/// Returns the typical size of a parameter (SI).
+///
+/// For a parameter of one wing or a difference, it is the size of the parameter of all wings. Otherwise it is the
+/// published size, or the size of such quantities in insect-scale robots.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -204,16 +214,16 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
     }
 }
 
-/// The largest value of a parameter in the presets of the model; zero if they have none.
+/// Returns the largest value of a parameter in the presets of the model; zero if there is none.
 fn published(simulator: &dyn Simulator, index: usize) -> f64 {
     let values = simulator.presets().iter().filter_map(|preset| (preset.values)().get(index).copied());
     values.filter(|value| value.is_finite()).fold(0.0, |largest, value| value.abs().max(largest))
 }
 
-/// Checks that rows can have derivatives by `parameter`, which is derived or follows others, or has a value.
+/// Checks that rows can have derivatives with respect to `parameter`.
 ///
 /// # Errors
-/// The reason why not.
+/// [`NoShares`] if they cannot.
 pub(crate) fn check(
     parameter: &Parameter,
     is_derived: bool,

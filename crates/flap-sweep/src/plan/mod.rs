@@ -1,12 +1,12 @@
-//! Checked design spaces: their points, and the settings with which each point is run.
+//! Checked design spaces: their points, and the settings for running each point.
 //!
-//! - [`Plan`]: a design space that has passed every check, and the methods that change it
-//! - [`axes`]: the values of varied parameters
+//! - [`Plan`]: a checked design space, and methods that change it
+//! - [`axes`]: values of varied parameters
 //! - [`sample`]: points spread over a design space
-//! - [`formula`]: derived parameters, conditions, measures of the user's own
+//! - [`formula`]: derived parameters, conditions, the user's measures
 //! - [`gradient`]: derivatives of measures
 //! - [`uncertainty`]: standard errors of parameters
-//! - [`selection`]: the points that are run
+//! - [`selection`]: points to run
 
 mod admission;
 pub mod axes;

@@ -1,6 +1,6 @@
-//! Samples of a design space: points spread over it by chance, or more evenly than chance does.
+//! Samples of a design space: points spread over it at random or more evenly.
 //!
-//! A [`Design`] spreads points over the unit cube, a [`Distribution`] carries each coordinate over to a parameter. Any
+//! A [`Design`] spreads points over the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
 //! point is computed in constant time and depends on the seed and its index alone.
 
 use rand::rngs::ChaCha8Rng;
@@ -15,12 +15,13 @@ mod sobol;
 #[cfg(test)]
 mod tests;
 
-/// The method by which points are spread over the unit cube.
+/// Method for spreading points over the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Sobol' sequence with direction numbers by Joe and Kuo, scrambled after Owen by a hash of the digits.
     Sobol,
-    /// Latin hypercube: along every dimension, each of `count` equal intervals has one point, at random within it.
+    /// Latin hypercube: along every dimension, each of `count` equal intervals contains one point at a random
+    /// position.
     LatinHypercube,
     /// Independent random points.
     Random,
@@ -34,7 +35,7 @@ pub struct Design {
     kind: Kind,
 }
 
-/// The data of each method, for each dimension.
+/// Data of each method, for each dimension.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Sobol(Vec<Sobol>),
@@ -43,13 +44,14 @@ enum Kind {
 }
 
 impl Design {
-    /// The largest number of points: 2^32.
+    /// Largest number of points: 2^32.
     pub const MAX_POINTS: u64 = 1 << 32;
 
-    /// The largest number of dimensions.
+    /// Largest number of dimensions.
     pub const MAX_DIMENSIONS: usize = sobol::DIRECTIONS.len() + 1;
 
-    /// `count` points over `dimensions` dimensions; at most [`Design::MAX_POINTS`] and [`Design::MAX_DIMENSIONS`].
+    /// Returns `count` points in `dimensions` dimensions; at most [`Design::MAX_POINTS`] and
+    /// [`Design::MAX_DIMENSIONS`].
     pub fn new(method: Method, seed: u64, count: u64, dimensions: usize) -> Design {
         let kind = match method {
             Method::Sobol => Kind::Sobol((0..dimensions).map(|d| Sobol::new(d, key(seed, d))).collect()),
@@ -62,7 +64,7 @@ impl Design {
         Design { seed, count, kind }
     }
 
-    /// The method by which points are spread.
+    /// Returns the method.
     pub fn method(&self) -> Method {
         match self.kind {
             Kind::Sobol(_) => Method::Sobol,
@@ -71,24 +73,24 @@ impl Design {
         }
     }
 
-    /// The seed of the random numbers.
+    /// Returns the seed of the random numbers.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Number of points.
+    /// Returns the number of points.
     pub fn count(&self) -> u64 {
         self.count
     }
 
-    /// The coordinate of a point along a dimension: more than 0 and less than 1.
+    /// Returns the coordinate of a point along a dimension: more than 0 and less than 1.
     pub fn coordinate(&self, index: u64, dimension: usize) -> f64 {
         match &self.kind {
             Kind::Sobol(dimensions) => dimensions[dimension].coordinate(index),
             Kind::LatinHypercube(permutations) => {
                 let interval = permutations[dimension].get(index) as f64;
                 let within = coordinate(self.seed, dimension, index);
-                // In the last interval the sum may be rounded to the very end.
+                // In the last interval the sum may be rounded up to 1.
                 ((interval + within) / self.count as f64).min(1.0 - f64::EPSILON)
             }
             Kind::Random => coordinate(self.seed, dimension, index),
@@ -96,16 +98,16 @@ impl Design {
     }
 }
 
-/// A random number of the open interval from 0 to 1.
+/// Returns a random number in the open interval from 0 to 1.
 pub(super) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
     let mut generator = stream(seed, dimension, false);
-    // In 32-bit words.
+    // The position counts 32-bit words.
     generator.set_word_pos(2 * u128::from(index));
-    // The middle of one of 2^52 intervals, so that neither end is met.
+    // The middle of one of 2^52 intervals, which excludes both ends.
     ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
-/// A random key for a dimension.
+/// Returns a random key for a dimension.
 pub(super) fn key(seed: u64, dimension: usize) -> u64 {
     stream(seed, dimension, true).next_u64()
 }
@@ -116,13 +118,13 @@ fn stream(seed: u64, dimension: usize, is_key: bool) -> ChaCha8Rng {
     generator
 }
 
-/// Rounds of the cipher. Four make it as good as random, if the key is; two more cost nothing.
+/// Number of rounds of the cipher. Four are as good as random for a random key; two more take negligible time.
 const ROUNDS: u64 = 6;
 
-/// A random permutation of the numbers below `count` that is not stored.
+/// A random permutation of the numbers below `count`, which is not stored.
 ///
-/// A Feistel cipher permutes the numbers of so many bits, at least as many as needed and even; numbers that come out
-/// too large go through it again, which leads back in a few times.
+/// A Feistel cipher permutes the numbers with an even number of bits, enough for `count`. Numbers that are too large
+/// are encrypted again, which gives a number in range after a few repetitions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Permutation {
     count: u64,
@@ -131,13 +133,13 @@ pub(super) struct Permutation {
 }
 
 impl Permutation {
-    /// The permutation of `count` numbers with this key.
+    /// Returns the permutation of `count` numbers with this key.
     pub(super) fn new(count: u64, key: u64) -> Permutation {
         let bits = u64::BITS - count.saturating_sub(1).leading_zeros();
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }
     }
 
-    /// The image of `index`, which must be less than `count`.
+    /// Returns the image of `index`, which must be less than `count`.
     pub(super) fn get(&self, index: u64) -> u64 {
         let mut number = self.once(index);
         while number >= self.count {
@@ -157,7 +159,8 @@ impl Permutation {
     }
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): each bit depends on all.
+/// Returns the finaliser of SplitMix64 (Steele, Lea and Flood 2014) of `x`: each output bit depends on all input
+/// bits.
 fn mix(mut x: u64) -> u64 {
     x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
     x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -1,24 +1,24 @@
-//! The points of a plan that are run: all of them, every n-th, or a list.
+//! Selection of the points of a plan that are run: all points, every n-th, or a list.
 
 use std::fmt;
 use std::str::FromStr;
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// The points that are run, in the order of the plan. The rows keep the indices of the whole plan.
+/// Points to run, in the order of the plan. Rows keep the indices of the whole plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
-    /// Every point.
+    /// All points.
     #[default]
     All,
-    /// The points of one machine among several.
+    /// One machine's points.
     Shard(Shard),
-    /// These points, rising.
+    /// Listed points, in ascending order.
     Listed(Vec<u64>),
 }
 
 impl Selection {
-    /// Number of points that are run, of `points` points.
+    /// Returns the number of selected points, for a plan of `points` points.
     pub fn len(&self, points: u64) -> u64 {
         match self {
             Selection::All => points,
@@ -27,7 +27,8 @@ impl Selection {
         }
     }
 
-    /// The index in the plan of the selected point number `position`, which must be less than [`Selection::len`].
+    /// Returns the index in the plan of the selected point number `position`, which must be less than
+    /// [`Selection::len`].
     pub fn index(&self, position: u64) -> u64 {
         match self {
             Selection::All => position,
@@ -36,7 +37,7 @@ impl Selection {
         }
     }
 
-    /// The position among the selected points of the point with this index, which must be one of them.
+    /// Returns the position among the selected points of the point with this index, which must be selected.
     pub fn position(&self, index: u64) -> u64 {
         match self {
             Selection::All => index,
@@ -46,7 +47,7 @@ impl Selection {
     }
 }
 
-/// `all points`, `shard 2/3`, or the number of listed points with a hash that tells lists apart.
+/// Prints `all points`, `shard 2/3`, or the number of listed points with a hash of the list.
 impl fmt::Display for Selection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -63,9 +64,9 @@ impl fmt::Display for Selection {
     }
 }
 
-/// One of several equal parts of a plan: the points whose index leaves the remainder `number - 1` when divided by `of`.
+/// One of several equal parts of a plan: the points whose index modulo `of` equals `number - 1`.
 ///
-/// Neighbouring points take similar time, so parts that take every n-th point take similar time too.
+/// Neighbouring points take similar time, so such parts also take similar time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u64,
@@ -73,20 +74,20 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Most shards of a plan.
+    /// Largest number of shards of a plan.
     pub const MOST: u64 = 1_000_000;
 
-    /// The number of this shard, from 1.
+    /// Returns the number of this shard, from 1.
     pub fn number(self) -> u64 {
         self.number
     }
 
-    /// The number of shards.
+    /// Returns the number of shards.
     pub fn of(self) -> u64 {
         self.of
     }
 
-    /// True if the point is of this shard.
+    /// Returns true if the shard contains the point.
     pub fn contains(self, index: u64) -> bool {
         index % self.of == self.number - 1
     }
@@ -101,7 +102,7 @@ impl fmt::Display for Shard {
 impl FromStr for Shard {
     type Err = String;
 
-    /// Reads `2/3`.
+    /// Parses `2/3`.
     fn from_str(text: &str) -> Result<Shard, String> {
         let numbers = text.split_once('/').and_then(|(number, of)| number.parse().ok().zip(of.parse().ok()));
         match numbers {
@@ -113,7 +114,7 @@ impl FromStr for Shard {
     }
 }
 
-/// A rising list of indices as text, with runs drawn together: `3,17,20-31`.
+/// Returns an ascending list of indices as text, with ranges for consecutive ones: `3,17,20-31`.
 pub fn list_text(list: &[u64]) -> String {
     let runs = list.chunk_by(|a, b| a + 1 == *b);
     let run = |run: &[u64]| match run {
@@ -123,10 +124,11 @@ pub fn list_text(list: &[u64]) -> String {
     runs.map(run).collect::<Vec<_>>().join(",")
 }
 
-/// The most points that may be listed: they are kept in memory.
+/// Largest number of listed points, which are stored in memory.
 pub const MOST_LISTED: u64 = 10_000_000;
 
-/// The list that [`list_text`] wrote, of at most [`MOST_LISTED`] indices below `points`; `None` for any other text.
+/// Returns the list in a text of [`list_text`], of at most [`MOST_LISTED`] indices below `points`; `None` for any
+/// other text.
 pub fn read_list(text: &str, points: u64) -> Option<Vec<u64>> {
     let mut list: Vec<u64> = Vec::new();
     for run in text.split(',').filter(|run| !run.is_empty()) {

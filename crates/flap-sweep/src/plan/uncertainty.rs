@@ -5,42 +5,43 @@ use nalgebra::DMatrix;
 /// Standard errors of parameters, and correlations between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uncertainty {
-    /// Indices into the model's parameter table, rising, each with its standard error in the parameter's SI unit.
+    /// Indices into the model's parameter table, ascending, each with its standard error in the parameter's SI unit.
     errors: Vec<(usize, f64)>,
     correlations: Vec<Correlation>,
 }
 
-/// The correlation of two parameters.
+/// Correlation of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correlation {
     /// Indices into the model's parameter table.
     pub between: [usize; 2],
-    /// The coefficient, between -1 and 1.
+    /// Coefficient, between -1 and 1.
     pub coefficient: f64,
 }
 
 impl Uncertainty {
-    /// True if no parameter has an error.
+    /// Returns true if no parameter has an error.
     pub fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }
 
-    /// Indices of parameters, rising, each with its standard error in its SI unit.
+    /// Returns indices of parameters, ascending, each with its standard error in its SI unit.
     pub fn errors(&self) -> &[(usize, f64)] {
         &self.errors
     }
 
-    /// The correlations that are not zero.
+    /// Returns the correlations that are not zero.
     pub fn correlations(&self) -> &[Correlation] {
         &self.correlations
     }
 
-    /// The standard error of a parameter in its SI unit, if it has one.
+    /// Returns the standard error of a parameter in its SI unit, if it has one.
     pub fn error(&self, parameter: usize) -> Option<f64> {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
     }
 
-    /// Gives a parameter another standard error, or none. Its correlations are those of an earlier value: they end.
+    /// Sets or removes the standard error of a parameter. Its correlations belong to the earlier value and are
+    /// removed.
     pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
         self.errors.retain(|(index, _)| *index != parameter);
         self.correlations.retain(|correlation| !correlation.between.contains(&parameter));
@@ -48,15 +49,17 @@ impl Uncertainty {
         self.errors.sort_by_key(|(index, _)| *index);
     }
 
-    /// Correlates two parameters, in place of an earlier correlation of them.
+    /// Sets the correlation of two parameters, in place of an earlier one.
     pub(crate) fn correlate(&mut self, correlation: Correlation) {
         let [one, other] = correlation.between;
         self.correlations.retain(|old| old.between != [one, other] && old.between != [other, one]);
         self.correlations.push(correlation);
     }
 
-    /// The lower triangle L of the correlation matrix R = L Lᵀ, a row for each of [`Uncertainty::errors`]. `None` if R is not
-    /// positive definite: the correlations contradict each other.
+    /// Returns the lower triangle L of the correlation matrix R = L Lᵀ, with a row for each of
+    /// [`Uncertainty::errors`].
+    ///
+    /// `None` if R is not positive definite, so that the correlations contradict each other.
     pub(crate) fn factor(&self) -> Option<Vec<Vec<f64>>> {
         let n = self.errors.len();
         let mut matrix = DMatrix::identity(n, n);

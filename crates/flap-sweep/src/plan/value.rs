@@ -1,23 +1,24 @@
-//! The value of a parameter before the axes are applied, and the parameters whose values have units.
+//! Values of parameters before the axes are applied, and the parameters whose values have units.
 
 use std::collections::BTreeSet;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::Simulator;
 
-/// The value of a parameter before the axes are applied.
+/// Value of a parameter before the axes are applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// A number in SI units, or the index of an option.
     Given(f64),
-    /// The parameter is not set and follows others, as the text says.
+    /// The parameter is not set. The text describes the parameters that it follows.
     Follows(&'static str),
-    /// The drive frequency is the resonance of each design.
+    /// The drive frequency is set to the resonance of each design.
     Resonance,
 }
 
 impl Value {
-    /// The values of a preset of `model`, one per parameter; of parameters that it does not have, their defaults.
+    /// Returns the values of a preset of `model`, one per parameter. Parameters that the preset lacks have their
+    /// defaults.
     pub(crate) fn of_preset(model: &dyn Simulator, preset: &Preset) -> Vec<Value> {
         let given = (preset.values)();
         // A vehicle has more parameters than its model.
@@ -30,7 +31,7 @@ impl Value {
         values.map(value).collect()
     }
 
-    /// The number, if one is given.
+    /// Returns the number, if one is given.
     pub fn given(self) -> Option<f64> {
         match self {
             Value::Given(value) => Some(value),
@@ -38,23 +39,23 @@ impl Value {
         }
     }
 
-    /// The value as a design point holds it: NaN if no number is given.
+    /// Returns the value for a design point: NaN if no number is given.
     pub fn in_point(self) -> f64 {
         self.given().unwrap_or(f64::NAN)
     }
 }
 
-/// The parameters whose values a file writes with their units, such as `"17 mm"`.
+/// Parameters whose values have units in a file, such as `"17 mm"`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WithUnits(BTreeSet<usize>);
 
 impl WithUnits {
-    /// True if the value of the parameter is written with its unit.
+    /// Returns true if the value of the parameter has a unit.
     pub(crate) fn contain(&self, parameter: usize) -> bool {
         self.0.contains(&parameter)
     }
 
-    /// Notes of a new value of the parameter whether it has its unit; `None` for what leaves the value as it is.
+    /// Records whether a new value of the parameter has a unit; `None` if the value does not change.
     pub(crate) fn note(&mut self, parameter: usize, has_unit: Option<bool>) {
         match has_unit {
             Some(true) => _ = self.0.insert(parameter),

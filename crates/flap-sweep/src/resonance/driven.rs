@@ -1,4 +1,5 @@
-//! The drive frequencies at which the settled stroke of one design is largest, and its free motion after an impulse.
+//! Drive frequencies at which the settled stroke of one design is largest, and the size of an impulse for free
+//! motions.
 
 use std::f64::consts::PI;
 
@@ -8,21 +9,21 @@ use super::search::{Found, Peaks, Search, Seen};
 use super::sequence::PointSequence as _;
 use super::target::{Objective, Range, SearchError, Target, has_prescribed_stroke};
 
-/// Most peaks that are reported.
+/// Largest number of reported peaks.
 const PEAKS: usize = 2;
 
-/// The range of a search for peaks, and its accuracy.
+/// Range and accuracy of a search for peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeakSearch {
     /// Lowest drive frequency (Hz); half of the lower natural frequency if `None`.
     pub from: Option<f64>,
     /// Highest drive frequency (Hz); one and a half times the upper natural frequency if `None`.
     pub to: Option<f64>,
-    /// Largest error of a peak's frequency (Hz), more than zero.
+    /// Largest error of a peak's frequency (Hz); must be more than zero.
     pub tolerance: f64,
 }
 
-/// A frequency at which the stroke is larger than on either side.
+/// A local maximum of the stroke over the drive frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivenPeak {
     /// Drive frequency (Hz).
@@ -33,36 +34,37 @@ pub struct DrivenPeak {
     pub pitch_pp: f64,
 }
 
-/// The result of a search.
+/// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenPeaks {
     /// Lowest and highest frequency of the range (Hz).
     pub range: [f64; 2],
-    /// The peaks between its ends, the highest first; at most two.
+    /// Peaks inside the range, the highest first; at most two.
     pub peaks: Vec<DrivenPeak>,
-    /// The end of the range (Hz) at which the stroke is larger than at any peak, if it is.
+    /// End of the range (Hz) at which the stroke is larger than at every peak, if there is one.
     pub larger_at: Option<f64>,
-    /// Points run.
+    /// Number of points run.
     pub points: usize,
-    /// The frequencies at which the motion did not become periodic, rising.
+    /// Intervals of frequencies without a periodic motion, in ascending order.
     pub gaps: Vec<Gap>,
 }
 
-/// Neighbouring drive frequencies at which the motion did not become periodic.
+/// Neighbouring drive frequencies without a periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Lowest of them (Hz).
+    /// Lowest frequency (Hz).
     pub from: f64,
-    /// Highest of them (Hz).
+    /// Highest frequency (Hz).
     pub to: f64,
-    /// Number of them.
+    /// Number of frequencies.
     pub points: usize,
-    /// The status of the motion at all of them.
+    /// Status of the motion at all of these frequencies.
     pub status: Status,
 }
 
-/// Looks for the drive frequencies at which the stroke of a point is largest. Stroke and pitch of a peak are those of the
-/// motion from rest.
+/// Computes the drive frequencies at which the stroke of a point is largest.
+///
+/// Stroke and pitch of a peak belong to the motion from rest.
 ///
 /// # Errors
 /// - [`SearchError::Unfinished`] if it is interrupted, or the values are impossible together
@@ -78,7 +80,7 @@ pub fn search(
         return Err(SearchError::Tolerance(tolerance));
     }
     if has_prescribed_stroke(model.parameters(), values) {
-        return Err(SearchError::Prescribed("set it to free"));
+        return Err(SearchError::Prescribed("set stroke_mode to free"));
     }
     let range = Range { of: Objective::Stroke, from, to, tolerance };
     let target = Target::new(model, range)
@@ -97,7 +99,7 @@ pub fn search(
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
 }
 
-/// The peaks that were found, given the indices of the amplitudes of stroke and pitch among the measures.
+/// Returns the peaks found. `amplitudes` are the indices of the amplitudes of stroke and pitch in the measures.
 fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -> DrivenPeaks {
     let [from, to] = found.ends;
     let mut tops: Vec<DrivenPeak> =
@@ -111,13 +113,13 @@ fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -
     DrivenPeaks { range: found.ends, peaks: tops, larger_at, points: seen.len(), gaps: gaps(seen) }
 }
 
-/// The peak at which the motion of `row` is; `None` if that is not periodic.
+/// Returns the peak with the motion of `row`; `None` if the motion is not periodic.
 fn peak(frequency: f64, row: &Row, amplitudes: [usize; 2]) -> Option<DrivenPeak> {
     let [stroke, pitch] = amplitudes.map(|index| row.measures.get(index).map(|amplitude| 2.0 * amplitude));
     Some(DrivenPeak { frequency, stroke_pp: stroke?, pitch_pp: pitch? })
 }
 
-/// The frequencies at which the motion did not become periodic.
+/// Returns the intervals of frequencies without a periodic motion.
 fn gaps(seen: &[Seen]) -> Vec<Gap> {
     let mut seen: Vec<(f64, Status)> = seen.iter().map(|seen| (seen.frequency, seen.status)).collect();
     seen.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -138,20 +140,21 @@ fn gaps(seen: &[Seen]) -> Vec<Gap> {
     gaps
 }
 
-/// An impulse whose amplitude no wing can reach.
+/// Error of an impulse whose amplitude is too large for a wing.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("an impulse of {:.1} deg ({amplitude} rad) is larger than half a turn", amplitude.to_degrees())]
+#[error("an impulse of {:.1} deg ({amplitude} rad) is larger than 180 deg", amplitude.to_degrees())]
 pub struct LargeImpulse {
-    /// The amplitude (rad).
+    /// Amplitude (rad).
     amplitude: f64,
 }
 
 impl LargeImpulse {
-    /// The remedy.
+    /// Remedy.
     pub const HELP: &str = "give at most 180 deg, such as \"20 deg\"";
 }
 
-/// The amplitude (rad) of an impulse, if it is at most half a turn: a wing that turns further passes through the body.
+/// Returns the amplitude (rad) of an impulse, if it is at most 180°. With a larger one the wing would pass through
+/// the body.
 ///
 /// # Errors
 /// [`LargeImpulse`] for a larger amplitude.
@@ -167,7 +170,7 @@ mod tests {
     fn an_impulse_is_at_most_half_a_turn() {
         assert_eq!(impulse(-PI), Ok(-PI));
         let refused = impulse(20.0).map_err(|error| error.to_string());
-        assert_eq!(refused, Err("an impulse of 1145.9 deg (20 rad) is larger than half a turn".to_owned()));
+        assert_eq!(refused, Err("an impulse of 1145.9 deg (20 rad) is larger than 180 deg".to_owned()));
         assert!(impulse(f64::NAN).is_err());
     }
 }

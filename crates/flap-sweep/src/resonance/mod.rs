@@ -1,10 +1,11 @@
-//! The resonances of designs: the drive frequencies at which their stroke, lift or efficiency is largest.
+//! Resonances of designs: drive frequencies at which stroke, lift or efficiency is largest.
 //!
-//! - [`AtResonance`]: rows of designs that are each run at their own resonance
-//! - [`driven`]: the highest peaks of one design, and with [`impulse()`] the size of an impulse, after which free motions are examined
-//! - `search`: the search for both, and for the top of one peak
-//! - `target`: the quantity that is largest, and the range of the search
-//! - [`sequence`]: points that are chosen one after another, by the rows of earlier ones
+//! - [`AtResonance`]: rows of designs, each at its own resonance
+//! - [`driven`]: highest peaks of one design, and with [`impulse()`] the size of an impulse for the analysis of free
+//!   motions
+//! - `search`: search for both, and for the maximum of one peak
+//! - `target`: quantity to maximise, and range of the search
+//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier ones
 
 pub mod driven;
 mod rows;

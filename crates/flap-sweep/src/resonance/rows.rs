@@ -1,4 +1,4 @@
-//! Rows of designs that are each run at their own resonance.
+//! Rows of designs, each at its own resonance.
 
 use flap_core::model::OverWings;
 use flap_core::num::Backend;
@@ -8,43 +8,42 @@ use super::search::{Peaks, Search};
 use super::sequence::{self, SequenceSource};
 use super::target::{Objective, Range, Target, places};
 
-/// A model whose rows are those of each design at its own resonance: the drive frequency of a point does not matter.
+/// A model whose rows are computed at the resonance of each design. The drive frequency of a point is ignored.
 ///
-/// A row is the one that the model gives at [`RESONANCE_HZ`], but for `cycles` and `rhs_evals`, which count the whole
-/// search. Its measures are the model's, and behind them those of the resonance.
+/// A row is the model's row at [`RESONANCE_HZ`], except `cycles` and `rhs_evals`, which count the whole search. After
+/// the model's measures it contains measures about the resonance.
 #[derive(Clone)]
 pub struct AtResonance {
     target: Target,
     columns: Vec<Column>,
 }
 
-/// The column with the resonance's frequency.
+/// Column with the resonance's frequency.
 pub const RESONANCE_HZ: &str = "resonance_hz";
 
-/// The column with the resonance's distance from the nearer end of the range.
+/// Column with the distance of the resonance from the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
-/// The measures that rows of a simulator can have: its own, then those of designs at their resonance.
+/// Returns the measures that rows of a simulator can have: its own, then measures about the resonance.
 pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
     let of = Range::default().of;
     if places(simulator, of).is_some() { columns(simulator, of) } else { simulator.columns().to_vec() }
 }
 
-/// The measures of rows of designs at their resonance: those of the model, then those of the resonance.
+/// Returns the measures of rows at the resonance: the model's, then measures about the resonance.
 fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
     let of = of.name();
-    let margin =
-        "distance of the resonance from the nearer end of the range; zero if the largest value is there";
+    let margin = "distance of the resonance from the nearer end of the range; zero if the largest value is at that end";
     let gaps = "number of search points without a periodic motion: a larger peak may lie there";
     let added = [
         (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
         (
             "resonance_second_hz",
             "Hz",
-            &*format!("another peak of the {of}, if it is within 5 % of the largest"),
+            &*format!("drive frequency of another peak of the {of}, if it is within 5 % of the largest"),
         ),
         (RESONANCE_MARGIN_HZ, "Hz", margin),
-        ("resonance_points", "", "points run in the search"),
+        ("resonance_points", "", "number of points run in the search"),
         ("resonance_gaps", "", gaps),
     ];
     let added = added.map(|(name, unit, doc)| Column {
@@ -57,12 +56,13 @@ fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
 }
 
 impl AtResonance {
-    /// The resonances of designs of `model`; `None` if that has no drive frequency or does not measure the objective.
+    /// Returns the resonances of designs of `model`; `None` if it has no drive frequency or does not measure the
+    /// objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
         Some(AtResonance { target: Target::new(model, range)?, columns: columns(model, range.of) })
     }
 
-    /// The range in which resonances are looked for.
+    /// Returns the range of the search.
     pub fn range(&self) -> &Range {
         &self.target.range
     }
@@ -77,7 +77,7 @@ impl Rows for AtResonance {
         sequence::run_all(self.target.model, backend, solver, &mut Designs { at: self, jobs });
     }
 
-    /// A resonance is looked for from rest: `begin` does not matter.
+    /// The search for a resonance begins at rest, so `begin` is ignored.
     fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
         let design = Point::at_rest(0, run.values.to_vec());
         let mut search = Search::new(&self.target, design, Peaks::HIGHEST);
@@ -86,7 +86,7 @@ impl Rows for AtResonance {
     }
 }
 
-/// Designs on their way from the jobs of a sweep to their rows.
+/// Designs in progress, from the jobs of a sweep to their rows.
 struct Designs<'a> {
     at: &'a AtResonance,
     jobs: &'a mut dyn Jobs,

@@ -1,72 +1,73 @@
-//! The search for the resonance of one design.
+//! Search for the resonance of one design.
 //!
-//! A grid over the range shows the peaks; the highest are located by [`Maximum`], each probe from the orbit of its nearest
-//! neighbour, which costs half as much as from rest. The row is that of the point from rest, like every row: if
-//! it is not what the search has seen there, the design has more than one orbit, and the peaks are located again with all
-//! probes from rest.
+//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest ones. Each probe begins at the
+//! orbit of its nearest neighbour, which takes half the time of a start from rest.
+//!
+//! The row belongs to the motion from rest, like every row. If this motion differs from the motion of the search
+//! there, the design has more than one orbit. The peaks are then located again with all probes from rest.
 
 use flap_core::simulate::{Point, Row, Status};
 
 use super::sequence::PointSequence;
 use super::target::{SearchError, Target};
 
-/// Ratio of neighbouring frequencies of the grid, less one. A peak of quality Q is 1/Q wide.
+/// Ratio of neighbouring frequencies of the grid, minus one. A peak of quality Q has a relative width of 1/Q.
 const SPACING: f64 = 0.02;
 
-/// Fewest and most intervals of the grid.
+/// Smallest and largest number of intervals of the grid.
 const INTERVALS: [f64; 2] = [8.0, 500.0];
 
-/// Most peaks that are located.
+/// Largest number of peaks that are located.
 const MOST_TOPS: usize = 4;
 
-/// The peaks that a search locates, and those that it runs from rest in the end.
+/// Peaks to locate, and peaks to run from rest at the end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peaks {
-    /// Largest distance of the top of a peak's parabola below that of the highest, as a share of that.
+    /// Largest difference between the vertex of a peak's parabola and the highest one, relative to the highest.
     contender: f64,
-    /// Number of peaks that are run from rest, the highest first.
+    /// Number of peaks to run from rest, the highest first.
     from_rest: usize,
 }
 
 impl Peaks {
-    /// The highest peak, and others that may turn out to be higher.
+    /// The highest peak, and peaks that may turn out to be higher.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
     /// All peaks.
     pub(super) const ALL: Peaks = Peaks { contender: 1.0, from_rest: MOST_TOPS };
 }
 
-/// Largest distance of a second peak below the highest, as a share of that, at which rows name it.
+/// Largest difference of a second peak from the highest, relative to the highest, at which rows report it.
 const SECOND: f64 = 0.05;
 
-/// Two values this close are of the same orbit, as a share of them.
+/// Largest relative difference of two values of the same orbit.
 const SAME: f64 = 1e-3;
 
-/// A design whose resonance is being looked for.
+/// Search for the resonance of one design.
 pub(super) struct Search<'a> {
     target: &'a Target,
     point: Point,
     peaks: Peaks,
-    /// Lowest and highest frequency (Hz), or the reason for which there is no search.
+    /// Lowest and highest frequency (Hz), or the reason why a search is impossible.
     ends: Result<[f64; 2], SearchError>,
     stage: Stage,
-    /// All points that were run.
+    /// All points run.
     seen: Vec<Seen>,
     /// Frequencies of the latest probes (Hz).
     asked: Vec<f64>,
     cycles: u32,
     rhs_evals: u64,
-    /// The rows of the peaks that were run from rest; that of some other point if there is no peak.
+    /// Rows of the peaks that were run from rest; without a peak, the row of another point.
     rows: Vec<Row>,
 }
 
-/// The stage of a search.
+/// Stage of a search.
 enum Stage {
     /// Running the grid.
     Grid,
-    /// Locating peaks; those at the indices `asking` wait for one value each.
+    /// Locating peaks. The peaks with the indices `asking` wait for one value each.
     Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
-    /// Running the highest of these, `[frequency, value]` each, from rest.
+    /// Running the highest of these peaks, each `[frequency, value]`, from rest.
     Last { tops: Vec<[f64; 2]>, from_rest: bool },
     /// The search has ended.
     Done { tops: Vec<[f64; 2]> },
@@ -75,23 +76,23 @@ enum Stage {
 /// A point that was run.
 pub(super) struct Seen {
     pub(super) frequency: f64,
-    /// The quantity that is to be largest; minus infinity if the motion is not periodic.
+    /// Quantity to maximise; minus infinity if the motion is not periodic.
     value: f64,
-    /// The state on its orbit, unless the motion is not periodic.
+    /// State on its orbit; `None` if the motion is not periodic.
     state: Option<Vec<f64>>,
     pub(super) status: Status,
 }
 
-/// The result of a search.
+/// Result of a search.
 pub(super) struct Found {
     /// Lowest and highest frequency of the range (Hz).
     pub(super) ends: [f64; 2],
-    /// The peaks that were run from rest, `[frequency, value]` each, with their rows.
+    /// Peaks that were run from rest, each `[frequency, value]`, with their rows.
     pub(super) peaks: Vec<([f64; 2], Row)>,
 }
 
 impl<'a> Search<'a> {
-    /// A search for peaks of `target` at the design `point`, whose drive frequency does not matter.
+    /// Returns a search for peaks of `target` at the design `point`, whose drive frequency is ignored.
     pub(super) fn new(target: &'a Target, point: Point, peaks: Peaks) -> Search<'a> {
         let ends = target.ends(&point.values);
         Search {
@@ -108,14 +109,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The design's index and its row.
+    /// Returns the design's index and its row.
     pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
         let first = (!self.rows.is_empty()).then(|| self.rows.swap_remove(0));
         let mut row = match (first, &self.ends) {
             (Some(row), _) => row,
             (None, Err(error)) => Row::invalid(error),
-            (None, Ok(_)) => Row::invalid("the search for its resonance was cut short"),
+            (None, Ok(_)) => Row::invalid("the search for its resonance was interrupted"),
         };
         if let (Stage::Done { tops }, Ok([from, to]), Status::Periodic) =
             (&self.stage, &self.ends, row.status)
@@ -137,13 +138,12 @@ impl<'a> Search<'a> {
         (index, row)
     }
 
-    /// The range of the search (Hz), the peaks that were run from rest as `[frequency, value]` with their rows, and all points
-    /// that were run.
+    /// Returns the result of the search and all points that were run.
     ///
     /// # Errors
     /// - [`SearchError::Range`] or [`SearchError::Prescribed`] if there is no range
     /// - [`SearchError::Design`] if the design is impossible
-    /// - [`SearchError::Unfinished`] if the model has no natural frequencies to make a range of
+    /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
         let ends = self.ends?;
         let peaks = match self.stage {
@@ -162,7 +162,7 @@ impl<'a> Search<'a> {
         Point { begin, ..Point::at_rest(0, values) }
     }
 
-    /// The state on the orbit nearest in frequency.
+    /// Returns the state on the orbit nearest in frequency.
     fn nearest_state(&self, frequency: f64) -> Option<Vec<f64>> {
         let distance = |seen: &&Seen| (seen.frequency - frequency).abs();
         let known = self.seen.iter().filter(|seen| seen.state.is_some());
@@ -178,7 +178,7 @@ impl<'a> Search<'a> {
         self.rhs_evals += row.rhs_evals;
     }
 
-    /// The peaks of the grid, which are the first points seen.
+    /// Returns the peaks of the grid, whose points are the first ones in `seen`.
     fn tops(&self, grid: usize) -> Vec<Maximum> {
         let grid: Vec<[f64; 2]> = self.seen[..grid].iter().map(|seen| [seen.frequency, seen.value]).collect();
         let mut tops: Vec<(f64, [[f64; 2]; 3])> = Vec::new();
@@ -198,7 +198,7 @@ impl<'a> Search<'a> {
         tops.into_iter().map(|(_, points)| Maximum::new(points, self.target.range.tolerance)).collect()
     }
 
-    /// Locates peaks, or goes on to the last point if they all are.
+    /// Continues to locate peaks, or runs the last points if all peaks are located.
     fn locate(&mut self, mut tops: Vec<Maximum>, from_rest: bool) -> Stage {
         let mut asking = Vec::new();
         for (index, top) in tops.iter_mut().enumerate() {
@@ -216,14 +216,14 @@ impl<'a> Search<'a> {
         Stage::Last { tops, from_rest }
     }
 
-    /// Goes on after the latest rows.
+    /// Continues the search with the latest rows.
     fn go_on(&mut self, rows: Vec<Row>) -> Stage {
         let asked = std::mem::take(&mut self.asked);
         match std::mem::replace(&mut self.stage, Stage::Grid) {
             Stage::Grid => {
                 let tops = self.tops(asked.len());
                 if tops.is_empty() {
-                    // No motion is periodic: this row tells the status of one of them.
+                    // No motion is periodic. This row gives the status of one of them.
                     self.rows = rows.into_iter().take(1).collect();
                     return Stage::Done { tops: Vec::new() };
                 }
@@ -254,7 +254,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The frequencies of the grid (Hz), in constant ratio.
+    /// Returns the frequencies of the grid (Hz), with a constant ratio.
     fn grid(&self) -> Vec<f64> {
         let Ok([from, to]) = self.ends else { return Vec::new() };
         let span = libm::log(to / from);
@@ -288,7 +288,7 @@ impl PointSequence for Search<'_> {
     }
 }
 
-/// The height of the parabola through three points, or of the one in the middle if they do not have one.
+/// Returns the maximum of the parabola through three points, or the middle value if it has no maximum.
 fn summit(points: &[[f64; 2]; 3]) -> f64 {
     let [[x0, y0], [x1, y1], [x2, y2]] = *points;
     let (left, right) = ((y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1));
@@ -298,16 +298,18 @@ fn summit(points: &[[f64; 2]; 3]) -> f64 {
     if height.is_finite() { height.max(y1) } else { y1 }
 }
 
-/// Share of the larger part of an interval in which a golden-section step goes.
+/// Share of the larger part of an interval for a golden-section step.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// The search for a maximum between two bounds: steps to the top of the parabola through the three best points while those
-/// shrink fast enough, golden sections otherwise (R. P. Brent, Algorithms for Minimization without Derivatives, 1973,
-/// chapter 5). Values may be minus infinity where there are none.
+/// Search for a maximum between two bounds.
+///
+/// Steps go to the vertex of the parabola through the three best points while they shrink fast enough, otherwise by
+/// golden sections (R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
+/// are minus infinity.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {
     bounds: [f64; 2],
-    /// The best point, the second best, and the one before: place and value.
+    /// The best, second best and third best point: position and value.
     best: [[f64; 2]; 3],
     /// The latest step, and the one before it.
     steps: [f64; 2],
@@ -315,8 +317,10 @@ pub(super) struct Maximum {
 }
 
 impl Maximum {
-    /// A search from three points `[place, value]` by rising place, the one in the middle the highest. At an end of the
-    /// range it is one of the others.
+    /// Returns a search from three points `[place, value]` in ascending order, of which the middle one is the
+    /// highest.
+    ///
+    /// At an end of the range it is one of the others.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {
         let [low, top, high] = points;
         let [second, third] = if low[1] > high[1] { [low, high] } else { [high, low] };
@@ -325,18 +329,17 @@ impl Maximum {
         Maximum { bounds, best: [top, second, third], steps: [width; 2], tolerance: tolerance / 3.0 }
     }
 
-    /// The best point so far: place and value.
+    /// Returns the best point so far: position and value.
     pub(super) fn best(&self) -> [f64; 2] {
         self.best[0]
     }
 
-    /// The place at which the function is to be evaluated next; `None` if the best point is within the tolerance of the
-    /// maximum.
+    /// Returns the position for the next evaluation; `None` if the best point is within the tolerance of the maximum.
     pub(super) fn next(&mut self) -> Option<f64> {
         let [a, b] = self.bounds;
         let x = self.best[0][0];
         let middle = 0.5 * (a + b);
-        // No finer than doubles can tell apart.
+        // Limited by the resolution of doubles.
         let tolerance = self.tolerance + 1e-12 * x.abs();
         if (x - middle).abs() <= 2.0 * tolerance - 0.5 * (b - a) {
             return None;
@@ -354,18 +357,19 @@ impl Maximum {
         Some(if step.abs() >= tolerance { x + step } else { x + tolerance.copysign(step) })
     }
 
-    /// The step to the top of the parabola through the three best points, if it can be trusted.
+    /// Returns the step to the vertex of the parabola through the three best points, if it is reliable.
     fn to_the_parabolas_top(&self) -> Option<f64> {
         let [[x, fx], [w, fw], [v, fv]] = self.best;
         let r = (x - w) * (fx - fv);
         let q = (x - v) * (fx - fw);
         let step = ((x - w) * r - (x - v) * q) / (2.0 * (q - r));
         let inside = x + step > self.bounds[0] && x + step < self.bounds[1];
-        // Steps that do not shrink to half every second time are no sign of a parabola. NaN fails both.
+        // If steps do not halve at least every second time, the parabola is no good approximation. NaN fails both
+        // tests.
         (inside && step.abs() < 0.5 * self.steps[1].abs()).then_some(step)
     }
 
-    /// Takes the value at the place that [`Maximum::next`] asked for.
+    /// Adds the value at the position from [`Maximum::next`].
     pub(super) fn take(&mut self, place: f64, value: f64) {
         let [x, w, v] = self.best;
         let tried = [place, value];
@@ -387,7 +391,7 @@ impl Maximum {
 mod tests {
     use super::*;
 
-    /// The place found and how many values that took, from points at the ends and at `top`.
+    /// Returns the position found and the number of evaluations, from points at the ends and at `top`.
     fn search(f: impl Fn(f64) -> f64, places: [f64; 3], tolerance: f64) -> (f64, u32) {
         let mut maximum = Maximum::new(places.map(|place| [place, f(place)]), tolerance);
         let mut values = 0;

@@ -1,44 +1,47 @@
-//! Sequences of points of which each is chosen by the rows of earlier ones.
+//! Sequences of points. Each point is chosen depending on the rows of earlier ones.
 //!
-//! Many sequences are open at once, so that the lanes are full while each sequence waits for its own rows.
+//! Many sequences are open at once, so the lanes stay full while each sequence waits for its own rows.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
 pub trait PointSequence {
-    /// The points to run next, whose indices do not matter; none if the sequence has ended. Called again when [`PointSequence::take`] has had their rows.
+    /// Returns the points to run next, with any indices; none if the sequence has ended.
+    ///
+    /// It is called again after [`PointSequence::take`] has received their rows.
     fn probes(&mut self) -> Vec<Point>;
 
-    /// Takes the rows of the latest probes, in their order.
+    /// Receives the rows of the latest probes, in their order.
     fn take(&mut self, rows: Vec<Row>);
 }
 
-/// The source of sequences, which takes them back when they have ended.
+/// Source of sequences and receiver of finished ones.
 pub trait SequenceSource {
-    /// The kind of sequence.
+    /// Type of a sequence.
     type Sequence: PointSequence;
 
-    /// The next sequence, or `None` if there is none for now. With `idle` nothing is running: the call may wait, and `None`
-    /// means that there will be no more.
+    /// Returns the next sequence, or `None` if there is none at present.
+    ///
+    /// If `idle` is true, nothing is running: the call may wait, and `None` means that there are no more sequences.
     fn next(&mut self, idle: bool) -> Option<Self::Sequence>;
 
-    /// Takes a sequence that has ended.
+    /// Receives a finished sequence.
     fn done(&mut self, sequence: Self::Sequence);
 
-    /// True if the work is to end at once, see [`Jobs::interrupted`]. Sequences that are open are dropped.
+    /// Returns true to end at once, see [`Jobs::interrupted`]. Open sequences are dropped.
     fn interrupted(&self) -> bool;
 }
 
-/// Sequences that are open at once, as long as none of them has a point to run.
+/// Largest number of open sequences without a point to run.
 const MOST_OPEN: usize = 256;
 
-/// Runs the sequences of `source` on the lanes of `backend` until there are none left.
+/// Runs the sequences of `source` on the lanes of `backend` until none are left.
 pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, source: &mut impl SequenceSource) {
     rows.run(backend, solver, &mut Interleaved { source, open: Vec::new() });
 }
 
-/// Runs one sequence on scalars. Gives it the same bits as [`run_all`].
+/// Runs one sequence on scalars, with the same bits as [`run_all`].
 pub fn run_one(
     rows: &dyn Rows,
     backend: Backend,
@@ -64,18 +67,18 @@ struct Interleaved<'a, D: SequenceSource> {
     open: Vec<Option<Open<D::Sequence>>>,
 }
 
-/// A sequence with points to run or running.
+/// A sequence whose points wait or are running.
 struct Open<S> {
     sequence: S,
-    /// Points that have not begun, the next one last, each with its place among the probes.
+    /// Points that have not begun, the next one last, each with its index among the probes.
     waiting: Vec<(usize, Point)>,
-    /// Rows of the probes, as far as they are here.
+    /// Rows of the probes received so far.
     rows: Vec<Option<Row>>,
     missing: usize,
 }
 
 impl<S: PointSequence> Open<S> {
-    /// The sequence with its next points. Gives it back if it has ended.
+    /// Returns the sequence with its next points, or as an error the sequence itself if it has ended.
     fn begin(mut sequence: S) -> Result<Open<S>, S> {
         let probes = sequence.probes();
         if probes.is_empty() {
@@ -87,11 +90,11 @@ impl<S: PointSequence> Open<S> {
     }
 }
 
-/// Points of one sequence have indices from a multiple of this on.
+/// Stride of the indices of points: each sequence begins at a multiple.
 const STRIDE: u64 = 1 << 32;
 
 impl<D: SequenceSource> Interleaved<'_, D> {
-    /// A point that can begin now.
+    /// Returns a point that can begin now.
     fn waiting(&mut self) -> Option<Point> {
         for (slot, open) in (0_u64..).zip(&mut self.open) {
             if let Some((place, probe)) = open.as_mut().and_then(|open| open.waiting.pop()) {
@@ -102,7 +105,7 @@ impl<D: SequenceSource> Interleaved<'_, D> {
         None
     }
 
-    /// Opens another sequence. False if there is none for now.
+    /// Opens another sequence. Returns false if there is none at present.
     fn open_another(&mut self, idle: bool) -> bool {
         loop {
             let Some(sequence) = self.source.next(idle) else { return false };

@@ -1,11 +1,11 @@
-//! The target of a search for a resonance: the range of the drive frequency, the quantity that is largest there, and errors.
+//! Target of a search for a resonance: range of the drive frequency, quantity to maximise, and errors.
 
 use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Simulator, Unfinished};
 
 use crate::notation::text;
 
-/// The quantity that is largest at a resonance.
+/// Quantity to maximise at a resonance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Objective {
     /// The stroke.
@@ -17,18 +17,18 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// The objectives, in the order of [`Objective::NAMES`].
+    /// All objectives, in the order of [`Objective::NAMES`].
     pub const ALL: [Objective; 3] = [Objective::Stroke, Objective::Lift, Objective::Efficiency];
 
-    /// Their names in grid files.
+    /// Names in grid files.
     pub const NAMES: [&'static str; 3] = ["stroke", "lift", "efficiency"];
 
-    /// The name in grid files.
+    /// Returns the name in grid files.
     pub fn name(self) -> &'static str {
         Objective::NAMES[self as usize]
     }
 
-    /// The column with the quantity.
+    /// Returns the column with the quantity.
     pub(super) fn column(self) -> &'static str {
         match self {
             Objective::Stroke => "stroke_amplitude_deg",
@@ -38,16 +38,16 @@ impl Objective {
     }
 }
 
-/// The range in which resonances are looked for, and the accuracy.
+/// Range and accuracy of the search for resonances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The quantity that is largest.
+    /// Quantity to maximise.
     pub of: Objective,
     /// Lowest drive frequency (Hz); half of the design's lower natural frequency if `None`.
     pub from: Option<f64>,
     /// Highest drive frequency (Hz); one and a half times the design's upper natural frequency if `None`.
     pub to: Option<f64>,
-    /// Largest error of the frequency (Hz), more than zero.
+    /// Largest error of the frequency (Hz); must be more than zero.
     pub tolerance: f64,
 }
 
@@ -57,38 +57,39 @@ impl Default for Range {
     }
 }
 
-/// The parameter that is searched for.
+/// Name of the parameter that the search varies.
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
 
-/// The quantity of a model that a search makes largest, and the range of the search.
+/// Quantity of a model to maximise, and the range of the search.
 #[derive(Clone)]
 pub(super) struct Target {
     pub(super) model: &'static dyn Simulator,
     pub(super) range: Range,
-    /// Index of the drive frequency among the parameters.
+    /// Index of the drive frequency in the parameters.
     pub(super) frequency: usize,
-    /// Index of the quantity among the columns.
+    /// Index of the quantity in the columns.
     pub(super) objective: usize,
 }
 
 impl Target {
-    /// The target for designs of `model`; `None` if that has no drive frequency or does not measure the objective.
+    /// Returns the target for designs of `model`; `None` if it has no drive frequency or does not measure the
+    /// objective.
     pub(super) fn new(model: &'static dyn Simulator, range: Range) -> Option<Target> {
         let [frequency, objective] = places(model, range.of)?;
         Some(Target { model, range, frequency, objective })
     }
 
-    /// The frequencies (Hz) between which the resonance of a design is looked for.
+    /// Returns the lowest and highest frequency (Hz) of the search for a design.
     pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], SearchError> {
         let Range { of, from, to, .. } = self.range;
         if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
-            return Err(SearchError::Prescribed("and has no resonance"));
+            return Err(SearchError::Prescribed("so it has no resonance"));
         }
         let [from, to] = match (from, to) {
             (Some(from), Some(to)) => [from, to],
             (from, to) => {
                 let mut values = values.to_vec();
-                // Small motions do not depend on it, but it must be there.
+                // Small motions do not depend on the frequency, but it must be set.
                 values[self.frequency] = from.or(to).filter(|given| *given > 0.0).unwrap_or(1.0);
                 let modes = self.model.experiments()?.modes(&values)?;
                 let natural = modes.iter().map(|mode| mode.frequency);
@@ -102,36 +103,36 @@ impl Target {
     }
 }
 
-/// The places of the drive frequency among the parameters of a model, and of the objective among its columns; `None` if it
-/// lacks one of them.
+/// Returns the index of the drive frequency in the parameters of a model, and of the objective in its columns; `None`
+/// if one is missing.
 pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]> {
     let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
     let objective = model.columns().iter().position(|column| column.name == of.column())?;
     Some([frequency, objective])
 }
 
-/// True if the stroke of a point is prescribed, and so the same at every frequency.
+/// Returns true if the stroke of a point is prescribed, and therefore equal at every frequency.
 pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).any(|(parameter, &value)| {
         parameter.name == "stroke_mode" && text::option(parameter, value) == Some("prescribed")
     })
 }
 
-/// Reason why a search for resonances finds none.
+/// Reason for an impossible or failed search for resonances.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SearchError {
     /// The tolerance (Hz) is not more than zero.
     #[error("the tolerance must be more than zero, not {0} Hz")]
     Tolerance(f64),
     /// The stroke is prescribed.
-    #[error("stroke_mode is \"prescribed\": such a stroke is the same at every frequency, {0}")]
+    #[error("stroke_mode is \"prescribed\": the stroke is the same at every frequency, {0}")]
     Prescribed(&'static str),
     /// The model lacks a parameter or a measure.
     #[error("the model {0}")]
     Model(&'static str),
-    /// The range has no frequencies.
+    /// The range contains no frequencies.
     #[error(
-        "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero, and less than the last"
+        "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero and less than the last"
     )]
     Range {
         /// Lowest frequency (Hz).
@@ -139,7 +140,7 @@ pub enum SearchError {
         /// Highest frequency (Hz).
         to: f64,
     },
-    /// No motion of the design is periodic: the reason of one of them.
+    /// No motion of the design is periodic. Contains the reason for one of them.
     #[error("{0}")]
     Design(String),
     /// The natural frequencies cannot be computed, or the search was interrupted.

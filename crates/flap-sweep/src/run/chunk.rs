@@ -1,7 +1,7 @@
-//! Rows that another process computes.
+//! Rows computed by another process.
 //!
-//! A cluster hands stretches of a plan to its workers. Each computes its rows with [`chunk`], and the process that
-//! asked for them writes them in order. The bytes are those of a run on one machine.
+//! A cluster passes ranges of a plan to its workers. Each computes its rows with [`chunk`]. The requesting process
+//! writes them in order, with the same bytes as a run on one machine.
 
 use std::ops::Range;
 
@@ -12,17 +12,18 @@ use super::points::{Outcome, rows_of};
 use super::{Run, RunError, RunOptions};
 use crate::plan::Plan;
 
-/// The outcomes of the points of a stretch.
+/// Outcomes of the points of a range.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Chunk {
     identity: Identity,
-    /// Position of the first point among those selected.
+    /// Position of the first point among the selected points.
     begin: u64,
     outcomes: Vec<Outcome>,
 }
 
-/// Runs the points at these `positions` among the selected ones. `stop` is called several times a second: if it gives true,
-/// the chunk has fewer points, the first ones.
+/// Runs the points at these `positions` among the selected points.
+///
+/// `stop` is called several times a second. After it returns true, the chunk contains only the first points.
 ///
 /// # Errors
 /// [`RunError`] if a worker fails.
@@ -45,20 +46,21 @@ pub fn chunk(
 }
 
 impl Chunk {
-    /// The chunk as bytes, for a process of the same build of flap. The name of the build comes first, since another build
-    /// may write the rest in another way.
+    /// Returns the chunk as bytes, for a process with the same build of flap.
+    ///
+    /// The name of the build comes first, because another build may use another format for the rest.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if there is not enough memory for them.
+    /// [`RunError::Chunk`] if there is not enough memory.
     pub fn to_bytes(&self) -> Result<Vec<u8>, RunError> {
         let bytes = identity::build().as_bytes().to_vec();
         postcard::to_extend(self, bytes).map_err(|error| RunError::Chunk(error.to_string()))
     }
 
-    /// Reads the bytes of [`Chunk::to_bytes`].
+    /// Parses the bytes of [`Chunk::to_bytes`].
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if these are other bytes, or those of another build of flap.
+    /// [`RunError::Chunk`] if the bytes are malformed or belong to another build of flap.
     pub fn from_bytes(bytes: &[u8]) -> Result<Chunk, RunError> {
         let ours = identity::build();
         match bytes.split_at_checked(ours.len()) {
@@ -66,12 +68,12 @@ impl Chunk {
                 postcard::from_bytes(chunk).map_err(|error| RunError::Chunk(error.to_string()))
             }
             _ => Err(RunError::Chunk(format!(
-                "they are by another build of flap than this one ({ours}): install the same one on every worker"
+                "they come from another build of flap than this one ({ours}): install the same build on every worker"
             ))),
         }
     }
 
-    /// The outcomes of its points, which must be points of `plan` from the one at position `next` on.
+    /// Returns the outcomes of its points, which must be points of `plan` beginning at position `next`.
     ///
     /// # Errors
     /// [`RunError::Chunk`] if they are not.
@@ -84,7 +86,7 @@ impl Chunk {
         let end = begin.saturating_add(self.outcomes.len() as u64);
         if begin != next || self.outcomes.is_empty() || end > plan.selected() {
             return Err(RunError::Chunk(format!(
-                "points {begin} to {end} came, but point {next} was expected next"
+                "points {begin} to {end} arrived, but point {next} was expected next"
             )));
         }
         let is_condition = |condition: &usize| *condition < plan.conditions().len();
@@ -93,7 +95,7 @@ impl Chunk {
             Outcome::Ran(_) => None,
         });
         if !excluded.flatten().all(is_condition) {
-            return Err(RunError::Chunk("there are no such conditions".to_owned()));
+            return Err(RunError::Chunk("they refer to conditions that the plan does not have".to_owned()));
         }
         Ok(self.outcomes)
     }

@@ -1,4 +1,4 @@
-//! The identity of rows: all that decides their bytes. Rows of the same identity may stand in one file.
+//! Identity of rows: everything that determines their bytes. Rows with equal identity may be in the same file.
 
 use std::sync::LazyLock;
 
@@ -10,9 +10,9 @@ use super::RunOptions;
 use crate::notation::text;
 use crate::plan::{Along, Plan, PointsFile, Source};
 
-/// The build of flap: a hash of the sources that decide the bytes of rows, in hexadecimal digits.
+/// Returns the build of flap: a hash of the sources that determine the bytes of rows, in hexadecimal digits.
 ///
-/// Two builds of one version may compute other rows; two builds of the same sources compute the same ones.
+/// Builds of the same version may compute different rows. Builds of the same sources compute equal rows.
 pub fn build() -> &'static str {
     static BUILD: LazyLock<String> = LazyLock::new(|| {
         let sources = [flap_core::SOURCES, env!("FLAP_SOURCES")].join(" ");
@@ -21,32 +21,32 @@ pub fn build() -> &'static str {
     &BUILD
 }
 
-/// All that decides the bytes of the rows of a run.
+/// Everything that determines the bytes of the rows of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     /// Version of flap.
     pub flap: String,
-    /// Build of flap, as [`build`] gives it.
+    /// Build of flap, see [`build`].
     pub build: String,
     /// Class of arithmetic.
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
-    /// Hash of the texts of the devices that the grid begins with, if it does.
+    /// Hash of the texts of the grid's devices, if there are any.
     pub devices: Option<String>,
-    /// Hash of the file that lists the points of the sample, if one does.
+    /// Hash of the file that lists the points of the sample, if there is one.
     pub points_file: Option<String>,
-    /// The selection of points that are run, in words.
+    /// Selected points, in words.
     pub selection: String,
-    /// The parameter that is followed, in words with a hash of its values and of the parameters of all designs; `None` if the
-    /// rows are those of points.
+    /// Followed parameter, in words with a hash of its values and of the parameters of all designs; `None` if the
+    /// rows belong to points.
     pub followed: Option<String>,
     /// Solver settings.
     pub solver: SolverSettings,
 }
 
 impl Identity {
-    /// The identity of the rows of `plan`.
+    /// Returns the identity of the rows of `plan`.
     pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
         Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
@@ -61,12 +61,12 @@ impl Identity {
         }
     }
 
-    /// True if the same build of flap computed the rows of `other`, with the same arithmetic.
+    /// Returns true if the same build of flap computed the rows of `other`, with the same arithmetic.
     pub fn is_by_program_of(&self, other: &Identity) -> bool {
         self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
-    /// The differences of `other`, in words; none if the rows are the same.
+    /// Returns the differences to `other`, in words; none if the rows are equal.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
@@ -105,14 +105,15 @@ impl Identity {
     }
 }
 
-/// The hashes of the texts of devices; `None` if there are none.
+/// Returns the hash of the texts of devices; `None` if there are none.
 pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
 }
 
-/// The parameter that is followed, in words. The command line may set parameters that the grid file does not, so that the
-/// hash is of those too.
+/// Returns the followed parameter, in words.
+///
+/// The command line may set parameters that the grid file does not, so the hash covers them too.
 fn followed(plan: &Plan, along: &Along) -> String {
     let base = plan.base().iter().map(|value| value.in_point());
     let numbers = along.values.iter().copied().chain([along.tolerance]).chain(base);

@@ -1,9 +1,10 @@
-//! The parallel runner: units that run on all cores, and whose outcomes are pulled in order.
+//! The parallel runner: it runs units on all cores and returns their outcomes in order.
 //!
-//! A unit is a point of a plan with its one row, or a design with the rows of its response. Each worker is one lane
-//! ensemble for the whole run, so its lanes stay full until the end of the run. Units finish in any
-//! order. A bounded window puts them back in order, so that memory does not grow with their number and the output does
-//! not depend on the number of threads.
+//! A unit is a point of a plan with its row, or a design with the rows of its response. Each worker is one lane
+//! ensemble for the whole run, so its lanes stay full until the end of the run. Units finish in any order.
+//!
+//! A bounded window puts them back in order. Memory therefore does not grow with the number of units, and the output
+//! does not depend on the number of threads.
 //!
 //! ```no_run
 //! # use flap_sweep::{files::csv_sink::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
@@ -17,10 +18,11 @@
 //! # }
 //! ```
 //!
-//! - [`rows`]: the rows of a plan as a [`Run`], on threads (`workers`) with a `queue`; [`alone`]: on the calling thread
-//! - [`Chunk`]: rows that another process computes
+//! - [`rows`]: the rows of a plan as a [`Run`], on threads (`workers`) with a `queue`
+//! - [`alone`]: the rows of a plan on the calling thread
+//! - [`Chunk`]: rows computed by another process
 //! - [`RowWriter`]: writes rows to a [`Sink`] and counts them in a [`Summary`]
-//! - [`identity`]: the settings and the build that decide the bytes of rows
+//! - [`identity`]: settings and build that determine the bytes of rows
 
 use std::io;
 use std::num::NonZeroUsize;
@@ -44,44 +46,44 @@ pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink};
 
-/// The options of a run. None of them changes a byte of the output, but for the arithmetic class of the instruction
-/// set.
+/// Options of a run. They do not change the output, except for the arithmetic class of the instruction set.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
-    /// Instructions of the lanes.
+    /// Instruction set of the lanes.
     pub instructions: Backend,
-    /// Worker threads.
+    /// Number of worker threads.
     pub threads: NonZeroUsize,
-    /// Most rows between the last row pulled and the last point begun.
+    /// Largest number of rows between the last returned row and the last started point.
     ///
-    /// A point that takes long holds up the rows behind it: the wider the window, the longer the others
-    /// can go on meanwhile. A row of 40 measures takes about half a kilobyte.
+    /// A slow point delays the rows after it. With a wider window, the other points can continue longer meanwhile. A
+    /// row of 40 measures takes about half a kilobyte.
     pub window: usize,
-    /// Time for the points in hand after the run is stopped: those that take longer are dropped.
+    /// Time for running points after the run is stopped. Points that take longer are dropped.
     pub grace: Duration,
 }
 
-/// Time for points in hand: long enough for ordinary ones, and less than a second with what is around it.
+/// Default time for running points: long enough for ordinary points, and with overhead less than a second.
 const GRACE: Duration = Duration::from_millis(400);
 
 impl Default for RunOptions {
-    /// The best instructions of the machine, a thread per core, a window that takes a few megabytes, and 0.4 s of grace.
+    /// Returns the best instruction set of the machine, a thread per core, a window of a few megabytes, and 0.4 s of
+    /// grace.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }
     }
 }
 
-/// The progress of a run, in points of a sweep or in designs of a response.
+/// Progress of a run, in points of a sweep or designs of a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Points that have run or are excluded, whether their rows are pulled yet or not.
+    /// Number of points that have run or are excluded, even if their rows have not been returned yet.
     pub finished: u64,
-    /// Points that are run in all.
+    /// Number of points to run in total.
     pub points: u64,
 }
 
-/// An error that ends a run. The rows written until then are in order and complete.
+/// Error that ends a run. The rows written before it are complete and in order.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Rows could not be written.
@@ -90,16 +92,16 @@ pub enum RunError {
     /// The threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[source] io::Error),
-    /// The model broke its contract; this is a mistake in the program.
-    #[error("the model does not keep its contract: {0}")]
+    /// The model violated its contract. This is a bug in the program.
+    #[error("bug in the model: {0}")]
     Model(String),
-    /// Rows that another process has computed do not belong here.
-    #[error("rows of a worker do not fit: {0}")]
+    /// Rows from another process do not belong to this run.
+    #[error("rows of a worker do not belong to this run: {0}")]
     Chunk(String),
-    /// The caller that fetches rows from other processes has given up.
+    /// Fetching rows from other processes failed.
     #[error("rows cannot be fetched: {0}")]
     Fetch(String),
-    /// A worker panicked; this is a mistake in the program.
+    /// A worker panicked. This is a bug in the program.
     #[error("a worker panicked: {0}")]
     Panic(String),
 }

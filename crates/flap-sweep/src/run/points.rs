@@ -1,4 +1,4 @@
-//! The rows of a plan: one for each point, with the plan's own measures and derivatives.
+//! Rows of a plan: one for each point, with the plan's own measures and derivatives.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -11,22 +11,23 @@ use super::{Run, RunError, RunOptions, Worker};
 use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
 use crate::plan::{Admission, Plan};
 
-/// The outcome of a point, or of a design with a curve.
+/// Outcome of a point, or of a design with a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome<T = Row> {
-    /// It has a row, or a curve of rows.
+    /// A row, or a curve of rows.
     Ran(T),
-    /// It does not satisfy the conditions with these numbers, and has no row.
+    /// The conditions with these indices are not satisfied. There is no row.
     Excluded(Vec<usize>),
 }
 
-/// The rows of the selected points of `plan` from the one at position `first` on, in point order. To resume a run, begin
-/// behind the points that are done.
+/// Returns the rows of the selected points of `plan` beginning at position `first`, in the order of the points.
+///
+/// To resume a run, begin after the finished points.
 pub fn rows(plan: &Plan, options: &RunOptions, first: u64) -> Run<Outcome> {
     rows_of(plan, options, first..plan.selected())
 }
 
-/// The rows of the points at these positions among the selected ones.
+/// Returns the rows of the points at these positions among the selected points.
 pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) -> Run<Outcome> {
     let few = (positions.end - positions.start).div_ceil(options.threads.get() as u64) <= FEW;
     let (plan, run_options) = (Arc::new(plan.clone()), *options);
@@ -40,9 +41,10 @@ pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) 
     })
 }
 
-/// The rows of the selected points of `plan`, computed one after another on the calling thread, on scalars. The rows are those of
-/// [`rows`]: for a few points they come sooner, since no thread starts and no lanes stay empty. The iterator ends when the run
-/// is `interrupted`.
+/// Returns the rows of the selected points of `plan`, computed one after another on the calling thread, on scalars.
+///
+/// The rows equal the rows of [`rows`]. For a few points this is faster, because no thread starts and no lanes stay
+/// empty. The iterator ends when the run is `interrupted`.
 pub fn alone<'a>(
     plan: &'a Plan,
     options: &'a RunOptions,
@@ -62,18 +64,18 @@ pub fn alone<'a>(
     })
 }
 
-/// The point at `position` among the selected ones, or its outcome if it is not run.
+/// Returns the point at `position` among the selected points, or its outcome if it is not run.
 fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     let point = plan.selected_point(position);
     match plan.judge(&point.values) {
-        // The model hands the index back and has no other use for it: rows are put in order by position.
+        // The model only returns the index, so it can be the position, by which rows are ordered.
         Admission::Runs => Ok(Point { index: position, ..point }),
         Admission::Excluded(unsatisfied) => Err(Outcome::Excluded(unsatisfied)),
         Admission::Invalid(invalid) => Err(Outcome::Ran(Row::invalid(invalid))),
     }
 }
 
-/// The outcome of a point with the row of the model, `None` if it was interrupted, or the model's mistake.
+/// Returns the outcome of a point with the row of the model, `None` if it was interrupted, or the model's mistake.
 fn completed(
     plan: &Plan,
     options: &RunOptions,
@@ -97,10 +99,10 @@ fn completed(
     Ok(Some(Outcome::Ran(row)))
 }
 
-/// Points per thread that run sooner one after another on scalars than side by side in lanes, most of which they leave empty.
+/// Largest number of points per thread for which scalars are faster than lanes, most of which would stay empty.
 const FEW: u64 = 2;
 
-/// The points of a plan, as the model sees the queue.
+/// The points of a plan as jobs of a model.
 struct Points<'a, 'q> {
     plan: &'a Plan,
     options: &'a RunOptions,
@@ -147,12 +149,14 @@ impl Jobs for Points<'_, '_> {
     }
 }
 
-/// The share that changes for the derivatives of the plan's own measures, which are computed from those and need not be as small.
+/// Relative change for derivatives of the plan's own measures, which need not be as small as for the model's
+/// measures.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the derivatives that `plan` asks for to the measures of the row of `point`, which has the plan's own, and at the end the
-/// reasons why some are not known, as a sum of powers of two by their places in [`NoSlope::ALL`]; NaN if all are known.
-/// False if it was interrupted.
+/// Adds the derivatives of the plan to the measures of the row of `point`, which already contain the plan's own.
+///
+/// The last added value contains the reasons for missing derivatives, as a sum of powers of two by their index in
+/// [`NoSlope::ALL`]. It is NaN if none is missing. Returns false if the run was interrupted.
 fn add_gradient(
     plan: &Plan,
     options: &RunOptions,
@@ -191,21 +195,21 @@ fn add_gradient(
     true
 }
 
-/// The size of a parameter at a point, of which shares change it; `None` if none is known. Zero has no per cent.
+/// Returns the size to which relative changes of a parameter refer; `None` if it is unknown. Zero has no per cent.
 fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
 }
 
-/// The values of a point with one parameter larger by a share of its size.
+/// Returns the values of a point with one parameter increased by a share of its size.
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
     let size = size_at(plan, per, point, parameter);
     let shared = standing(plan.parameters(), &point.values, parameter);
     plan.changed(point.index, parameter, |own| moved(if own.is_nan() { shared } else { own }, size, share))
 }
 
-/// The derivatives in the order of their columns.
+/// Returns the derivatives in the order of their columns.
 fn derivatives(
     plan: &Plan,
     gradient: &Gradient,
@@ -233,7 +237,8 @@ fn derivatives(
     pairs.collect()
 }
 
-/// The derivatives of the plan's own measures by one parameter, from those of the model's.
+/// Returns the derivatives of the plan's own measures with respect to one parameter, from derivatives of the model's
+/// measures.
 fn own(
     plan: &Plan,
     per: Per,
@@ -260,7 +265,7 @@ fn own(
         if here.is_nan() {
             Err(NoSlope::Missing)
         } else if slope.is_nan() {
-            // Not known where a measure that it is computed from has no derivative.
+            // Missing if a measure that it depends on has no derivative.
             Err(trouble.unwrap_or(NoSlope::Kink))
         } else {
             Ok(slope)

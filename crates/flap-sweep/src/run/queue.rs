@@ -1,11 +1,12 @@
-//! The queue between workers and the thread that pulls outcomes: units to run, outcomes in order, and the end of the run.
+//! Queue between workers and the thread that collects outcomes: units to run, outcomes in order, and the end of the
+//! run.
 //!
-//! No thread waits for ever. A worker waits only while it has no unit in hand and the window is full. Then the outcome
-//! that is pulled next is either here, and pulling it makes room, or its unit is in the hands of
-//! another worker, which therefore does not wait. A worker leaves the queue when it ends, after a panic too; one that ends
-//! with units in hand fails the run. Pulling waits only while there are workers, and a dropped run aborts its workers.
+//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. Then the next outcome
+//! is either present, so collecting it makes room, or its unit is running on another worker, which therefore does not
+//! wait. A worker leaves the queue when it ends, also after a panic. If it ends with unfinished units, the run fails.
+//! Collecting waits only while there are workers, and a dropped run aborts its workers.
 //!
-//! After a stop, workers have a moment to finish the units in their hands. Units that still run then are dropped.
+//! After a stop, workers have a short time to finish their units. Units that still run after it are dropped.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,42 +16,42 @@ use std::time::{Duration, Instant};
 
 use super::{RunError, RunOptions};
 
-/// Shortest and longest time that pulling a batch waits for outcomes.
+/// Shortest and longest time that collecting a batch waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
-/// Pulling ends early when this many outcomes are ready.
+/// Number of available outcomes at which collecting ends early.
 const BATCH: usize = 64;
 
-/// A batch has at most this many outcomes, so that room is made in time.
+/// Largest number of outcomes in a batch. It is limited so that the window gets room in time.
 const MOST_AT_ONCE: usize = 1024;
 
-/// Units to run and their outcomes.
+/// Units to run, and their outcomes.
 pub(super) struct Queue<T> {
-    /// No more units are handed out.
+    /// True if no more units are assigned.
     stop: AtomicBool,
-    /// Time for units in hand after a stop.
+    /// Time for running units after a stop.
     grace: Duration,
-    /// Units in hand are to be dropped.
+    /// True if running units are dropped.
     cancelled: AtomicBool,
     state: Mutex<State<T>>,
-    /// Workers wait on this for room in the window, or the end.
+    /// Signals workers that the window has room, or that the run has ended.
     room: Condvar,
-    /// Pulling waits on this for outcomes, or the end of the workers.
+    /// Signals the collecting thread that there are outcomes, or that the workers have ended.
     outcomes: Condvar,
 }
 
 struct State<T> {
     window: Window<T>,
     workers: usize,
-    /// Nothing more is wanted: no units are handed out, outcomes are dropped.
+    /// True if the run was aborted: no units are assigned, and outcomes are dropped.
     aborted: bool,
-    /// The time at which the stop was first seen.
+    /// Time at which the stop was noticed.
     stopped: Option<Instant>,
     failure: Option<RunError>,
 }
 
 impl<T> Queue<T> {
-    /// The queue of `units`, run with these options.
+    /// Returns the queue of `units` with these options.
     pub(super) fn new(units: Range<u64>, options: &RunOptions, workers: usize) -> Queue<T> {
         let (window, grace) = (Window::new(units, options.window), options.grace);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };
@@ -64,12 +65,12 @@ impl<T> Queue<T> {
         }
     }
 
-    /// Nothing panics while holding the lock and leaves the state halfway, so a poisoned lock is as good.
+    /// The code in the lock leaves a valid state even if it panics, so a poisoned lock is usable.
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next unit to run. Waits for room if `may_wait`; otherwise a full window is `None` too.
+    /// Returns the next unit to run. If `may_wait` is false, it returns `None` for a full window.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -83,12 +84,12 @@ impl<T> Queue<T> {
             if !may_wait {
                 return None;
             }
-            // Woken with every batch too, so that a stop is noticed.
+            // Also signalled by every batch, so that a stop is noticed.
             state = self.room.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
-    /// Takes the outcome of a unit.
+    /// Receives the outcome of a unit.
     pub(super) fn done(&self, index: u64, outcome: T) {
         let mut state = self.lock();
         if state.aborted {
@@ -106,7 +107,7 @@ impl<T> Queue<T> {
         }
     }
 
-    /// Notes that a worker has ended.
+    /// Records the end of a worker.
     pub(super) fn leave(&self, outcome: Result<(), RunError>) {
         let mut state = self.lock();
         state.workers -= 1;
@@ -118,26 +119,27 @@ impl<T> Queue<T> {
         self.outcomes.notify_one();
     }
 
-    /// True if units in hand are to be dropped without their outcomes.
+    /// Returns true if running units are to be dropped without outcomes.
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    /// Hands out no more units.
+    /// Stops assigning units.
     pub(super) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Makes the workers end: no more units, and their outcomes are dropped.
+    /// Ends the workers: no units are assigned, and outcomes are dropped.
     pub(super) fn abort(&self) {
         self.lock().aborted = true;
         self.cancelled.store(true, Ordering::Relaxed);
         self.room.notify_all();
     }
 
-    /// Notes that the outcomes of the last batch are done with, and waits for more, not longer than [`TURN`].
-    /// Returns the outcomes with the number of units that have run; `None` if all workers have ended and every outcome
-    /// in order was taken.
+    /// Records that the last batch is processed, and waits for more outcomes, at most for [`TURN`].
+    ///
+    /// Returns the outcomes and the number of units that have run; `None` if all workers have ended and every outcome
+    /// in order was returned.
     pub(super) fn next_batch(&self) -> Option<(Vec<T>, u64)> {
         let mut batch = Vec::new();
         let mut state = self.lock();
@@ -159,25 +161,25 @@ impl<T> Queue<T> {
         Some((batch, state.window.finished()))
     }
 
-    /// Takes out the first failure of a worker.
+    /// Removes and returns the first failure of a worker.
     pub(super) fn take_failure(&self) -> Option<RunError> {
         self.lock().failure.take()
     }
 }
 
 impl<T> State<T> {
-    /// True if no more units are handed out.
+    /// Returns true if no more units are assigned.
     fn ends(&self, stop: &AtomicBool) -> bool {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }
 
-    /// Keeps the first failure.
+    /// Stores the failure, unless there is an earlier one.
     fn fail(&mut self, error: RunError) {
         self.failure.get_or_insert(error);
     }
 }
 
-/// The units between the last one written and the last one handed out, at most `capacity` of them.
+/// Units between the last one written and the last one assigned, at most `capacity` of them.
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
@@ -185,8 +187,8 @@ impl<T> State<T> {
 ///      │ written    │ still running      │ begun
 /// ```
 ///
-/// Units are numbered as they are handed out: points by their position among those selected, not by their index in the
-/// plan.
+/// Units are numbered in the order of assignment. For points, this is their position among the selected points, not
+/// their index in the plan.
 pub(super) struct Window<T> {
     capacity: u64,
     total: u64,
@@ -194,12 +196,12 @@ pub(super) struct Window<T> {
     taken: u64,
     handed_out: u64,
     units: VecDeque<Option<T>>,
-    /// Number of `units` that are here.
+    /// Number of `units` with an outcome.
     waiting: usize,
 }
 
 impl<T> Window<T> {
-    /// A window over `units`; those before have been written.
+    /// Returns a window over `units`. Earlier units have been written.
     pub(super) fn new(units: Range<u64>, capacity: usize) -> Window<T> {
         Window {
             capacity: capacity.max(1) as u64,
@@ -212,12 +214,12 @@ impl<T> Window<T> {
         }
     }
 
-    /// True if every unit has been handed out.
+    /// Returns true if every unit has been assigned.
     pub(super) fn is_exhausted(&self) -> bool {
         self.handed_out == self.total
     }
 
-    /// The next unit to run, unless there is none or the window is full.
+    /// Returns the next unit to run, unless there is none or the window is full.
     pub(super) fn hand_out(&mut self) -> Option<u64> {
         if self.is_exhausted() || self.is_full() {
             return None;
@@ -227,7 +229,7 @@ impl<T> Window<T> {
         Some(self.handed_out - 1)
     }
 
-    /// Keeps the outcome of a unit that was handed out. False if the unit was not, or has an outcome already.
+    /// Stores the outcome of an assigned unit. Returns false if the unit was not assigned or already has an outcome.
     pub(super) fn insert(&mut self, index: u64, outcome: T) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
         match place.and_then(|place| self.units.get_mut(place)) {
@@ -240,7 +242,7 @@ impl<T> Window<T> {
         }
     }
 
-    /// True if an outcome can be taken, and either `enough` are here or the window is full.
+    /// Returns true if an outcome can be taken, and either `enough` are present or the window is full.
     pub(super) fn is_worth_taking(&self, enough: usize) -> bool {
         let next_is_here = matches!(self.units.front(), Some(Some(_)));
         next_is_here && (self.waiting >= enough || self.is_full())
@@ -250,7 +252,7 @@ impl<T> Window<T> {
         self.handed_out - self.written >= self.capacity
     }
 
-    /// Moves outcomes that follow on the last one taken to `batch`, at most `limit` of them.
+    /// Moves consecutive outcomes after the last one taken to `batch`, at most `limit` of them.
     pub(super) fn take(&mut self, batch: &mut Vec<T>, limit: usize) {
         while batch.len() < limit
             && let Some(Some(_)) = self.units.front()
@@ -261,12 +263,12 @@ impl<T> Window<T> {
         }
     }
 
-    /// Notes that all outcomes taken are written, which makes room for as many units.
+    /// Records that all taken outcomes are written, which makes room for as many units.
     pub(super) fn mark_written(&mut self) {
         self.written = self.taken;
     }
 
-    /// Units that have run, whether their outcomes are taken or not.
+    /// Returns the number of units that have run, including units whose outcomes are already taken.
     pub(super) fn finished(&self) -> u64 {
         self.taken + self.waiting as u64
     }

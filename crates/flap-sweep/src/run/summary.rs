@@ -1,4 +1,4 @@
-//! The summary of a run.
+//! Summary of a run.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -8,18 +8,18 @@ use serde::{Deserialize, Serialize};
 use crate::plan::Plan;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 
-/// The number of rows with each status. In files it is a table.
+/// Number of rows with each status. In files it is a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
 
 impl Counts {
-    /// Rows with this status.
+    /// Returns the number of rows with this status.
     pub fn of(&self, status: Status) -> u64 {
         self.0[status as usize]
     }
 
-    /// Every status with its count, in the order of reports.
+    /// Returns every status with its count, in the order of reports.
     pub fn iter(&self) -> impl Iterator<Item = (Status, u64)> + '_ {
         Status::ALL.iter().map(|&status| (status, self.of(status)))
     }
@@ -37,18 +37,18 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
     }
 }
 
-/// Rows with measures that are to be read with care.
+/// Numbers of rows whose measures need care.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warnings {
-    /// Rows whose error estimate exceeds the accuracy that was asked for.
+    /// Rows whose error estimate exceeds the requested accuracy.
     pub inaccurate: u64,
-    /// Rows whose mean electrical power is negative: the air gives the wing more energy than it takes.
+    /// Rows with negative mean electrical power: the air adds more energy to the wing than it removes.
     pub negative_power: u64,
-    /// Rows whose resonance is at an end of the range in which it was looked for.
+    /// Rows whose resonance is at an end of the range of the search.
     pub at_range_end: u64,
 }
 
-/// A condition of a plan, with the number of points that do not satisfy it.
+/// A condition of a plan, and the number of points that do not satisfy it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unsatisfied {
     /// Name of the condition.
@@ -60,44 +60,44 @@ pub struct Unsatisfied {
 /// A point whose parameters are impossible together.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct InvalidPoint {
-    /// The point's index in the plan.
+    /// Index of the point in the plan.
     pub point: u64,
-    /// The reason, in words.
+    /// Reason in words.
     pub reason: String,
 }
 
-/// The summary of a run, so far or finished. Counts are over the rows written. Journals and sidecars record it in this form.
+/// Summary of the rows written so far. Journals and sidecars record it in this form.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Points that are run in all; of a response, designs.
+    /// Number of points to run in total; for a response, number of designs.
     pub points: u64,
-    /// Points all of whose rows are written.
+    /// Number of points whose rows are all written.
     pub ran: u64,
-    /// Rows written of the point after those that are done with: the first ones of a response's curve.
+    /// Number of written rows of the next point, for a response curve that is partly written.
     pub begun: u64,
-    /// Rows written: those of the first points selected, but for excluded ones.
+    /// Number of rows written: of the first selected points, except excluded ones.
     pub rows: u64,
-    /// Points among them that were excluded, and have no row.
+    /// Number of excluded points among them, which have no row.
     pub excluded: u64,
-    /// Right-hand sides evaluated in all.
+    /// Number of right-hand sides evaluated in total.
     pub rhs_evals: u64,
-    /// Drive periods integrated in all.
+    /// Number of drive periods integrated in total.
     pub cycles: u64,
-    /// Rows by status.
+    /// Number of rows by status.
     pub statuses: Counts,
-    /// Rows to be read with care.
+    /// Numbers of rows that need care.
     pub warnings: Warnings,
-    /// The conditions of the plan, in its order.
+    /// Conditions of the plan, in its order.
     pub unsatisfied: Vec<Unsatisfied>,
     /// The first few invalid points.
     pub invalid: Vec<InvalidPoint>,
 }
 
 impl Summary {
-    /// The largest number of points in [`Summary::invalid`].
+    /// Largest number of points in [`Summary::invalid`].
     const MOST_INVALID: usize = 5;
 
-    /// The summary `before` as the beginning of that of `plan`.
+    /// Returns the summary `before`, extended for the continuation of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
         let counted = |name: &str| before.unsatisfied.iter().find(|known| known.condition == name);
         let unsatisfied = plan.conditions().iter().map(|condition| Unsatisfied {
@@ -107,22 +107,22 @@ impl Summary {
         Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), ..before }
     }
 
-    /// Points that are done with: the first ones of those selected.
+    /// Returns the number of finished points, which are the first selected ones.
     pub fn done(&self) -> u64 {
         self.ran.saturating_add(self.excluded)
     }
 
-    /// True if points are left to run.
+    /// Returns true if points are left to run.
     pub fn is_interrupted(&self) -> bool {
         self.done() < self.points
     }
 
-    /// True if all rows are those of periodic motions.
+    /// Returns true if all rows are periodic.
     pub fn all_periodic(&self) -> bool {
         self.statuses.of(Status::Periodic) == self.rows
     }
 
-    /// Counts a point that does not satisfy the conditions with these numbers.
+    /// Counts a point that does not satisfy the conditions with these indices.
     pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
         self.excluded += 1;
         for &condition in unsatisfied {
@@ -176,17 +176,17 @@ impl Summary {
     }
 }
 
-/// The limits beyond which a row of a plan is to be read with care.
+/// Limits above which a row of a plan needs care.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     accuracy: f64,
-    /// Positions among the measures.
+    /// Indices in the measures.
     power: Option<usize>,
     margin: Option<usize>,
 }
 
 impl Limits {
-    /// The limits of the rows of `plan`.
+    /// Returns the limits for the rows of `plan`.
     pub(super) fn of(plan: &Plan) -> Limits {
         let columns: &[Column] = plan.rows().columns();
         let position = |name: &str| columns.iter().position(|column| column.name == name);

@@ -1,4 +1,4 @@
-//! The runner of units: workers on all threads, whose outcomes are pulled in order.
+//! Runner of units: workers on all threads, whose outcomes are collected in order.
 
 use std::any::Any;
 use std::ops::Range;
@@ -11,31 +11,31 @@ use super::queue::Queue;
 use super::{Progress, RunError, RunOptions};
 use crate::notation::text::count;
 
-/// The work of one thread: runs units until the queue gives no more.
+/// Work of one thread: it runs units until the queue is empty.
 type Work<T> = dyn Fn(&mut Worker<'_, T>) + Send + Sync;
 
-/// The outcomes of units, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
+/// Outcomes of units, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
 ///
-/// Threads start with the first outcome that is pulled. They run at most [`RunOptions::window`] units ahead, and end when the
-/// run is dropped. After an error, the iterator ends: the outcomes before it are those of the first units.
+/// Threads start when the first outcome is requested. They run at most [`RunOptions::window`] units ahead, and end
+/// when the run is dropped. The iterator ends after an error. The outcomes before it belong to the first units.
 pub struct Run<T> {
     queue: Arc<Queue<T>>,
     work: Arc<Work<T>>,
     workers: usize,
     threads: Vec<JoinHandle<()>>,
-    /// Outcomes that the iterator gives next.
+    /// Outcomes that the iterator returns next.
     batch: vec::IntoIter<T>,
     progress: Progress,
 }
 
 impl<T: Send + 'static> Run<T> {
-    /// A run of the units at `positions`. Each thread calls `work` once.
+    /// Returns a run of the units at `positions`. Each thread calls `work` once.
     pub(crate) fn new(
         positions: Range<u64>,
         options: &RunOptions,
         work: impl Fn(&mut Worker<'_, T>) + Send + Sync + 'static,
     ) -> Run<T> {
-        // More workers than units would have nothing to do.
+        // More workers than units would be idle.
         let units = usize::try_from(positions.end - positions.start).unwrap_or(usize::MAX);
         let workers = options.threads.get().min(units.max(1));
         let progress = Progress { finished: positions.start, points: positions.end };
@@ -50,11 +50,13 @@ impl<T: Send + 'static> Run<T> {
         }
     }
 
-    /// The next outcomes, after a tenth of a second at the latest, when there may be none; `None` at the end. A caller that
-    /// shows progress or may be interrupted pulls batches, others iterate.
+    /// Returns the next outcomes, possibly none, after at most a tenth of a second; `None` at the end.
+    ///
+    /// A caller that shows progress or may be interrupted uses batches; other callers iterate.
     ///
     /// # Errors
-    /// [`RunError`] if a worker panics, breaks its contract or cannot be started, after the outcomes of the units before.
+    /// [`RunError`] if a worker panics, violates its contract or cannot be started, after the outcomes of earlier
+    /// units.
     pub fn next_batch(&mut self) -> Result<Option<Vec<T>>, RunError> {
         self.start();
         match self.queue.next_batch() {
@@ -66,19 +68,21 @@ impl<T: Send + 'static> Run<T> {
         }
     }
 
-    /// The progress at the latest batch.
+    /// Returns the progress at the latest batch.
     pub fn progress(&self) -> Progress {
         self.progress
     }
 
-    /// Begins no more units. Those in hand have [`RunOptions::grace`] and are dropped then, so that the run ends within a second.
+    /// Stops assigning units.
+    ///
+    /// Running units are dropped after [`RunOptions::grace`], so the run ends within a second.
     pub fn stop(&mut self) {
         self.queue.stop();
     }
 
     /// Starts the threads, unless they have been started.
     fn start(&mut self) {
-        // Threads of its own: those of the caller, such as a pool, do not survive a fork.
+        // The run has its own threads: a pool of the caller would not survive a fork.
         for _ in 0..std::mem::take(&mut self.workers) {
             let (queue, work) = (Arc::clone(&self.queue), Arc::clone(&self.work));
             match thread::Builder::new().spawn(move || run_worker(&queue, &*work)) {
@@ -110,52 +114,53 @@ impl<T> Drop for Run<T> {
     fn drop(&mut self) {
         self.queue.abort();
         for thread in self.threads.drain(..) {
-            // Its panic has been reported as the failure of the run.
+            // The panic has already been reported as the failure of the run.
             let _ = thread.join();
         }
     }
 }
 
-/// A worker's side of the queue: takes units, hands in their outcomes, and counts those that are missing.
+/// Access of a worker to the queue: it requests units, passes on their outcomes, and counts missing outcomes.
 pub(crate) struct Worker<'a, T> {
     queue: &'a Queue<T>,
-    /// Number of units taken whose outcomes have not been handed in.
+    /// Number of assigned units without an outcome.
     missing: u64,
-    /// A mistake of the model.
+    /// Mistake of the model.
     fault: Option<String>,
 }
 
 impl<T> Worker<'_, T> {
-    /// The position of the next unit to run, or `None` if there is none for now. With `idle` the worker runs nothing: the
-    /// call may wait, and `None` ends the work.
+    /// Returns the position of the next unit to run, or `None` if there is none at present.
+    ///
+    /// If `idle` is true, the worker runs nothing: the call may wait, and `None` ends the work.
     pub(crate) fn next(&mut self, idle: bool) -> Option<u64> {
         if self.fault.is_some() {
             return None;
         }
-        // A worker with units in hand must never wait: others may be waiting for their rows.
+        // A worker with running units must never wait, because others may be waiting for their rows.
         let position = self.queue.next(idle && self.missing == 0)?;
         self.missing += 1;
         Some(position)
     }
 
-    /// Hands in the outcome of the unit at `position`.
+    /// Passes on the outcome of the unit at `position`.
     pub(crate) fn done(&mut self, position: u64, outcome: T) {
         self.missing = self.missing.saturating_sub(1);
         self.queue.done(position, outcome);
     }
 
-    /// Ends the work because the model broke its contract in this way.
+    /// Ends the work because the model violated its contract. `fault` is the description.
     pub(crate) fn fail(&mut self, fault: String) {
         self.fault = Some(fault);
     }
 
-    /// True if units in hand are to be dropped without their rows.
+    /// Returns true if running units are to be dropped without rows.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.queue.is_cancelled()
     }
 }
 
-/// Does `work` as one worker, and leaves the queue in any case: a panic and units that are lost fail the run.
+/// Runs `work` as one worker, and leaves the queue in any case. A panic or a missing outcome fails the run.
 fn run_worker<T>(queue: &Queue<T>, work: &Work<T>) {
     let mut worker = Worker { queue, missing: 0, fault: None };
     let ended = catch_unwind(AssertUnwindSafe(|| work(&mut worker)));
@@ -171,7 +176,7 @@ fn run_worker<T>(queue: &Queue<T>, work: &Work<T>) {
     queue.leave(outcome);
 }
 
-/// The text of a panic, which is a string in all but exotic cases.
+/// Returns the text of a panic, if it is a string.
 fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref().map(String::as_str));
     text.unwrap_or("no message").to_owned()

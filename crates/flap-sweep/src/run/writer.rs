@@ -1,4 +1,4 @@
-//! Rows of a run into a sink, in order, with their summary.
+//! Writes the rows of a run to a sink, in order, and computes their summary.
 
 use std::io;
 
@@ -9,39 +9,40 @@ use super::{Outcome, RunError};
 use crate::plan::Plan;
 use crate::table::layout::{Cell, Layout};
 
-/// A table that takes rows in order.
+/// A table that receives rows in order.
 ///
-/// Calls come as `begin`, then any number of `write`, `done` and `flush`, then `finish`; nothing comes after an error.
+/// The order of calls is `begin`, then any number of `write`, `done` and `flush`, then `finish`. There are no calls
+/// after an error.
 pub trait Sink {
     /// Writes the header, if the sink has one.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The error of writing it.
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Takes the next row: one cell per column.
+    /// Writes the next row: one cell per column.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// The error of writing it.
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
-    /// Takes the summary of all rows so far, after every row and every excluded point, so that the run can be resumed
+    /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed
     /// there.
     ///
     /// # Errors
-    /// If it cannot be noted.
+    /// The error of storing it.
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {
         let _ = so_far;
         Ok(())
     }
 
-    /// Hands the rows so far to the operating system, so that a killed process loses little. Does nothing for a sink in
-    /// memory.
+    /// Passes the rows so far to the operating system, so that a killed process loses few rows. Does nothing for a
+    /// sink in memory.
     ///
     /// # Errors
-    /// If the rows cannot be written.
+    /// The error of writing the rows.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
@@ -49,13 +50,13 @@ pub trait Sink {
     /// Completes the output and makes it durable. Does nothing for a sink in memory.
     ///
     /// # Errors
-    /// If the rows cannot be written.
+    /// The error of writing the rows.
     fn finish(&mut self) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// Writes the rows of a plan to a sink, and counts them. Its errors are [`RunError::Sink`].
+/// Writer of the rows of a plan to a sink, which also counts them. Its errors are [`RunError::Sink`].
 pub struct RowWriter<'a> {
     plan: &'a Plan,
     layout: Layout<'a>,
@@ -65,29 +66,29 @@ pub struct RowWriter<'a> {
 }
 
 impl<'a> RowWriter<'a> {
-    /// Begins to write the rows of `plan` to `sink`, where the rows that `before` counts are written already.
+    /// Begins to write the rows of `plan` to `sink`. The rows that `before` counts are already written.
     ///
     /// # Errors
     /// [`RunError::Sink`] if the header cannot be written.
     pub fn begin(plan: &'a Plan, before: Summary, sink: &'a mut dyn Sink) -> Result<RowWriter<'a>, RunError> {
-        // The header is there from the beginning, however long the first row takes.
+        // The header is written at once, even if the first row takes long.
         sink.begin()?;
         sink.flush()?;
         let summary = Summary::after(before, plan);
         Ok(RowWriter { plan, layout: Layout::of(plan), limits: Limits::of(plan), summary, sink })
     }
 
-    /// The columns of the rows.
+    /// Returns the columns of the rows.
     pub fn layout(&self) -> &Layout<'a> {
         &self.layout
     }
 
-    /// Number of points that are done with, the first ones of those selected: the position of the next one.
+    /// Returns the number of finished points, which is the position of the next one.
     pub fn done(&self) -> u64 {
         self.summary.done()
     }
 
-    /// Writes the row of the next point, or counts it if it is excluded.
+    /// Writes the row of the next point, or counts an excluded point.
     ///
     /// # Errors
     /// [`RunError::Sink`] if it cannot be written.
@@ -102,7 +103,8 @@ impl<'a> RowWriter<'a> {
         }
     }
 
-    /// Writes the rows of the next unit, whose index in the plan is given, but for those that an earlier run has written.
+    /// Writes the rows of the next unit, except rows that an earlier run has written. `index` is the unit's index in
+    /// the plan.
     pub(crate) fn write_rows<'r>(
         &mut self,
         index: u64,
@@ -123,13 +125,13 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.done(&self.summary)?)
     }
 
-    /// Counts the next unit as one that does not satisfy the conditions with these numbers, and has no row.
+    /// Counts the next unit as excluded by the conditions with these indices. It has no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
         Ok(self.sink.done(&self.summary)?)
     }
 
-    /// Hands the rows so far to the operating system.
+    /// Passes the rows so far to the operating system.
     ///
     /// # Errors
     /// [`RunError::Sink`] if they cannot be written.
@@ -137,7 +139,7 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.flush()?)
     }
 
-    /// Completes the sink after a run that `ended` so, unless the sink cannot be written to.
+    /// Completes the sink after a run with the result `ended`, unless the sink cannot be written.
     ///
     /// # Errors
     /// The error of the run, or [`RunError::Sink`].

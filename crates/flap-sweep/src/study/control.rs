@@ -1,4 +1,4 @@
-//! Control effectiveness of a vehicle: the change of its mean force and torque with each input, and trims.
+//! Control effectiveness of a vehicle: the change of mean force and torque with each input. Also trims.
 
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter};
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::plan::gradient::{self, is_least};
 
-/// Words for the parameters of a drive: each with the names that models have for it.
+/// Words for drive parameters, each with the names in different models.
 pub const WORDS: [(&str, &[&str]); 6] = [
     ("amplitude", &["drive_voltage_pp"]),
     ("bias", &["drive_offset", "drive_bias"]),
@@ -20,23 +20,23 @@ pub const WORDS: [(&str, &[&str]); 6] = [
     ("third_harmonic", &["drive_third_harmonic"]),
 ];
 
-/// The last part of the names of differences in words.
+/// Last part of the names of differences in words.
 const DIFFERENCE: &str = "_difference";
 
-/// An input of a vehicle: one of its parameters.
+/// Input of a vehicle: one of its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// The name as given: a parameter, or a word such as `bias_difference`.
+    /// Name as given: a parameter, or a word such as `bias_difference`.
     pub name: String,
     /// Index in the vehicle's parameter table.
     pub parameter: usize,
-    /// Unit in which people give it: such as `V`, `deg`, or empty.
+    /// Unit for display, such as `V` or `deg`; may be empty.
     pub unit: &'static str,
-    /// That unit in SI.
+    /// Factor from this unit to SI.
     pub factor: f64,
 }
 
-/// The reason why there is no such input.
+/// Error of an unknown or unsuitable input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ControlInputError {
     /// The vehicle has no such parameter.
@@ -48,11 +48,13 @@ pub enum ControlInputError {
 }
 
 impl Input {
-    /// The input called `name`: a parameter of the vehicle, or one of [`WORDS`], alone for all wings, behind the name of a
-    /// wing for that one (`left_bias`), or in front of `_difference` for the left-right difference.
+    /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
+    ///
+    /// A word alone applies to all wings, after a wing's name to this wing (`left_bias`), and before `_difference` to
+    /// the left-right difference.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no such input.
     pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
         let parameters = parameters(vehicle);
         let unknown = || ControlInputError::Unknown(name.to_owned());
@@ -73,8 +75,9 @@ impl Input {
         Ok(Input { name: name.to_owned(), parameter: index, unit, factor })
     }
 
-    /// The inputs that a vehicle has by default: amplitude, bias and, if its drive has harmonics, the second one; each for all
-    /// wings and, where there are a left and a right one, as a difference.
+    /// Returns the default inputs of a vehicle: amplitude, bias and, if its drive has harmonics, the second harmonic.
+    ///
+    /// Each applies to all wings and, if there are wings on both sides, also to the difference.
     pub fn usual(vehicle: &Vehicle, has_harmonics: bool) -> Vec<Input> {
         let words = ["amplitude", "bias", "second_harmonic"];
         let words = if has_harmonics { &words[..] } else { &words[..2] };
@@ -82,7 +85,7 @@ impl Input {
         names.filter_map(|name| Input::of(vehicle, &name).ok()).collect()
     }
 
-    /// All names of inputs, for suggestions.
+    /// Returns all names of inputs, for suggestions.
     pub fn names(vehicle: &Vehicle) -> Vec<String> {
         let words = WORDS.iter().flat_map(|(word, _)| {
             let of_wings = vehicle.mounts().iter().map(move |mount| format!("{}_{word}", mount.name));
@@ -94,19 +97,19 @@ impl Input {
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
     }
 
-    /// The size of its parameter (SI), from which changes are measured; `None` if it is not known.
+    /// Returns the size of its parameter (SI), to which relative changes refer; `None` if it is unknown.
     fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
         gradient::size(vehicle, values, self.parameter).map(f64::abs)
     }
 }
 
-/// The vehicle's parameter table.
+/// Returns the vehicle's parameter table.
 fn parameters(vehicle: &Vehicle) -> &[Parameter<'_>] {
     use flap_core::simulate::Simulator as _;
     vehicle.parameters()
 }
 
-/// The parameters that a name may stand for.
+/// Returns the parameters that a name may represent.
 fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
     let mut names = vec![name.to_owned()];
     let mut add = |word: &str, first: &str| {
@@ -127,56 +130,57 @@ fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
     names
 }
 
-/// Steps of Newton's iteration.
+/// Largest number of steps of Newton's iteration.
 const MOST_STEPS: usize = 40;
 
-/// The share of a target to which it is met; where the error of the motion allows no more, of the largest component.
+/// Relative tolerance of a target. If the error of the motion allows no better, it is relative to the largest
+/// component.
 const TOLERANCE: f64 = 1e-6;
 
-/// The largest change of the inputs in a step, in their typical sizes.
+/// Largest change of the inputs in a step, in their typical sizes.
 const LARGEST_STEP: f64 = 0.2;
 
-/// The smallest part of a step that is tried.
+/// Smallest fraction of a step that is tried.
 const SMALLEST_PART: f64 = 1e-3;
 
-/// A wanted component.
+/// A target value of a component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Its place in [`COMPONENTS`].
+    /// Index in [`COMPONENTS`].
     pub component: usize,
-    /// The wanted value (mN or uN·m).
+    /// Target value (mN or uN·m).
     pub value: f64,
 }
 
-/// Inputs that give the wanted force and torque.
+/// Inputs that give the target force and torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trim {
-    /// The control effectiveness there, with the values of the inputs.
+    /// Control effectiveness at the trim, with the values of the inputs.
     pub at: Effectiveness,
-    /// Steps of Newton's iteration.
+    /// Number of steps of Newton's iteration.
     pub steps: usize,
 }
 
-/// The reason why there is no trim.
+/// Reason for a failed trim.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrimError {
-    /// More targets than inputs.
-    #[error("{targets} targets need as many inputs, not {inputs}")]
+    /// There are more targets than inputs.
+    #[error("{targets} targets need at least {targets} inputs, not {inputs}")]
     FewInputs {
         /// Number of targets.
         targets: usize,
         /// Number of inputs.
         inputs: usize,
     },
-    /// The iteration comes no nearer.
+    /// The iteration comes no closer to the targets.
     #[error("the targets are not reached: {}", nearest(at, targets))]
     NotReached {
-        /// The nearest point.
+        /// Nearest point.
         at: Box<Effectiveness>,
-        /// The targets.
+        /// Targets.
         targets: Vec<Target>,
     },
-    /// The effectiveness is not known.
+    /// The effectiveness cannot be computed.
     #[error(transparent)]
     Control(#[from] ControlError),
 }
@@ -191,11 +195,12 @@ fn nearest(at: &Effectiveness, targets: &[Target]) -> String {
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// The inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives. Where there are more inputs
-/// than targets, each step is the smallest one, in typical sizes of the inputs.
+/// Returns the inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives.
+///
+/// If there are more inputs than targets, each step is the smallest one, in typical sizes of the inputs.
 ///
 /// # Errors
-/// If there are fewer inputs than targets, the motion is not periodic at the beginning, or the targets are not reached.
+/// If there are fewer inputs than targets, the initial motion is not periodic, or the targets are not reached.
 pub fn trim(
     flight: &Flight<'_>,
     values: &[f64],
@@ -257,61 +262,61 @@ pub fn trim(
     Err(TrimError::NotReached { at: Box::new(at), targets: targets.to_vec() })
 }
 
-/// The targets less the components.
+/// Returns the targets minus the components.
 fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
     let missed = targets.iter().map(|target| target.value - wrench[target.component]);
     DVector::from_iterator(targets.len(), missed)
 }
 
-/// The largest of the components and the targets.
+/// Returns the largest magnitude of components and targets.
 fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     let targets = targets.iter().map(|target| &target.value);
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
 }
 
-/// The size of each target: its own, or the largest of all if it is zero.
+/// Returns the size of each target: its magnitude, or the largest magnitude if it is zero.
 fn own_sizes(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
     let largest = largest(wrench, targets);
     let own = targets.iter().map(|target| if target.value == 0.0 { largest } else { target.value.abs() });
     DVector::from_iterator(targets.len(), own)
 }
 
-/// True if all targets are met but for a small share of these sizes.
+/// Returns true if all targets are met within a small share of these sizes.
 fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
     missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
 }
 
-/// Force and torque: the columns of rows.
+/// Components of force and torque: columns of rows.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
 
-/// The share of the largest effect of an input below which another one has none.
+/// Smallest effect of an input, relative to the largest effect of an input. Smaller effects count as none.
 const IDLE: f64 = 1e-9;
 
-/// The reason why a vehicle's control effectiveness is not known.
+/// Reason for a missing control effectiveness.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
-    /// The motion of its wings has no derivatives.
+    /// The motion of a wing has no derivatives.
     #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason.as_deref()))]
     NotPeriodic {
         /// Status of its row.
         status: Status,
-        /// The reason of an invalid row.
+        /// Reason of an invalid row.
         reason: Option<String>,
     },
-    /// An input that is zero, and has no size by which it may be changed.
-    #[error("`{0}` is zero and has no typical size: give it a value")]
+    /// An input is zero and has no typical size.
+    #[error("`{0}` is zero and has no typical size: set it to another value")]
     NoSize(String),
-    /// A derivative is not known.
-    #[error("the derivative of {of} by `{by}` is not known: {}", reason.name())]
+    /// A derivative is missing.
+    #[error("the derivative of {of} with respect to `{by}` is missing: {}", reason.name())]
     NoSlope {
-        /// The component.
+        /// Component.
         of: &'static str,
-        /// The input.
+        /// Input.
         by: String,
-        /// The reason.
+        /// Reason.
         reason: NoSlope,
     },
-    /// The motion cannot be followed.
+    /// The motion cannot be computed.
     #[error(transparent)]
     Unfinished(#[from] Unfinished),
 }
@@ -322,48 +327,48 @@ fn because(reason: Option<&str>) -> String {
 
 /// A vehicle at an operating point.
 pub struct Flight<'f> {
-    /// The vehicle.
+    /// Vehicle.
     pub vehicle: &'f Vehicle,
-    /// Settings of its integration.
+    /// Settings of the integration.
     pub solver: &'f SolverSettings,
-    /// Ends the work early.
+    /// Callback that ends the computation early.
     pub interrupted: Interrupt<'f>,
 }
 
-/// The change of a vehicle's mean force and torque with its inputs.
+/// Change of a vehicle's mean force and torque with its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effectiveness {
-    /// The inputs, in the order of the columns.
+    /// Inputs, in the order of the columns.
     pub inputs: Vec<Input>,
-    /// The values of the inputs, in their units.
+    /// Values of the inputs, in their units.
     pub values: Vec<f64>,
     /// Mean force (mN) and torque (uN·m), see [`COMPONENTS`].
     pub wrench: [f64; 6],
-    /// 6 × inputs: the change of each component, in mN or uN·m, per unit of each input.
+    /// 6 × inputs matrix: the change of each component, in mN or uN·m, per unit of each input.
     pub matrix: DMatrix<f64>,
-    /// The row at the operating point.
+    /// Row at the operating point.
     pub row: Row,
 }
 
-/// A combination of inputs, and the combination of force and torque that it makes.
+/// A combination of inputs, and the resulting combination of force and torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
     /// Singular value: force (mN) and torque (uN·m, which is mN at 1 mm) per unit of the combination.
     pub size: f64,
-    /// Shares of the components, a vector of length 1.
+    /// Components as a unit vector.
     pub components: [f64; 6],
-    /// Shares of the inputs, a vector of length 1.
+    /// Inputs as a unit vector.
     pub inputs: Vec<f64>,
 }
 
 impl Flight<'_> {
-    /// The row at these values of the vehicle's parameters, near the state `begin` if one is given.
+    /// Returns the row at these values of the vehicle's parameters, from the state `begin` if it is given.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
         let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
         self.vehicle.run_point(&run, begin)
     }
 
-    /// Mean force (mN) and torque (uN·m) of a row with measures.
+    /// Returns mean force (mN) and torque (uN·m) of a row with measures.
     pub fn wrench(&self, row: &Row) -> [f64; 6] {
         COMPONENTS.map(|name| row.measures[self.place(name)])
     }
@@ -372,11 +377,12 @@ impl Flight<'_> {
         self.vehicle.columns().iter().position(|column| column.name == component).unwrap_or_default()
     }
 
-    /// The control effectiveness of `inputs` at these values, from the exact derivatives of the settled orbit. A wing's own
-    /// parameter that has no value takes that of all wings.
+    /// Returns the control effectiveness of `inputs` at these values, from exact derivatives of the settled orbit.
+    ///
+    /// An unset parameter of one wing has the value of all wings.
     ///
     /// # Errors
-    /// If the motion is not periodic, or a derivative is not known.
+    /// If the motion is not periodic, or a derivative is missing.
     pub fn effectiveness(
         &self,
         values: &[f64],
@@ -400,7 +406,8 @@ impl Flight<'_> {
                 values[input.parameter] += by;
                 values
             };
-            // What can only grow has a one-sided difference; at rest, that would be the square of the change.
+            // A parameter that can only grow has a one-sided difference. At rest, this difference would be the square
+            // of the change.
             let at_rest = row.floquet_max.is_nan();
             let is_one_sided = !at_rest && is_least(parameters(self.vehicle), &values, input.parameter);
             let behind = moved(if is_one_sided { 0.0 } else { -size });
@@ -427,7 +434,7 @@ impl Flight<'_> {
     }
 }
 
-/// The values with those of all wings in place of a wing's own that are not set.
+/// Returns the values, with the values of all wings in place of unset parameters of one wing.
 fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {
@@ -437,7 +444,7 @@ fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
 }
 
 impl Effectiveness {
-    /// The same without inputs that change nothing beside the others, unless none is left.
+    /// Returns the effectiveness without inputs of negligible effect, unless none would be left.
     pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
             let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
@@ -454,14 +461,15 @@ impl Effectiveness {
         self
     }
 
-    /// The combinations of inputs that make force and torque, the strongest first: the singular value decomposition of the
-    /// matrix.
+    /// Returns the combinations of inputs that produce force and torque, the strongest first.
+    ///
+    /// They are the singular value decomposition of the matrix.
     pub fn modes(&self) -> Vec<Mode> {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };
         let modes = decomposed.singular_values.iter().enumerate().map(|(i, &size)| {
             let inputs: Vec<f64> = v_t.row(i).iter().copied().collect();
-            // The largest share of the inputs is positive.
+            // The sign is chosen so that the largest input is positive.
             let largest = inputs
                 .iter()
                 .copied()

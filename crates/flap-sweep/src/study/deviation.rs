@@ -1,4 +1,4 @@
-//! Deviations of a plan from its preset, which show a forgotten prefix.
+//! Deviations of a plan from its preset, which reveal a forgotten unit prefix.
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 
@@ -8,23 +8,23 @@ use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
 use crate::plan::{Plan, Value};
 
-/// Factor from the preset's value beyond which a value is probably a mistake.
+/// Factor from the preset's value above which a value is probably a mistake.
 pub const FAR: f64 = 100.0;
 
-/// A parameter that does not have the preset's value, or not only.
+/// A parameter whose value, or one of whose values, differs from the preset.
 #[derive(Clone, Debug)]
 pub struct Deviation<'p> {
-    /// The parameter.
+    /// Parameter.
     pub parameter: &'p Parameter<'p>,
-    /// Its value, or the first and the last one.
+    /// Its value, or the first and the last value of an axis.
     pub values: Vec<f64>,
-    /// The preset's value; NaN if it sets none.
+    /// Value in the preset; NaN if the preset sets none.
     pub preset: f64,
-    /// True if its values are written with their unit.
+    /// True if its values have units in the file.
     pub has_unit: bool,
 }
 
-/// The parameters that do not have the preset's values, in the order of the model's table.
+/// Returns the parameters that differ from the preset, in the order of the model's table.
 pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     let mut values: Vec<Vec<f64>> = plan.base().iter().map(|value| vec![value.in_point()]).collect();
     for (parameter, along) in plan.axes().parameters() {
@@ -36,8 +36,10 @@ pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     compare(plan, values, |parameter| plan.has_unit(parameter))
 }
 
-/// The parameters of the point with these values that do not have the preset's, in the order of the model's table. `has_unit`
-/// says whether the value of a parameter is written with its unit.
+/// Returns the parameters of the point with these values that differ from the preset, in the order of the model's
+/// table.
+///
+/// `has_unit` returns true if the value of a parameter has a unit in the file.
 pub fn of_point<'p>(plan: &'p Plan, values: &[f64], has_unit: impl Fn(usize) -> bool) -> Vec<Deviation<'p>> {
     compare(plan, values.iter().map(|value| vec![*value]).collect(), has_unit)
 }
@@ -57,7 +59,7 @@ fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool)
     .collect()
 }
 
-/// The values of the preset. A parameter that a wing has of its own has that of all wings.
+/// Returns the values of the preset. A parameter of one wing has the value of all wings.
 fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
     let parameters = plan.parameters();
     let values: Vec<f64> =
@@ -71,7 +73,7 @@ fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
     own.collect()
 }
 
-/// The ends of an axis; of a list the smallest and the largest value.
+/// Returns the ends of an axis; for a list, the smallest and the largest value.
 fn ends(values: &Values) -> Vec<f64> {
     match values {
         Values::Sampled { distribution, .. } => match distribution {
@@ -93,26 +95,27 @@ fn extremes(list: &[f64]) -> Vec<f64> {
 }
 
 impl Deviation<'_> {
-    /// The value in words, or the first and the last one.
+    /// Returns the value in words, or the first and the last value.
     pub fn shown(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();
         values.join(" to ")
     }
 
-    /// The preset's value in words.
+    /// Returns the preset's value in words.
     pub fn preset_shown(&self) -> String {
         self.text(self.preset)
     }
 
-    /// The value over the preset's; empty if that is not a finite number.
+    /// Returns the ratio to the preset's value; empty if it is not finite.
     pub fn ratio(&self) -> String {
         let ratios: Vec<String> =
             self.values.iter().filter_map(|value| self.ratio_of(*value)).map(short).collect();
         ratios.join(" to ")
     }
 
-    /// A warning that a value is far from the preset's, with the value that was probably meant. A value that is written with its
-    /// unit is meant as it is.
+    /// Returns a warning if a value is far from the preset's, with the value that was probably intended.
+    ///
+    /// A value with a unit causes no warning.
     pub fn warning(&self) -> Option<String> {
         if self.has_unit {
             return None;
@@ -131,7 +134,7 @@ impl Deviation<'_> {
         );
         let meant = units::meant(value, self.preset, unit).map(|meant| self.text(meant));
         Some(match meant {
-            Some(meant) => format!("{message}; if {meant} was meant, write \"{meant}\""),
+            Some(meant) => format!("{message}; if you mean {meant}, write \"{meant}\""),
             None => message,
         })
     }
@@ -150,7 +153,7 @@ impl Deviation<'_> {
     }
 }
 
-/// A ratio to three digits.
+/// Returns a ratio with three digits.
 fn short(ratio: f64) -> String {
     units::prefixed(format!("{ratio:.2e}").parse().unwrap_or(ratio), "")
 }

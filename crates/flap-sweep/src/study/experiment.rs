@@ -1,23 +1,24 @@
-//! Experiments on single points that have to end and to have finite results: chirps, and forces on a given motion.
+//! Experiments on single points with limits on their length and finite results: chirps, and forces along an imposed
+//! motion.
 
 use flap_core::simulate::{
     ChirpRequest, ChirpResponse, Experiments, ImposedMotion, PointRun, Trajectory, Unfinished,
 };
 use flap_experiments::free::INTERVALS_MAX;
 
-/// Most drive periods of a chirp.
+/// Largest number of drive periods of a chirp.
 pub const CYCLES_MAX: f64 = 100_000.0;
 
-/// An experiment without results.
+/// Reason for an experiment without results.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExperimentError {
-    /// The motion was not followed to its end.
+    /// The motion is incomplete.
     #[error(transparent)]
     Unfinished(#[from] Unfinished),
     /// A chirp has too many drive periods.
     #[error(
-        "a chirp from {from:?} Hz to {to:?} Hz at {rate:?} Hz/s lasts {duration:.3e} s, which are {cycles:.3e} drive periods: \
-         {CYCLES_MAX} are allowed"
+        "a chirp from {from:?} Hz to {to:?} Hz at {rate:?} Hz/s lasts {duration:.3e} s, which is {cycles:.3e} drive periods: \
+         at most {CYCLES_MAX} are allowed"
     )]
     LongChirp {
         /// Frequency at the beginning (Hz).
@@ -26,36 +27,38 @@ pub enum ExperimentError {
         to: f64,
         /// Rate of change of the frequency (Hz/s).
         rate: f64,
-        /// Its duration (s).
+        /// Duration (s).
         duration: f64,
-        /// Its drive periods.
+        /// Number of drive periods.
         cycles: f64,
     },
     /// The motion of a chirp has too many samples.
     #[error(
-        "a chirp of {cycles:.0} drive periods with {samples} samples each has {:.0} samples: {INTERVALS_MAX} are allowed",
+        "a chirp of {cycles:.0} drive periods with {samples} samples each has {:.0} samples: at most {INTERVALS_MAX} are allowed",
         cycles * f64::from(*samples)
     )]
     ManySamples {
-        /// Its drive periods.
+        /// Number of drive periods.
         cycles: f64,
         /// Samples per drive period.
         samples: u32,
     },
-    /// A force is infinite or not a number.
-    #[error("{column} is {value} at {time:?} s: the forces on this motion are beyond the range of numbers")]
+    /// A force is infinite or NaN.
+    #[error(
+        "{column} is {value} at {time:?} s: the forces along this motion are too large for 64-bit floats"
+    )]
     NotFinite {
-        /// The column.
+        /// Column.
         column: String,
-        /// The time (s).
+        /// Time (s).
         time: f64,
-        /// The value, infinite or not a number.
+        /// Value, infinite or NaN.
         value: f64,
     },
 }
 
 impl ExperimentError {
-    /// Advice, if there is any.
+    /// Returns advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match self {
             ExperimentError::Unfinished(_) => None,
@@ -72,8 +75,7 @@ impl ExperimentError {
                 (f64::from(INTERVALS_MAX) / cycles).floor()
             )),
             ExperimentError::NotFinite { .. } => Some(
-                "compare the parameters with those of the preset: `flap check` lists large differences"
-                    .to_owned(),
+                "compare the parameters with the preset: `flap check` lists large differences".to_owned(),
             ),
         }
     }
@@ -83,7 +85,7 @@ impl ExperimentError {
 ///
 /// # Errors
 /// - [`ExperimentError::LongChirp`] and [`ExperimentError::ManySamples`] if the chirp is too long
-/// - [`ExperimentError::Unfinished`] as [`Experiments::chirp`]
+/// - [`ExperimentError::Unfinished`] for the errors of [`Experiments::chirp`]
 pub fn chirp(
     model: &dyn Experiments,
     run: &PointRun<'_>,
@@ -93,7 +95,7 @@ pub fn chirp(
     let duration = (to - from) / rate;
     // The integral of the frequency over time.
     let cycles = duration * (0.5 * from + 0.5 * to);
-    // Frequencies and rates that fit no chirp are for the model to refuse.
+    // The model rejects frequencies and rates that do not form a chirp.
     if cycles > CYCLES_MAX {
         return Err(ExperimentError::LongChirp { from, to, rate, duration, cycles });
     }
@@ -103,11 +105,11 @@ pub fn chirp(
     Ok(model.chirp(run, request)?)
 }
 
-/// The forces on a given motion, without the columns that the motion does not determine.
+/// Returns the forces along an imposed motion, without the columns that the motion does not determine.
 ///
 /// # Errors
-/// - [`ExperimentError::NotFinite`] if a force is infinite or not a number
-/// - [`ExperimentError::Unfinished`] as [`Experiments::imposed`]
+/// - [`ExperimentError::NotFinite`] if a force is infinite or NaN
+/// - [`ExperimentError::Unfinished`] for the errors of [`Experiments::imposed`]
 pub fn forces(
     model: &dyn Experiments,
     values: &[f64],

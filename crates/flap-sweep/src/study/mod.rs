@@ -1,5 +1,5 @@
-//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, strongest parameters,
-//! surveys. Experiments on single points.
+//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, most important
+//! parameters, surveys. Also experiments on single points.
 
 pub mod control;
 pub mod deviation;

@@ -1,4 +1,4 @@
-//! The parameters by which a measure of a settled motion changes most.
+//! Parameters with the largest effect on a measure of a settled motion.
 
 use flap_core::parameter::{Kind, Range};
 use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};
@@ -6,21 +6,24 @@ use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished}
 use crate::plan::Plan;
 use crate::plan::gradient::{moved, size};
 
-/// The derivatives of a measure by all parameters that can change.
+/// Derivatives of a measure with respect to all parameters that can change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slopes {
-    /// Indices of parameters, each with the change of the measure, in its unit, per relative change of the parameter; the
-    /// largest first.
+    /// Indices of parameters, the largest effect first. Each has the change of the measure, in its unit, per relative
+    /// change of the parameter.
     pub known: Vec<(usize, f64)>,
-    /// Indices of parameters whose derivatives are not known, with the reason.
+    /// Indices of parameters with missing derivatives, each with the reason.
     pub unknown: Vec<(usize, NoSlope)>,
 }
 
-/// The derivatives of the measure number `measure` at the periodic `row` of a point that `simulator`, the plan's model,
-/// made in `run`. Derived parameters follow, but for those in `fixed`, which have values of their own.
+/// Returns the derivatives of the measure number `measure` at the periodic `row` of a point.
+///
+/// `simulator`, the plan's model, computed the row in `run`. Derived parameters are updated, except parameters in
+/// `fixed`, which have their own values.
 ///
 /// # Errors
-/// As [`Gradients::gradient`](flap_core::simulate::Gradients::gradient).
+/// [`Unfinished`], as in
+/// [`Gradients::gradient`](flap_core::simulate::Gradients::gradient).
 pub fn slopes(
     plan: &Plan,
     simulator: &dyn Simulator,
@@ -58,7 +61,8 @@ pub fn slopes(
     Ok(Slopes { known, unknown })
 }
 
-/// The parameters with a share that can change: numbers that are set, and neither zero, whole nor derived.
+/// Returns the parameters with relative changes: numbers that are set and not zero, not whole numbers, and not
+/// derived.
 fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
     let parameters = plan.parameters().iter().enumerate();
     let changing = parameters.filter(|(index, parameter)| {

@@ -1,21 +1,22 @@
-//! A survey of a plan without running it: points that its conditions exclude, and points spread over it.
+//! Survey of a plan without running it: points that its conditions exclude, and points spread over it.
 
 use crate::plan::{Admission, Plan};
 use crate::run::Unsatisfied;
 
-/// The points that the conditions of a plan exclude, counted.
+/// Counts of the points that the conditions of a plan exclude.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exclusions {
-    /// Points that were looked at: all of the plan, or some that are spread over it.
+    /// Number of examined points: all points of the plan, or some that are spread over it.
     pub looked_at: u64,
-    /// Points among them that are excluded.
+    /// Number of excluded points among them.
     pub excluded: u64,
-    /// The conditions of the plan, with numbers of these points.
+    /// Conditions of the plan, with numbers of these points.
     pub unsatisfied: Vec<Unsatisfied>,
 }
 
-/// Counts the points that the conditions of `plan` exclude, among all of its points or, if there are more than `most`, among
-/// so many that are spread over it.
+/// Counts the points that the conditions of `plan` exclude.
+///
+/// It examines all points or, if there are more than `most`, this number of points spread over the plan.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let conditions = plan.conditions().iter();
     let unsatisfied =
@@ -33,12 +34,13 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     found
 }
 
-/// Indices of points spread over a plan of `points` points, without end: multiples of the golden ratio, which leave no
-/// large gaps and are in step with no axis.
+/// Returns the index of point `number` of an endless sequence spread over a plan of `points` points.
+///
+/// The indices are multiples of the golden ratio. They leave no large gaps and are not periodic along any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
     let share = number.wrapping_mul(GOLDEN);
-    // Never more than `points`, so that it fits.
+    // Less than `points`, so it fits.
     u64::try_from((u128::from(share) * u128::from(points)) >> 64).unwrap_or(0)
 }
 

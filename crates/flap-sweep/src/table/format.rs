@@ -1,33 +1,32 @@
-//! The formats of result files.
+//! Formats of result files.
 
 use std::fs;
 use std::path::Path;
 
-/// The format of a result file.
+/// Format of a result file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Comma-separated values: `.csv`.
     Csv,
-    /// The same, compressed with Zstandard: `.csv.zst`.
+    /// Comma-separated values, compressed with Zstandard: `.csv.zst`.
     CsvZstd,
     /// Columns with types, units and provenance: `.parquet`.
     Parquet,
 }
 
-/// The endings of names, and the formats that they stand for.
+/// Endings of names, and their formats.
 const NAMED: [(&str, Format); 3] =
     [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
 
 impl Format {
-    /// The endings, for help and messages.
+    /// Endings, for help and messages.
     pub const ENDINGS: &str =
         if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
-    /// The format that the ending of a file's name stands for, in capital letters or small ones. Devices and pipes are CSV,
-    /// whatever they are called.
+    /// Returns the format for the ending of a file's name, in upper or lower case. Devices and pipes are always CSV.
     ///
     /// # Errors
-    /// If the ending stands for no format, or for one that this build leaves out.
+    /// If the ending belongs to no format, or to a format that is not part of this build.
     pub fn of(path: &Path) -> Result<Format, FormatError> {
         match Format::named(path) {
             Some(Format::Parquet) if !cfg!(feature = "parquet") => {
@@ -39,12 +38,13 @@ impl Format {
         }
     }
 
-    /// True if a file holds whole columns. Its rows wait beside it, as compressed text, until all are there.
+    /// Returns true if a file contains whole columns. Its rows wait beside it, as compressed text, until all are
+    /// present.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
     }
 
-    /// Checks the name of a table that is written as CSV and in no other format.
+    /// Checks the name of a table that can only be written as CSV.
     ///
     /// # Errors
     /// If the ending is not `.csv`.
@@ -53,10 +53,10 @@ impl Format {
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
     }
 
-    /// The name of a file without the ending that says its format, and that ending.
+    /// Returns the name of a file without the ending of its format, and this ending.
     pub fn split_ending(name: &str) -> (&str, &str) {
         let found = NAMED.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending));
-        // The endings are ASCII, so that they have as many bytes in the name.
+        // The endings are ASCII, so they have as many bytes in the name.
         name.split_at(name.len() - found.map_or(0, |(ending, _)| ending.len()))
     }
 
@@ -66,18 +66,18 @@ impl Format {
     }
 }
 
-/// A name that stands for no format.
+/// Error of a name whose format is unknown or unavailable.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
-    /// It ends in something else, or has no ending.
+    /// The name has another ending, or none.
     #[error("{name}: the file name must end in {allowed}")]
     Unknown {
         /// The file.
         name: String,
-        /// The endings that do.
+        /// Allowed endings.
         allowed: &'static str,
     },
-    /// A format that this build leaves out.
+    /// The format is not part of this build.
     #[error("{0}: this flap was built without Parquet")]
     WithoutParquet(String),
 }
@@ -86,7 +86,7 @@ fn unknown(path: &Path, allowed: &'static str) -> FormatError {
     FormatError::Unknown { name: path.display().to_string(), allowed }
 }
 
-/// True if there is something else than a file at `path`, such as a device or a pipe.
+/// Returns true if `path` is something other than a file, such as a device or a pipe.
 fn is_stream(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file())
 }

@@ -1,4 +1,4 @@
-//! Labels of columns: names in words, printed units, and the better direction of a measure.
+//! Labels of columns: names in words, printed units, and the preferred direction of a measure.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -9,18 +9,18 @@ use flap_core::vehicle::FORCES;
 use super::layout;
 use crate::plan::gradient;
 
-/// The label of a column.
+/// Label of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// The name in words, without the unit: `Lift, mean`.
+    /// Name in words, without the unit: `Lift, mean`.
     pub words: String,
-    /// The unit as it is printed: `N·m/rad`, `°`; empty for none.
+    /// Unit for display: `N·m/rad`, `°`; empty for none.
     pub unit: String,
-    /// The better direction of a measure; `None` for columns that are neither a benefit nor a cost.
+    /// Preferred direction of a measure; `None` for columns that are neither a benefit nor a cost.
     pub better: Option<Direction>,
 }
 
-/// The better direction of a measure.
+/// Preferred direction of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// A benefit, such as lift.
@@ -30,13 +30,13 @@ pub enum Direction {
 }
 
 impl Label {
-    /// Words and unit: `Lift, mean (mN)`.
+    /// Returns words and unit: `Lift, mean (mN)`.
     pub fn text(&self) -> String {
         titled(&self.words, &self.unit)
     }
 }
 
-/// The label of a column whose values have `unit`, written as in tables of parameters: `N*m/rad`; empty for none.
+/// Returns the label of a column whose values have `unit`, as in tables of parameters: `N*m/rad`; empty for none.
 ///
 /// ```
 /// use flap_sweep::table::labels::{self, Direction};
@@ -49,8 +49,10 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
     Label { words: words(column, unit), unit: printed(unit), better: better(column) }
 }
 
-/// The unit of a column: that of the parameter or measure with this name in one of the `models`, or of the derivative of one by
-/// another, else the ending of the name; empty for none.
+/// Returns the unit of a column; empty for none.
+///
+/// It is the unit of the parameter or measure with this name in one of the `models`, or of a derivative between two
+/// of them. Otherwise it follows from the ending of the name.
 pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
     let of_model = |name| unit_in_models(name, models);
     let derivative = gradient::parts(column).and_then(|(of, by, per)| {
@@ -61,7 +63,7 @@ pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, 
         .map_or_else(|| of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(), Cow::from)
 }
 
-/// The unit of the parameter or measure with this name in one of the models.
+/// Returns the unit of the parameter or measure with this name in one of the models.
 fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'static str> {
     models.iter().find_map(|model| {
         let parameter = model.parameters().iter().find(|parameter| parameter.name == name);
@@ -70,12 +72,12 @@ fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'sta
     })
 }
 
-/// Words, and the printed unit in parentheses if there is one.
+/// Returns the words, and the printed unit in parentheses if there is one.
 pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// First words of names of measures that are benefits or costs; of two that fit, the longer one comes first.
+/// First words of names of measures that are benefits or costs. Longer matches precede shorter ones.
 const BETTER: [(&str, Direction); 9] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),
@@ -88,9 +90,10 @@ const BETTER: [(&str, Direction); 9] = [
     ("force", Direction::Smaller),
 ];
 
-/// The better direction of a column, by the first words of its name; `None` if it is neither a benefit nor a cost.
+/// Returns the preferred direction of a column, from the first words of its name; `None` if it is neither a benefit
+/// nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
-    // Forces and torques of a vehicle along its other axes are to be what is wanted, not large or small.
+    // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
     if column != "force_up_mn" && FORCES.contains(&column) {
         return None;
     }
@@ -99,7 +102,7 @@ pub fn better(column: &str) -> Option<Direction> {
     BETTER.iter().find(|(words, _)| begins(words)).map(|(_, direction)| *direction)
 }
 
-/// Words of names that stand behind a comma in a label.
+/// Words of names that follow a comma in a label.
 const QUALIFIERS: [(&str, &str); 14] = [
     ("mean", "mean"),
     ("max", "largest"),
@@ -117,7 +120,7 @@ const QUALIFIERS: [(&str, &str); 14] = [
     ("margin", "margin"),
 ];
 
-/// Nouns that names of measures put before their adjectives: `power_drag_mean_mw` is a drag power.
+/// Nouns that precede their adjectives in names of measures: `power_drag_mean_mw` is a drag power.
 const NOUNS: [&str; 9] =
     ["lift", "drag", "power", "current", "force", "torque", "efficiency", "strain", "field"];
 
@@ -125,7 +128,7 @@ fn qualifier(word: &str) -> Option<&'static str> {
     QUALIFIERS.iter().find(|(known, _)| *known == word).map(|(_, text)| *text)
 }
 
-/// A column's name in words, without its unit.
+/// Returns a column's name in words, without its unit.
 fn words(name: &str, unit: &str) -> String {
     let (shortened, known) = layout::split_unit(name);
     // A parameter such as `air_density` has a unit that its name does not contain.
@@ -162,7 +165,7 @@ fn capitalized(text: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// A unit as it is printed: `uN*m/rad` is `µN·m/rad`, `mm^2` is `mm²`, `deg` is `°`.
+/// Returns a unit for display: `uN*m/rad` is `µN·m/rad`, `mm^2` is `mm²`, `deg` is `°`.
 pub fn printed(unit: &str) -> String {
     let mut text = String::new();
     let mut rest = unit;
@@ -198,24 +201,26 @@ fn superscript(digit: char) -> char {
     digit.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
 }
 
-/// A unit in which values are easy to read, and the factor from the original unit to it.
+/// A readable unit for values, and the factor from the original unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    /// The number by which values are multiplied.
+    /// Factor for values.
     pub factor: f64,
-    /// The unit after that, as it is printed.
+    /// Unit of the scaled values, for display.
     pub unit: String,
 }
 
-/// Prefixes of units, each with its power of ten.
+/// Prefixes of units and their powers of ten.
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("µ", -6), ("n", -9), ("p", -12)];
 
-/// Units that take a prefix. Units of measures, such as mN, have theirs already.
+/// Units that take a prefix. Units of measures, such as mN, already have one.
 const SYMBOLS: [&str; 13] = ["m", "s", "N", "Pa", "V", "F", "kg", "Hz", "W", "A", "J", "Ohm", "C"];
 
-/// The scale for values in `unit` of which `largest` is the largest magnitude: with the prefix that brings it to between 1
-/// and 1000. Values from 0.1 to 10 000 keep their unit; radians become degrees.
+/// Returns the scale for values in `unit` whose largest magnitude is `largest`, with the prefix that brings it to
+/// between 1 and 1000.
+///
+/// Values from 0.1 to 10 000 keep their unit; radians become degrees.
 pub fn scale(unit: &str, largest: f64) -> Scale {
     let scale = |factor: f64, unit: &str| Scale { factor, unit: unit.to_owned() };
     match unit {
@@ -232,7 +237,7 @@ pub fn scale(unit: &str, largest: f64) -> Scale {
     if unit == "kg*m^2" {
         return if largest < 1e-9 { scale(1e12, "mg·mm²") } else { scale(1e9, "g·mm²") };
     }
-    // The exponent of the symbol: its prefix is raised to it too.
+    // The exponent of the symbol also applies to its prefix.
     let digits = rest.strip_prefix('^').unwrap_or("");
     let digits = &digits[..digits.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(digits.len())];
     let power = digits.parse().unwrap_or(1);
@@ -243,7 +248,7 @@ pub fn scale(unit: &str, largest: f64) -> Scale {
     Scale { factor: power_of_ten(base - ten * power), unit: format!("{prefix}{symbol}{}", printed(rest)) }
 }
 
-/// The number nearest to 10^`exponent`, for exponents from -22 to 22.
+/// Returns the number nearest to 10^`exponent`, for exponents from -22 to 22.
 fn power_of_ten(exponent: i32) -> f64 {
     if exponent < 0 { 1.0 / 10_f64.powi(-exponent) } else { 10_f64.powi(exponent) }
 }
@@ -296,12 +301,12 @@ mod tests {
         assert_eq!(unit_of("lift_mean_mn", models), "mN");
         assert_eq!(unit_of("my_own_ms", models), "ms");
         assert_eq!(unit_of("rhs_evals", models), "");
-        // A model that is not among those of the program says nothing.
+        // Without the model, the unit of a parameter is unknown.
         assert_eq!(unit_of("hinge_stiffness", &[]), "");
         assert_eq!(unit_of("lift_mean_mn", &[]), "mN");
         assert_eq!(unit_of("d_lift_mean_mn_per_pct_hinge_stiffness", models), "mN/%");
         assert_eq!(unit_of("d_strain_max_per_si_hinge_stiffness", models), "1/(N*m/rad)");
-        // The unit of a parameter that no model has is not known.
+        // The unit of a parameter that belongs to no model is unknown.
         assert_eq!(unit_of("d_lift_mean_mn_per_si_zzz", models), "");
     }
 

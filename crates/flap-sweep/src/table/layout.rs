@@ -1,4 +1,4 @@
-//! The columns of a result file: their order, their meaning and their cells; the columns that all models share.
+//! Columns of a result file: order, description and cells. Also the columns that all models share.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -10,62 +10,65 @@ use crate::notation::{expression, text};
 use crate::plan::Plan;
 use crate::plan::gradient::{self, column_name, meaning};
 
-/// The columns of the rows of a plan:
-/// `point`, the varied parameters, the derived ones, `status`, the measures, then `cycles`, `residual`, `period`,
-/// `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may choose among those behind `status`.
+/// Columns of the rows of a plan.
 ///
-/// Rows of curves begin with `curve` in place of `point`, have `branch` and the followed parameter before `status`, and
-/// `bistable` behind it.
+/// They are `point`, the varied parameters, the derived parameters, `status`, the measures, and then `cycles`,
+/// `residual`, `period`, `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may select columns after
+/// `status`.
+///
+/// Rows of curves begin with `curve` in place of `point`. They have `branch` and the followed parameter before
+/// `status`, and `bistable` after it.
 #[derive(Debug)]
 pub struct Layout<'p> {
-    /// The varied parameters, then the derived ones, each with its index in the model's parameter table.
+    /// Varied parameters, then derived parameters, each with its index in the model's parameter table.
     pub varied: Vec<(usize, &'p Parameter<'p>)>,
-    /// The parameter that is followed, if one is.
+    /// Followed parameter, if there is one.
     pub followed: Option<&'p Parameter<'p>>,
-    /// The columns behind `status`.
+    /// Columns after `status`.
     behind: Vec<Behind>,
 }
 
-/// A column behind `status`.
+/// A column after `status`.
 #[derive(Clone, Debug)]
 enum Behind {
     Measure(Measure),
-    /// On the course of the run.
+    /// A column about the run.
     Run(&'static Fixed),
-    /// A component of the state at the beginning of the motion's period, with its place.
+    /// A component of the state at the beginning of the motion's period, with its index.
     State(usize, String),
 }
 
-/// The place of a motion on a curve.
+/// Position of a motion on a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Its branch.
+    /// Branch.
     pub branch: &'static str,
-    /// The value of the parameter that is followed.
+    /// Value of the followed parameter.
     pub value: f64,
-    /// True if the ways up and down have different motions at this value. Unknown if neither is periodic with the drive, and
-    /// for unstable orbits.
+    /// True if the branches up and down have different motions at this value.
+    ///
+    /// `None` if neither is periodic with the drive, and for unstable orbits.
     pub bistable: Option<bool>,
 }
 
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Index in the measures of a row: the model's columns, then the plan's own.
+    /// Index in the measures of a row: the model's columns come first, then the plan's own.
     pub index: usize,
-    /// The column. In a row's measures, 1 stands for true and 0 for false.
+    /// Column. In a row's measures, 1 is true and 0 is false.
     pub column: Column,
 }
 
 impl Measure {
-    /// The value in a row's measures; NaN if they are empty.
+    /// Returns the value in a row's measures; NaN if they are empty.
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
     }
 }
 
 impl<'p> Layout<'p> {
-    /// The columns that `plan` asks for.
+    /// Returns the columns of `plan`.
     pub fn of(plan: &'p Plan) -> Layout<'p> {
         let parameters = plan.parameters();
         let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
@@ -95,7 +98,7 @@ impl<'p> Layout<'p> {
         Layout { varied, followed, behind }
     }
 
-    /// The selected measures.
+    /// Returns the selected measures.
     pub fn measures(&self) -> impl Iterator<Item = &Measure> {
         self.behind.iter().filter_map(|behind| match behind {
             Behind::Measure(measure) => Some(measure),
@@ -103,28 +106,30 @@ impl<'p> Layout<'p> {
         })
     }
 
-    /// True if rows have a column of this name.
+    /// Returns true if rows have a column with this name.
     pub fn has(&self, name: &str) -> bool {
         self.entries().any(|entry| entry.column().name == name)
     }
 
-    /// The columns, from left to right.
+    /// Returns the columns, from left to right.
     pub fn columns(&self) -> Vec<Column> {
         self.entries().map(|entry| entry.column()).collect()
     }
 
-    /// The column names.
+    /// Returns the column names.
     pub fn names(&self) -> Vec<String> {
         self.columns().into_iter().map(|column| column.name).collect()
     }
 
-    /// One cell per column. Unknown values are empty: the measures of a point that is not periodic,
-    /// the multiplier and stability of one without an orbit, and the residual of one that completed no period.
+    /// Returns one cell per column. Unknown values are empty cells.
+    ///
+    /// These are the measures of a point that is not periodic, and the residual of a point that completed no period.
+    /// Without an orbit, multiplier and stability are unknown too.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'static>> {
         self.cells_at(point, None, row)
     }
 
-    /// The cells of a motion on a curve of the design `point`, as [`Layout::cells`] gives those of a point.
+    /// Returns the cells of a motion on a curve of the design `point`, in the form of [`Layout::cells`].
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'static>> {
         // `curve` or `point`, `branch`, the followed parameter, `status`, and `bistable`.
         let mut cells = Vec::with_capacity(5 + self.varied.len() + self.behind.len());
@@ -132,7 +137,7 @@ impl<'p> Layout<'p> {
         cells
     }
 
-    /// The columns with their cells.
+    /// Returns the columns with their cells.
     fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
         let first = if self.followed.is_some() { &CURVE } else { &POINT };
         let followed =
@@ -151,7 +156,7 @@ impl<'p> Layout<'p> {
     }
 }
 
-/// The columns of derivatives, behind `before` measures in a row.
+/// Returns the columns of derivatives, which follow `before` measures in a row.
 fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
     let Some(gradient) = plan.gradient() else { return Vec::new() };
     let models = plan.rows().columns();
@@ -169,29 +174,25 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
     columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()
 }
 
-/// The column with the reason why derivatives of a row are missing.
+/// Returns the column with the reasons for missing derivatives of a row.
 fn gradient_gap() -> Column {
-    let doc = "reasons why derivatives of the row are not known, such as edge;zero; empty if all are known";
+    let doc = "reasons for missing derivatives of the row, such as edge;zero; empty if none is missing";
     Column::new("gradient_gap", "", CellKind::Text, doc)
 }
 
-/// The column with the branch of a curve.
+/// Returns the column with the branch of a curve.
 fn branch() -> Column {
-    Column::new(
-        "branch",
-        "",
-        CellKind::Text,
-        "the way that the motion is on: up, down, or unstable between the two",
-    )
+    Column::new("branch", "", CellKind::Text, "branch of the motion: up, down, or unstable between the two")
 }
 
-/// The column that tells where a curve is bistable.
+/// Returns the column that is true where a curve is bistable.
 fn bistable() -> Column {
-    let doc = "true if the ways up and down have different motions at this value of the parameter; empty if neither is periodic";
+    let doc = "true if the branches up and down have different motions at this value of the parameter; empty if neither is periodic";
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
-/// The reasons in a set, as the last measure of a row has it, a bit for each place in [`NoSlope::ALL`]: `edge;zero`.
+/// Returns the reasons in a set from the last measure of a row, with a bit for each index in [`NoSlope::ALL`]:
+/// `edge;zero`.
 fn gap(set: f64) -> &'static str {
     static SETS: LazyLock<Vec<String>> = LazyLock::new(|| {
         let reasons = NoSlope::ALL.into_iter().enumerate();
@@ -201,17 +202,18 @@ fn gap(set: f64) -> &'static str {
         };
         (0..1 << NoSlope::ALL.len()).map(words).collect()
     });
-    // NaN is the set without reasons.
+    // NaN is the empty set.
     SETS.iter().enumerate().find(|(other, _)| *other as f64 == set).map_or("", |(_, words)| words.as_str())
 }
 
-/// The columns that rows of every model have: index, status, and the course of the run.
+/// Returns the columns that rows of every model have: index, status, and columns about the run.
 pub fn fixed_columns() -> Vec<Column> {
     let fixed = [&POINT, &CURVE, &STATUS].into_iter().chain(&RUN);
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
 }
 
-/// The columns that rows of every model may have: `branch` and `bistable` of curves, `gradient_gap` of rows with derivatives.
+/// Returns the columns that rows of every model may have: `branch` and `bistable` for curves, `gradient_gap` for
+/// derivatives.
 pub fn special_columns() -> [Column; 3] {
     [branch(), bistable(), gradient_gap()]
 }
@@ -221,14 +223,14 @@ enum Entry<'l> {
     Fixed(&'static Fixed),
     /// A varied or derived parameter, with its index in the model's table.
     Parameter(usize, &'l Parameter<'l>),
-    /// The branch of a curve.
+    /// Branch of a curve.
     Branch,
-    /// The parameter that rises and falls along a curve.
+    /// Followed parameter of a curve.
     Followed(&'l Parameter<'l>),
-    /// True where a curve is bistable.
+    /// Flag that is true where a curve is bistable.
     Bistable,
     Measure(&'l Measure),
-    /// A component of the state at the beginning of the motion's period, with its place.
+    /// A component of the state at the beginning of the motion's period, with its index.
     State(usize, &'l str),
 }
 
@@ -267,7 +269,7 @@ impl Entry<'_> {
     }
 }
 
-/// Endings of names, each with its unit in words; of two that fit, the longer one comes first.
+/// Endings of names, each with its unit in words. Longer matches precede shorter ones.
 const ENDINGS: [(&str, &str); 30] = [
     ("_gf_per_w", "gf/W"),
     ("_deg_per_v", "deg/V"),
@@ -301,7 +303,7 @@ const ENDINGS: [(&str, &str); 30] = [
     ("_m", "m"),
 ];
 
-/// A column's name without the unit that it ends in, and that unit; empty if there is none.
+/// Returns a column's name without its unit, and this unit; empty if there is none.
 ///
 /// ```
 /// assert_eq!(flap_sweep::table::layout::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
@@ -312,23 +314,23 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     split.unwrap_or((name, ""))
 }
 
-/// A column of a result file, as tables with types and units see it.
+/// Description of a column of a result file, for tables with types and units.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name, with its unit for a measure.
     pub name: String,
-    /// The unit in words; empty for what has none.
+    /// Unit in words; empty if there is none.
     pub unit: Cow<'static, str>,
-    /// The type of its cells. Any cell may be empty.
+    /// Type of its cells. Any cell may be empty.
     pub kind: CellKind,
-    /// One line of meaning.
+    /// Description in one line.
     pub doc: String,
 }
 
-/// The type of the cells of a column.
+/// Type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellKind {
-    /// Whole numbers from 0.
+    /// Whole numbers, 0 or more.
     Whole,
     /// Numbers.
     Number,
@@ -352,14 +354,14 @@ impl Column {
     }
 }
 
-/// The entry of a row in a column.
+/// Cell of a row in a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'t> {
     /// A whole number.
     Whole(u64),
-    /// A number; NaN if it is not known.
+    /// A number; NaN if unknown.
     Number(f64),
-    /// True or false; `None` if it is not known.
+    /// True or false; `None` if unknown.
     Flag(Option<bool>),
     /// A word.
     Text(&'t str),
@@ -370,7 +372,7 @@ impl<'t> Cell<'t> {
         text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
     }
 
-    /// The cell of a column of this `kind` from its text in a result file; `None` if that does not belong there.
+    /// Returns the cell of a column of this `kind` from its text in a result file; `None` if the text does not match.
     pub fn parse(kind: CellKind, text: &'t str) -> Option<Cell<'t>> {
         let is_unknown = text.is_empty();
         Some(match kind {
@@ -385,14 +387,14 @@ impl<'t> Cell<'t> {
 /// A column that does not depend on the model.
 #[derive(Debug)]
 pub(crate) struct Fixed {
-    /// Its name.
+    /// Name of the column.
     pub(crate) name: &'static str,
     pub(super) kind: CellKind,
     pub(crate) doc: &'static str,
     pub(super) cell: fn(&Point, &Row) -> Cell<'static>,
 }
 
-/// The first column.
+/// First column.
 pub(crate) const POINT: Fixed = Fixed {
     name: "point",
     kind: CellKind::Whole,
@@ -400,7 +402,7 @@ pub(crate) const POINT: Fixed = Fixed {
     cell: |point, _| Cell::Whole(point.index),
 };
 
-/// The column before the measures.
+/// Column before the measures.
 pub(crate) const STATUS: Fixed = Fixed {
     name: "status",
     kind: CellKind::Text,
@@ -408,20 +410,20 @@ pub(crate) const STATUS: Fixed = Fixed {
     cell: |_, row| Cell::Text(row.status.name()),
 };
 
-/// The name of the column of curves that is true where the ways up and down have different motions.
+/// Name of the column of curves that is true where the branches up and down have different motions.
 pub(crate) const BISTABLE: &str = "bistable";
 
-/// True if measures cannot be called `name`: rows may have another column of that name.
+/// Returns true if `name` is not allowed for measures, because rows may have another column with this name.
 pub(crate) fn is_fixed(name: &str) -> bool {
     name == BISTABLE || [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
 }
 
-/// The columns on the course of a run, behind the measures.
+/// Columns about the run, after the measures.
 pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",
         kind: CellKind::Whole,
-        doc: "drive periods integrated, those of the measurement included",
+        doc: "integrated drive periods, including the measured ones",
         cell: |_, row| Cell::Whole(row.cycles.into()),
     },
     Fixed {
@@ -446,13 +448,13 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "stable",
         kind: CellKind::Flag,
-        doc: "true if motions near the orbit approach it",
+        doc: "true if nearby motions approach the orbit",
         cell: |_, row| Cell::Flag(row.stable()),
     },
     Fixed {
         name: "error_estimate",
         kind: CellKind::Number,
-        doc: "estimated relative error of stroke, pitch, lift and power, the largest; inf if it cannot be estimated",
+        doc: "largest estimated relative error of stroke, pitch, lift and power; inf if it cannot be estimated",
         cell: |_, row| Cell::Number(row.error_estimate),
     },
     Fixed {
@@ -463,7 +465,7 @@ pub(crate) const RUN: [Fixed; 7] = [
     },
 ];
 
-/// The first column of curves, in place of `point`.
+/// First column of curves, in place of `point`.
 pub(crate) const CURVE: Fixed = Fixed {
     name: "curve",
     kind: CellKind::Whole,

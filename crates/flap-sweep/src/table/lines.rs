@@ -1,33 +1,33 @@
 //! Rows as lines of comma-separated values.
 //!
-//! Nearly all cells are numbers, which need no quotes. Appended to their line as they are, they take half the instructions that
-//! they take by way of the csv crate, which looks at every byte for what needs quotes. Reading is that crate's work.
+//! Nearly all cells are numbers, which need no quotes. Appending them directly takes half the instructions of the csv
+//! crate, which checks every byte. Reading uses this crate.
 
 use std::io::{self, BufWriter, Write};
 
 use crate::notation::text;
 use crate::table::layout::Cell;
 
-/// Writes lines to `W`.
+/// Writer of lines to `W`.
 pub(crate) struct Lines<W: Write> {
     target: BufWriter<W>,
-    /// The line that is being made; kept for its memory.
+    /// Current line; kept to reuse its memory.
     line: String,
 }
 
 impl<W: Write> Lines<W> {
     pub(crate) fn new(target: W) -> Lines<W> {
-        // One system call takes some hundred rows.
+        // One system call writes some hundred rows.
         Lines { target: BufWriter::with_capacity(1 << 16, target), line: String::new() }
     }
 
-    /// Writes a line of cells that are text already.
+    /// Writes a line of text cells.
     pub(crate) fn texts<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
         push_line(&mut self.line, cells);
         self.end()
     }
 
-    /// Writes a line of cells: numbers as [`text::float`] gives them, and nothing for unknown values.
+    /// Writes a line of cells: numbers in the form of [`text::float`], and nothing for unknown values.
     pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
         for cell in cells {
             match *cell {
@@ -42,7 +42,7 @@ impl<W: Write> Lines<W> {
         self.end()
     }
 
-    /// Writes the line, whose last comma its end replaces.
+    /// Writes the line. Its end replaces the last comma.
     fn end(&mut self) -> io::Result<()> {
         end_line(&mut self.line);
         let written = self.target.write_all(self.line.as_bytes());
@@ -50,18 +50,18 @@ impl<W: Write> Lines<W> {
         written
     }
 
-    /// Hands the written lines to the target, and flushes that.
+    /// Passes the written lines to the target, and flushes the target.
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         self.target.flush()
     }
 
-    /// The target; complete after [`Lines::flush`].
+    /// Returns the target; complete after [`Lines::flush`].
     pub(crate) fn target(&self) -> &W {
         self.target.get_ref()
     }
 }
 
-/// Appends the line of cells that are text already, but for its end.
+/// Appends the line of text cells, without its end.
 fn push_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
     for cell in cells {
         push_word(line, cell.as_ref());
@@ -69,13 +69,13 @@ fn push_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T
     }
 }
 
-/// The last comma becomes the end of the line.
+/// Replaces the last comma by the end of the line.
 fn end_line(line: &mut String) {
     line.pop();
     line.push('\n');
 }
 
-/// Makes `line` the line of these cells, with its end.
+/// Sets `line` to the line of these cells, with its end.
 #[cfg(feature = "parquet")]
 pub(crate) fn set_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
     line.clear();
@@ -83,7 +83,7 @@ pub(crate) fn set_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterato
     end_line(line);
 }
 
-/// Appends a cell, in quotes if it would be read as something else without.
+/// Appends a cell, in quotes if necessary.
 fn push_word(line: &mut String, word: &str) {
     if word.contains([',', '"', '\r', '\n']) {
         line.push('"');

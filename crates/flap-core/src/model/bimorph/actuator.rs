@@ -1,4 +1,4 @@
-//! The actuator as a beam: the factors of equations (3), (5) and (6) that follow from its shape and layers.
+//! The actuator as a beam: factors of equations (3), (5) and (6) that depend on its shape and layers.
 
 use super::params::{Params, WIDTH_RATIOS};
 use crate::parameter::Invalid;
@@ -12,7 +12,7 @@ pub(super) struct Actuator {
     /// s_ε = (t_pzt + t_cf)/(l_pzt² (1 + 2l_r))     ε₁ = −s_ε x     ε₂ = s_ε x
     /// ```
     pub(super) strain_per_tip: f64,
-    /// Strain of a plate's outer face over that of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
+    /// Strain of a plate's outer face over the strain of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
     pub(super) surface_strain_ratio: f64,
     /// Stiffness of the tip (N/m) per Pa of the plates' modulus E_e, (3).
     ///
@@ -20,7 +20,7 @@ pub(super) struct Actuator {
     /// K_pre D_E = p₄p₅ w_n G/(l_pzt³ (1 + 2l_r)) · t_pzt (1.5t_cf² + 3t_cf t_pzt + 2t_pzt²)
     /// ```
     pub(super) stiffness_per_modulus: f64,
-    /// Stiffness of the tip that the carbon fibre gives (N/m), (3): K_pre E_cf t_cf³/4.
+    /// Contribution of the carbon fibre to the stiffness of the tip (N/m), (3): K_pre E_cf t_cf³/4.
     pub(super) shim_stiffness: f64,
     /// Blocked force of a plate (N) per piezoelectric stress (Pa), without the effect of strain, (6).
     ///
@@ -31,10 +31,10 @@ pub(super) struct Actuator {
 }
 
 impl Actuator {
-    /// The actuator of a point.
+    /// Returns the actuator of a point.
     ///
     /// # Errors
-    /// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
+    /// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
     pub(super) fn new(p: &Params) -> Result<Actuator, Invalid> {
         let gain = taper_gain(p.actuator_width_ratio, p.actuator_extension_ratio)?;
         let length = p.actuator_length;
@@ -55,20 +55,20 @@ impl Actuator {
     }
 }
 
-/// The gain G of a tapered cantilever with a rigid extension, (3), (6), which the paper
-/// takes from its reference 9.
+/// Returns the gain G of a tapered cantilever with a rigid extension, (3), (6). The paper takes it from its reference
+/// 9.
 ///
-/// `width_ratio` w_r is the width at the base over the mean width, `extension_ratio` l_r the length of the
-/// extension over that of the taper. With c = 1 + 2l_r and δ = w_r − 1,
+/// `width_ratio` w_r is the width at the base over the mean width. `extension_ratio` l_r is the length of the
+/// extension over the length of the taper. With c = 1 + 2l_r and δ = w_r − 1,
 ///
 /// ```text
 /// G = c / (3 I)     I = ∫₀¹ (1 + l_r − s)²/(w_r + 2 (1 − w_r) s) ds = ⅛ ∫₋₁¹ (c − z)²/(1 − δz) dz
 /// ```
 ///
-/// The closed form cancels like 1/δ³, so up to |δ| = ½ the integrand is expanded in powers of δz.
+/// The closed form loses digits as 1/δ³. For |δ| ≤ ½ the integrand is therefore expanded in powers of δz.
 ///
 /// # Errors
-/// `OutOfRange` if the width ratio is not between 0 and 2: one end would have no width.
+/// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
 fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
     Invalid::unless_within("actuator_width_ratio", width_ratio, WIDTH_RATIOS)?;
     let gain = if (width_ratio - 1.0).abs() < 0.5 {
@@ -97,7 +97,7 @@ fn series_gain(delta: f64, c: f64) -> f64 {
     let square = delta * delta;
     let mut power = 1.0;
     let mut sum = 0.0;
-    // The first term left out is below ½⁶⁰.
+    // The first omitted term is below ½⁶⁰.
     for k in 0..30 {
         let odd = 2.0 * f64::from(k) + 1.0;
         sum += power * (c * c / odd + (1.0 - 2.0 * c * delta) / (odd + 2.0));

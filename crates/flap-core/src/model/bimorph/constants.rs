@@ -1,8 +1,7 @@
-//! Constants of the bimorph model, which do not change along a trajectory; computed once per point.
+//! Constants of the bimorph model, computed once per point.
 //!
-//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
-//! listed in `docs/models/bimorph.md`. Powers of constants that the equations of motion need together are
-//! multiplied out here.
+//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections listed in
+//! `docs/models/bimorph.md`. Products of constants that the equations of motion use are computed here.
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
@@ -13,28 +12,31 @@ use crate::parameter::Invalid;
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// The drive: half of the drive voltage peak to peak as constant part and as amplitude, of opposite sign for the
-        /// two plates.
+        /// Drive: half of the peak-to-peak drive voltage, as constant part and as amplitude. The two plates have
+        /// amplitudes of opposite sign.
         pub drive: DriveConstants<R>,
-        /// Half of the bias between the plates (V): plate 1 has that much more, plate 2 that much less.
+        /// Half of the bias between the plates (V). It is added to the voltage of plate 1 and subtracted from plate
+        /// 2.
         pub half_offset: R,
 
         /// Field per voltage (1/m): 1/t_pzt.
         pub field_per_volt: R,
         /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
         pub f_min: R,
-        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min; less f_31,min once more
-        /// if (6) is read as printed.
+        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min. If (6) is
+        /// read as printed, f_31,min is subtracted twice.
         pub f_rise: R,
-        /// Its decline with field a₄ f_31,max (N/V²), (6).
+        /// Decline of the stress per field with the field a₄ f_31,max (N/V²), (6).
         pub f_decline: R,
         /// Field of the transition ℰ₀ (V/m), (6).
         pub field_0: R,
         /// Steepness of the transition a₃ (m/V), (6).
         pub a_3: R,
-        /// e^p with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition at the constant part of each plate's voltage.
+        /// e^p for each plate, with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition at the constant part of its
+        /// voltage.
         pub transition: [R; 2],
-        /// Change of these exponents over the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two plates.
+        /// Change of these exponents per unit of the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two
+        /// plates.
         pub transition_swing: R,
         /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, (6).
         pub force_per_stress: [R; 2],
@@ -42,35 +44,35 @@ crate::per_lane! {
         pub b: R,
         /// Capacitance of a plate C_p (F).
         pub c_p: R,
-        /// Conductance of a plate that stands for its dielectric loss (S).
+        /// Equivalent conductance of a plate's dielectric loss (S).
         pub conductance: R,
         /// Share of the returned power that the supply recovers.
         pub charge_recovery: R,
 
         /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
         pub k_soft: R,
-        /// Force of the stiffening by strain (N) per unit of L, (3), (4).
+        /// Force of the strain stiffening (N) per unit of L, (3), (4).
         pub f_stiff: R,
-        /// Strain over the width of the modulus' transition, per displacement a₁ s_ε (1/m), (4).
+        /// Strain over the width of the modulus transition, per displacement: a₁ s_ε (1/m), (4).
         pub u_per_tip: R,
-        /// Progress of the modulus' transition at zero strain σ(a₁ε₀), from 0 to 1, (4).
+        /// Progress of the modulus transition at zero strain σ(a₁ε₀), from 0 to 1, (4).
         pub sigma_0: R,
         /// Stiffness of the transmission K_t (N/m).
         pub k_t: R,
 
         /// 1/m_e (1/kg), with the effective mass m_e = (I_zz + I_am) T².
         pub inverse_m_e: R,
-        /// J T² (kg): inertia of the stroke as felt at the tip.
+        /// Inertia of the stroke, as a mass at the tip: J T² (kg).
         pub stroke_mass: R,
-        /// Mass of the actuator as felt at its tip m_a (kg).
+        /// Mass of the actuator, as a mass at its tip: m_a (kg).
         pub tip_mass: R,
-        /// Damping of the tip (N·s/m) that stands for the loss factor of its springs.
+        /// Equivalent damping of the loss factor of the stroke's springs, at the tip (N·s/m).
         pub tip_damping: R,
-        /// Damping of the stroke as felt at the tip (N·s/m): that about the stroke axis times T².
+        /// Damping of the stroke, at the tip (N·s/m): the damping about the stroke axis times T².
         pub stroke_damping: R,
         /// Drag at the tip C_A (kg/m), (8).
         pub c_a: R,
-        /// Its swing with the hinge angle C_B (kg/m), (8).
+        /// Change of the drag at the tip with the pitch C_B (kg/m), (8).
         pub c_b: R,
 
         /// 1/I_xx (1/(kg·m²)).
@@ -81,9 +83,9 @@ crate::per_lane! {
         pub centrifugal: R,
         /// Stiffness of the hinge κ_wh (N·m/rad).
         pub kappa_wh: R,
-        /// Damping of the hinge (N·m·s), that of its loss factor included.
+        /// Damping of the hinge (N·m·s), with the equivalent damping of its loss factor.
         pub hinge_damping: R,
-        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
         pub hinge_strain: R,
         /// Rotational drag C_C (N·m·s²), (9).
         pub c_c: R,
@@ -91,7 +93,7 @@ crate::per_lane! {
         pub hinge_torque: R,
         /// Chordwise centre of pressure for ψ = 90°, in mean widths, (11).
         pub p_min: R,
-        /// Its shift from there to ψ = 0, in mean widths, (11).
+        /// Shift of the chordwise centre of pressure from ψ = 90° to ψ = 0, in mean widths, (11).
         pub p_swing: R,
 
         /// Mean of the drag coefficient's largest and smallest value b₁.
@@ -107,29 +109,28 @@ crate::per_lane! {
 
         /// Transmission ratio T (rad/m).
         pub ratio: R,
-        /// Growth of the ratio with the square of the displacement τ = T₃/T (1/m²).
+        /// Growth of the ratio with the square of the displacement: τ = T₃/T (1/m²).
         pub ratio_growth: R,
         /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
         pub strain_per_tip: R,
-        /// Strain of a plate's outer face over that of its mid-plane.
+        /// Strain of a plate's outer face over the strain of its mid-plane.
         pub surface_strain_ratio: R,
         /// Mass of the vehicle (kg).
         pub vehicle_mass: R,
     }
 }
 
-/// Largest magnitude of an exponent in the equations: their exponential does not check its range.
+/// Largest magnitude of an exponent in the equations. Their exponential function does not check its range.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 impl Constants<f64> {
-    /// Derives the constants of a point.
+    /// Returns the constants of a point.
     ///
     /// # Errors
-    /// If the actuator has no width at one end, a transition is too steep to compute, or a constant is not
-    /// finite.
+    /// If the actuator's width is zero at one end, a transition is too steep to compute, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
-        // Harmonics swing beyond 0 and V_pp.
+        // With harmonics the voltage exceeds the range from 0 to V_pp.
         let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
             p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
         } else {
@@ -176,7 +177,7 @@ impl Constants<f64> {
             f_decline: p.stress_decline * p.piezo_stress_max,
             field_0: p.stress_field,
             a_3: p.stress_steepness,
-            // They follow from the drive, in `with_drive` below.
+            // Set from the drive in `with_drive` below.
             transition: [f64::NAN; 2],
             transition_swing: f64::NAN,
             force_per_stress: [actuator.force_per_stress, actuator.force_per_stress * p.plate_ratio],
@@ -229,7 +230,7 @@ impl Constants<f64> {
         Invalid::unless_finite(constants.with_drive(drive))
     }
 
-    /// The constants with another drive.
+    /// Returns the constants with another drive.
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;

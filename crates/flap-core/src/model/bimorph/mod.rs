@@ -1,8 +1,10 @@
-//! A bimorph piezoelectric actuator that drives a wing through a transmission; the wing pitches on a hinge.
+//! A bimorph piezoelectric actuator that drives a wing through a transmission. The wing pitches on a hinge.
 //!
-//! Jafferis, Graule and Wood, "Non-linear resonance modeling and system design improvements for
-//! underactuated flapping-wing vehicles", ICRA 2016. Two plates with field- and strain-dependent force and
-//! stiffness, a lumped mass, quasi-steady aerodynamics of the whole wing, a passive hinge.
+//! Jafferis, Graule and Wood, "Non-linear resonance modeling and system design improvements for underactuated
+//! flapping-wing vehicles", ICRA 2016.
+//!
+//! The two plates' force and stiffness depend on field and strain. The model further contains a lumped mass,
+//! quasi-steady aerodynamics of the whole wing, and a passive hinge.
 
 mod actuator;
 mod constants;

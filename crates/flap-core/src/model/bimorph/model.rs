@@ -1,4 +1,4 @@
-//! The bimorph model: its equations of motion, signals, columns of rows, and single motions.
+//! The bimorph model: equations of motion, signals, columns of rows, and single motions.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -25,30 +25,30 @@ use crate::ode::{Ode, Start};
 use crate::parameter::Invalid;
 use crate::piezo::supplied;
 
-/// Share of the largest lift that a vehicle can hover with, the rest being needed for control; section IV.
+/// Share of the largest lift at which a vehicle can hover. The rest is reserved for control; section IV.
 const HOVER_SHARE: f64 = 0.8;
 
 crate::signals! {
     /// Signals of the bimorph model.
     pub struct Signals {
         stroke: (Unit::DEG, "stroke angle", [Amplitude, PeakToPeak, Mean, Max, Min, First]) principal First,
-        pitch: (Unit::DEG, "hinge angle of the wing", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
+        pitch: (Unit::DEG, "pitch of the wing", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
         lift: (Unit::MN, "lift of the wing", [Mean, Max, Min]) principal Mean of_wings [Mean],
         drag: (Unit::MN, "drag of the wing along the stroke", [Mean, Magnitude]),
-        power: (Unit::MW, "electrical power of both plates, current x voltage; its mean is that of power_drag, power_stroke_damping and power_dielectric", [Mean]) principal Mean,
+        power: (Unit::MW, "electrical power of both plates (current x voltage; its mean is the sum of the means of power_drag, power_stroke_damping and power_dielectric)", [Mean]) principal Mean,
         power_plate_1: (Unit::MW, "electrical power of plate 1", [Supply]),
         power_plate_2: (Unit::MW, "electrical power of plate 2", [Supply]),
-        power_mechanical: (Unit::MW, "power of the plates' forces at the actuator's tip; its mean is that of power_drag and power_stroke_damping", [Mean]),
-        power_drag: (Unit::MW, "power taken by the drag of the stroke, Eq. (8)", [Mean]),
-        power_rotational: (Unit::MW, "power taken by the hinge's rotational drag, Eq. (9)", [Mean]),
-        power_stroke_damping: (Unit::MW, "power taken by the damping of the stroke", [Mean]),
-        power_hinge_damping: (Unit::MW, "power taken by the damping of the hinge", [Mean]),
-        power_dielectric: (Unit::MW, "power taken by the dielectric loss of both plates", [Mean]),
+        power_mechanical: (Unit::MW, "power of the plates' forces at the actuator's tip (its mean is the sum of the means of power_drag and power_stroke_damping)", [Mean]),
+        power_drag: (Unit::MW, "power lost to the drag of the stroke, Eq. (8)", [Mean]),
+        power_rotational: (Unit::MW, "power lost to the rotational drag about the hinge, Eq. (9)", [Mean]),
+        power_stroke_damping: (Unit::MW, "power lost to the damping of the stroke", [Mean]),
+        power_hinge_damping: (Unit::MW, "power lost to the damping of the hinge", [Mean]),
+        power_dielectric: (Unit::MW, "power lost to the dielectric loss of both plates", [Mean]),
         current_1: (Unit::MA, "current into plate 1", [Rms, Peak]),
         current_2: (Unit::MA, "current into plate 2", [Rms, Peak]),
         force_1: (Unit::MN, "force of plate 1 at the actuator's tip, Eq. (6)", [Peak]),
         force_2: (Unit::MN, "force of plate 2 at the actuator's tip, Eq. (6)", [Peak]),
-        power_transduced: (Unit::MW, "electrical power of both plates without that of charging their capacitance", []),
+        power_transduced: (Unit::MW, "electrical power of both plates without the power that charges their capacitance", []),
     }
 }
 
@@ -56,11 +56,11 @@ type Column = Derived<Bimorph, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), the sense of F_1 - F_2, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(wt), which has the phase of F_1 - F_2; in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), DRIVE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the hinge angle lags the first harmonic of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, in (-180, 180]",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
-    Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the ordinate of Fig. 4a and 5",
+    Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg over drive_voltage_pp, the vertical axis of Figs. 4a and 5",
         |_, c, cycle| cycle.stroke.measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),
     Column::new("tip_pp_um", "um", "displacement of the actuator's tip, largest minus smallest",
         |_, c, cycle| tip_pp(c, cycle) * 1e6).over_wings(Each),
@@ -70,33 +70,33 @@ const DERIVED: &[Column] = &[
         |_, _, cycle| grams_force(cycle.lift.mean)),
     Column::new("vehicle_lift_mgf", "mgf", "mean lift of a vehicle's two wings in milligrams-force",
         |_, _, cycle| vehicle_lift(cycle)),
-    Column::new("payload_mg", "mg", "80 % of vehicle_lift_mgf, the rest being left for control, less vehicle_mass; Table II",
+    Column::new("payload_mg", "mg", "80 % of vehicle_lift_mgf (the rest is reserved for control) minus vehicle_mass; Table II",
         |_, c, cycle| HOVER_SHARE * vehicle_lift(cycle) - c.vehicle_mass * 1e6),
-    Column::new("power_supply_mw", "mW", "mean power of the supply: the positive part of each plate's power, summed, less charge_recovery times what it takes back",
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the sum of the positive parts of both plates' powers, minus charge_recovery times the returned power",
         |_, c, cycle| supplied(positive_power(cycle), cycle.power.mean, c.charge_recovery) * 1e3).over_wings(Sum),
     Column::new("power_capacitive_mw", "mW", "C_act V_pp^2 f / 4: the paper's P, per actuator",
         |model, c, _| capacitive_power(model, c) * 1e3).over_wings(Sum),
-    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty unless the power is more than zero",
         |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
-    Column::new("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio, in mg/mW too",
+    Column::new("efficiency_capacitive_gf_per_w", "gf/W", "mean lift over power_capacitive_mw: the paper's lift-to-power ratio (1 gf/W is 1 mg/mW)",
         |model, c, cycle| grams_force(cycle.lift.mean) / capacitive_power(model, c)),
-    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero except for the integration error",
         |_, _, cycle| Bimorph::energy_audit(cycle)),
     Column::new("strain_mid_max", "", "largest strain of the plates' mid-planes, Eq. (5)",
         |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip).over_wings(Each),
     Column::new("strain_surface_max", "", "largest strain of the plates' outer faces, which Table II quotes",
         |_, c, cycle| tip_peak(c, cycle) * c.strain_per_tip * c.surface_strain_ratio).over_wings(Each),
-    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, bent to an arc; empty without hinge_thickness and hinge_length",
+    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, if the hinge bends to an arc; empty without hinge_thickness and hinge_length",
         |_, c, cycle| hinge_strain(c.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
     Column::new("field_max_v_per_um", "V/um", "largest electric field in the plates",
         |model, c, _| voltage_max(model, c) * c.field_per_volt * 1e-6).over_wings(Each),
     Column::new("mode_stroke_hz", "Hz", "natural frequency of small strokes, without drag",
         |_, c, _| Bimorph::modes(c)[0].frequency),
-    Column::new("mode_hinge_hz", "Hz", "natural frequency of small hinge angles, without drag",
+    Column::new("mode_hinge_hz", "Hz", "natural frequency of small pitch motions, without drag",
         |_, c, _| Bimorph::modes(c)[1].frequency),
 ];
 
-/// Sums over the second half of a mirrored period: the plates have changed places, and the stroke its direction.
+/// Returns the sums over the second half of a mirrored period: the plates are exchanged, and the stroke is reversed.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     let same = Signals::map(first, |_, totals| totals.repeated());
     Signals {
@@ -113,15 +113,15 @@ fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     }
 }
 
-/// Phase of the drive (rad): F₁ − F₂ goes as −sin ωt, which has the phase π/2 against the cosine.
+/// Phase of the drive (rad): F₁ − F₂ is proportional to −sin ωt, which has the phase π/2 relative to the cosine.
 const DRIVE_PHASE: f64 = FRAC_PI_2;
 
-/// Largest displacement of the actuator's tip (m).
+/// Returns the largest displacement of the actuator's tip (m).
 fn tip_peak(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
     c.tip(cycle.stroke.measure(Peak))
 }
 
-/// Displacement of the actuator's tip, largest minus smallest (m).
+/// Returns the peak-to-peak displacement of the actuator's tip (m).
 fn tip_pp(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
     if c.ratio_growth == 0.0 {
         return cycle.stroke.measure(PeakToPeak) / c.ratio;
@@ -129,24 +129,24 @@ fn tip_pp(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
     c.tip(cycle.stroke.max) - c.tip(cycle.stroke.min)
 }
 
-/// Mean of the positive part of each plate's power (W), summed.
+/// Returns the sum over both plates of the mean positive part of the power (W).
 fn positive_power(cycle: &Signals<SignalCycle>) -> f64 {
     [cycle.power_plate_1, cycle.power_plate_2].iter().map(|plate| plate.measure(Supply)).sum()
 }
 
-/// Mean lift of two wings in milligrams-force.
+/// Returns the mean lift of two wings in milligrams-force.
 fn vehicle_lift(cycle: &Signals<SignalCycle>) -> f64 {
     2e3 * grams_force(cycle.lift.mean)
 }
 
-/// Power (W) of charging two plates, which see ½V_pp (1 ± wave).
+/// Returns the power (W) that charges two plates with voltages ½V_pp (1 ± wave).
 fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
     let [low, high] = model.drive.range(&c.drive);
     let voltage_pp = c.drive.amplitude * (high - low);
     c.c_p * voltage_pp * voltage_pp * c.drive.rate / (2.0 * PI)
 }
 
-/// Largest voltage (V) on a plate.
+/// Returns the largest voltage (V) on a plate.
 fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
     let [low, high] = model.drive.range(&c.drive);
     let (bias, offset) = (c.drive.amplitude, c.half_offset);
@@ -159,19 +159,19 @@ fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
     plates.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
-/// The model.
+/// Variant of the bimorph model: the choices on which its equations branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bimorph {
-    /// The drive voltage.
+    /// Drive voltage.
     pub drive: Drive,
     /// Law of the transmission ratio.
     pub law: Law,
-    /// The hinge angle that the centre of pressure follows.
+    /// Attack angle on which the centre of pressure depends.
     pub centre_of_pressure: CentreOfPressure,
 }
 
 impl Bimorph {
-    /// A sinusoidal drive, a constant ratio, and (11) with the attack angle.
+    /// Sinusoidal drive, constant transmission ratio, and (11) with the folded attack angle.
     pub const SINE: Bimorph =
         Bimorph { drive: Drive::SINE, law: Law::Constant, centre_of_pressure: CentreOfPressure::Folded };
 }
@@ -186,7 +186,7 @@ impl Ode<4> for Bimorph {
     type Constants<R: Real> = Constants<R>;
     type Input<R: Real> = [Plate<R>; 2];
 
-    /// The two plates at time `t`.
+    /// Returns the two plates at time `t` (s).
     #[inline(always)]
     fn input<R: Real>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         plates(c, &self.drive.wave(&c.drive, t))
@@ -204,7 +204,7 @@ impl Ode<4> for Bimorph {
 }
 
 impl Bimorph {
-    /// Mean voltages of the two plates (V) over a period.
+    /// Returns the mean voltages of the two plates (V) over a period.
     #[inline(always)]
     fn mean_voltages<R: Real>(&self, c: &Constants<R>) -> [R; 2] {
         let DriveConstants { bias, amplitude, .. } = c.drive;
@@ -218,7 +218,7 @@ impl Model<4> for Bimorph {
 
     const DESCRIPTION: Description = Description {
         name: "bimorph",
-        doc: "bimorph on a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
+        doc: "bimorph actuator with a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
         parameters: Params::TABLE,
         presets: Params::PRESETS,
     };
@@ -240,8 +240,10 @@ impl Model<4> for Bimorph {
         Bimorph { law: Law::Square, ..self.clone() }
     }
 
-    /// Starts at rest. The scales are the same as in the direct-drive model, so that tolerances and residuals mean
-    /// the same: strokes of 0.1 rad, hinge angles of 0.3 rad, times the drive's angular frequency for the rates.
+    /// Returns a start at rest.
+    ///
+    /// The scales equal the scales of the direct-drive model, so tolerances and residuals are comparable. They are
+    /// 0.1 rad of stroke and 0.3 rad of pitch, and for the rates these angles times the drive's angular frequency.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
@@ -252,7 +254,7 @@ impl Model<4> for Bimorph {
         Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
     }
 
-    /// About the origin, if the plates are alike and see mirrored voltages.
+    /// The symmetry is about the origin. It requires equal plates with mirrored voltages.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [f_1, f_2] = c.force_per_stress;
         let is_symmetric = f_1 == f_2
@@ -262,9 +264,9 @@ impl Model<4> for Bimorph {
         is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
     }
 
-    /// The parameters that a wing decides.
+    /// Returns the parameters that depend on the wing.
     ///
-    /// The centres of pressure come from blade elements, without the factors fitted to one vehicle that the presets have.
+    /// The centres of pressure follow from blade elements. The presets' values contain factors fitted to one vehicle.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let length = wing.offset + wing.outline.length();
         let (area, width) = (wing.area(), wing.outline.width());
@@ -330,7 +332,8 @@ impl Model<4> for Bimorph {
         }
     }
 
-    /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power of the stroke's drag and damping⟩: (1) has no other loss.
+    /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power lost to drag and damping of the stroke⟩: (1) has no
+    /// other loss.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let (drag, damping) = (cycle.power_drag, cycle.power_stroke_damping);
         cycle.power.balance(&[drag, damping, cycle.power_dielectric]);
@@ -348,7 +351,7 @@ impl Model<4> for Bimorph {
         load(c, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
-    /// Currents follow the edges of the force's transition, (6), which the drive crosses in a fraction of a step.
+    /// The drive crosses the transition of the force, (6), in a fraction of a step, and the currents peak there.
     #[inline(always)]
     fn parts(&self) -> u32 {
         if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }
@@ -366,7 +369,8 @@ impl Motions<4> for Bimorph {
         c.with_drive(drive)
     }
 
-    /// Stroke and hinge without drag. (1) contains no reaction of the hinge, so each is its own oscillator:
+    /// Returns the modes of stroke and pitch without drag. (1) contains no reaction of the hinge, so the two are
+    /// independent:
     ///
     /// ```text
     /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
@@ -377,12 +381,12 @@ impl Motions<4> for Bimorph {
         Mode::of(["mode_stroke", "mode_hinge"], squares.map(|square| square.sqrt() / (2.0 * PI)))
     }
 
-    /// ½V_pp on both plates.
+    /// Returns ½V_pp, the rest voltage of both plates.
     fn rest_voltage(c: &Constants<f64>) -> f64 {
         c.drive.bias
     }
 
-    /// ψ̇ = I_xz T ẋ/I_xx, by (2).
+    /// Returns the state with ψ̇ = I_xz T ẋ/I_xx, from (2).
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
         let tip_rate = stroke_rate / c.ratio;
         [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx]

@@ -11,25 +11,29 @@ crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
     pub struct Params {
         ["drive"]
-        /// Drive voltage, peak to peak: the plates see 0 to this, in antiphase, Eq. (7). With harmonics, that of the fundamental alone.
+        /// Drive voltage, peak to peak. The plates' voltages lie between 0 and this value, in antiphase, Eq. (7).
+        /// With harmonics, this is the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
         /// Drive frequency. The paper sweeps it at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 120.0,
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
-        /// Bias between the plates: the voltage of plate 1 is half of it higher, that of plate 2 half of it lower. Not in the paper.
+        /// Bias between the plates: half of it is added to the voltage of plate 1 and subtracted from the voltage of
+        /// plate 2. Not in the paper.
         drive_offset: f64 = ("V", "", Number(Any), default: 0.0) 0.0,
 
         ["transmission"]
-        /// Transmission ratio: stroke angle per displacement of the actuator's tip.
+        /// Transmission ratio: stroke per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)) 3333.0,
-        /// Stiffness of the transmission felt at the actuator's tip: T^2 kappa_t.
+        /// Stiffness of the transmission, at the actuator's tip: T^2 kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true) 197.7,
-        /// Growth of the transmission ratio with the square of the tip's displacement x: T + T_3 x^2. Not in the paper.
+        /// Growth of the transmission ratio T + T_3 x^2 with the square of the tip's displacement x. Not in the
+        /// paper.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Damping of the stroke, about the stroke axis. Not in the paper.
+        /// Damping of the stroke about the stroke axis. Not in the paper.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor of the stroke's spring, actuator and transmission together: a damping of loss factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the stroke's springs (actuator and transmission together). It acts as a damping of loss
+        /// factor times stiffness over the drive's angular frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["wing"]
@@ -45,7 +49,7 @@ crate::parameters! {
         wing_width_2: f64 = ("", "w_2", Number(Positive)) 0.43,
         /// Wing inertia about the stroke axis.
         wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive)) 51.1e-12,
-        /// Inertia of the air moving with the wing, about the stroke axis.
+        /// Added inertia: inertia of the air that moves with the wing, about the stroke axis.
         added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)) 10.22e-12,
         /// Wing inertia about the hinge's axis.
         wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true) 0.95 * 1.29e-12,
@@ -57,21 +61,21 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true) 0.985 * 1.52e-6,
         /// Damping of the wing hinge. Not in the paper.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor and size of the hinge.
+        /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
-        /// Density of air. Assumed: the paper gives none.
+        /// Density of air. Assumed: not given in the paper.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
-        /// Drag coefficient at an attack angle of 90 deg (hinge angle 0).
+        /// Drag coefficient at an attack angle of 90 deg (pitch 0).
         drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former: "drag_max", is_fitted: true) 1.25 * 3.4,
-        /// Drag coefficient at an attack angle of 0 (hinge angle 90 deg).
+        /// Drag coefficient at an attack angle of 0 (pitch 90 deg).
         drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former: "drag_min", is_fitted: true) 0.39 * 0.4,
         /// Lift coefficient at an attack angle of 45 deg.
         lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former: "lift_max", is_fitted: true) 1.8,
-        /// Radial centre of pressure: lever of the drag about the stroke axis.
+        /// Radial centre of pressure: lever arm of the drag about the stroke axis.
         pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true) 1.42 * 9.56e-3,
-        /// Lever of the rotational drag about the hinge's axis.
+        /// Lever arm of the rotational drag about the hinge's axis.
         rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true) 0.39 * 1.93e-3,
         /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
         pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true) 0.132,
@@ -87,7 +91,7 @@ crate::parameters! {
         actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
         /// Length of the actuator's rigid extension over actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
-        /// Mass of the actuator as felt at its tip. Not in the paper's equations, which leave out about 7 mg.
+        /// Mass of the actuator, as a mass at its tip. Not in the paper's equations, which leave out about 7 mg.
         actuator_mass: f64 = ("kg", "", Number(NonNegative)) 0.0,
         /// Thickness of each piezoelectric plate.
         piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)) 135e-6,
@@ -99,29 +103,29 @@ crate::parameters! {
         piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
         /// Young's modulus of the plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
-        /// Strain at which the modulus is halfway, negative in compression, Eq. (4).
+        /// Strain at the middle of the modulus transition, negative in compression, Eq. (4).
         modulus_strain: f64 = ("", "eps_0", Number(Any)) -0.047e-2,
         /// Steepness of the modulus against strain, Eq. (4).
         modulus_steepness: f64 = ("", "a_1", Number(Positive)) 8000.0,
         /// Piezoelectric stress per field at small fields, Eq. (6).
         piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)) 14.0,
-        /// Piezoelectric stress per field after the transition, but for its decline, Eq. (6).
+        /// Piezoelectric stress per field after the transition, without its decline, Eq. (6).
         piezo_stress_max: f64 = ("N/(V*m)", "f_31,max", Number(NonNegative)) 29.0,
-        /// Field at which the piezoelectric stress per field is halfway, Eq. (6).
+        /// Field at the middle of the transition of the piezoelectric stress per field, Eq. (6).
         stress_field: f64 = ("V/m", "E_0", Number(Any)) 0.4e6,
-        /// Steepness of the piezoelectric stress per field, Eq. (6).
+        /// Steepness of the transition of the piezoelectric stress per field, Eq. (6).
         stress_steepness: f64 = ("m/V", "a_3", Number(NonNegative)) 10e-6,
         /// Relative decline of the piezoelectric stress per field, Eq. (6).
         stress_decline: f64 = ("m/V", "a_4", Number(Any)) 69e-9,
         /// Relative change of the plates' force with strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)) -230.0,
-        /// Share of the plates' force that the actuator's attachment leaves.
+        /// Factor on the plates' force for losses in the actuator's attachment.
         force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true) 0.7,
-        /// Share of the actuator's stiffness that its attachment leaves.
+        /// Factor on the actuator's stiffness for losses in its attachment.
         stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true) 0.79,
-        /// Factor on the actuator's stiffness that brings its free deflection to the measured one.
+        /// Factor on the actuator's stiffness that fits its free deflection to the measured one.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
-        /// Force of plate 2 over that of plate 1 at the same voltage. Not in the paper.
+        /// Force of plate 2 over the force of plate 1 at the same voltage. Not in the paper.
         plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
@@ -129,40 +133,41 @@ crate::parameters! {
         ["vehicle"]
         /// Capacitance of a vehicle's two actuators together: four plates.
         vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)) 10.1e-9,
-        /// Mass of the vehicle with its two actuators and wings, Table II: what payload_mg is reckoned against.
+        /// Mass of the vehicle with its two actuators and wings, Table II. It is subtracted in payload_mg.
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]
         /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
-        /// Attack angle that moves the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative to the motion, or as printed (which breaks mirror symmetry).
+        /// Attack angle on which the chordwise centre of pressure depends, Eq. (11): folded to at most 90 deg,
+        /// relative to the motion, or as printed (which breaks mirror symmetry).
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
-        /// Stiffness of the actuator: growing with strain, Eq. (4), or constant at its value for none.
+        /// Stiffness of the actuator: grows with strain, Eq. (4), or constant at its value for zero strain.
         actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)) ActuatorStiffness::StrainDependent,
     }
 
-    /// Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
+    /// Returns Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
     pub fn jafferis2016() -> Params;
 }
 
 crate::choice! {
-    /// Readings of Eq. (6), by the term that the exponential of the field multiplies.
+    /// Readings of Eq. (6): the term that the exponential of the field multiplies.
     pub enum FieldTransition {
-        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: from f_min to f_max, as the text says.
+        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: rises from f_min to f_max, as the paper's text describes.
         Corrected = "corrected",
-        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed, never near f_max.
+        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed. It never approaches f_max.
         Printed = "printed",
     }
 }
 
 crate::choice! {
-    /// Readings of Eq. (11): which hinge angle the centre of pressure depends on.
+    /// Readings of Eq. (11): the pitch on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |ψ|: the attack angle is never above 90°.
         Folded = "folded",
-        /// ψ sign(ẋ): the attack angle relative to the motion.
+        /// ψ sign(ẋ): the attack angle is relative to the motion.
         Directional = "directional",
-        /// ψ: as printed. Breaks the mirror symmetry of the two half strokes.
+        /// ψ: as printed. It breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }
@@ -177,7 +182,7 @@ crate::choice! {
     }
 }
 
-/// The width ratios of an actuator that has a width at both ends.
+/// Range of the width ratio in which the actuator has a positive width at both ends.
 pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
@@ -195,7 +200,7 @@ impl Params {
         },
     ];
 
-    /// The redesign of section III-B: transmission and hinge of Table II, all else as in Table I.
+    /// Returns the redesign of section III-B: transmission and hinge of Table II, all other parameters as in Table I.
     pub fn jafferis2016_improved() -> Params {
         Params {
             drive_frequency: 155.0,
@@ -207,20 +212,22 @@ impl Params {
         }
     }
 
-    /// The drive.
+    /// Returns the drive.
     pub(super) fn drive(&self) -> DriveConstants<f64> {
         let half = 0.5 * self.drive_voltage_pp;
         DriveConstants::new(self.drive_frequency, &self.waveform, [half, half])
     }
 
-    /// These parameters with the transmission ratio scaled by `ratio` and the stiffnesses of transmission and
-    /// hinge following it as in section III-A, which keeps the family of response curves.
+    /// Returns these parameters with the transmission ratio scaled by `ratio`.
+    ///
+    /// The stiffnesses of transmission and hinge are scaled as in section III-A, which preserves the family of
+    /// response curves.
     ///
     /// ```text
     /// T ∝ r     κ_t ∝ r^−2.14, so K_t = T² κ_t ∝ r^−0.14     κ_wh ∝ r^−1.47
     /// ```
     ///
-    /// Figure 5 has r = 0.8 (T₂) and 0.6 (T₃).
+    /// Figure 5 shows r = 0.8 (T₂) and 0.6 (T₃).
     #[must_use]
     pub fn with_transmission_scaled(self, ratio: f64) -> Params {
         Params {

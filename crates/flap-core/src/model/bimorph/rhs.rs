@@ -1,10 +1,11 @@
 //! Equations of motion and outputs of the bimorph model.
 //!
 //! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
-//! listed in `docs/models/bimorph.md`. State `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and hinge
-//! angle (rad), each with its rate. The stroke angle is T x. ψ = 0 with the wing perpendicular to its motion,
-//! ψ > 0 when the trailing edge lags a wing that moves with ẋ > 0. Lift is positive upwards. One actuator,
-//! one wing.
+//! listed in `docs/models/bimorph.md`.
+//!
+//! The state is `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and pitch (rad), each with its rate. The
+//! stroke is T x. ψ = 0 if the wing is perpendicular to its motion. ψ > 0 if the trailing edge lags a wing that moves
+//! with ẋ > 0. Lift is positive upwards. The equations describe one actuator and one wing.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -15,7 +16,7 @@ use crate::drive::{DriveConstants, Wave};
 use crate::model::Load;
 use crate::num::Real;
 
-/// A plate under a voltage: its force g at zero strain, and the derivatives of that with respect to the voltage.
+/// A plate at a voltage: its force g at zero strain, and the derivatives of g with respect to the voltage.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate<R> {
     /// Voltage across the plate and its rate.
@@ -28,13 +29,13 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
-/// The two plates at a wave of the drive, in antiphase, (7).
+/// Returns the two plates at a wave of the drive, in antiphase, (7).
 ///
 /// ```text
 /// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)
 /// ```
 ///
-/// A bias between the plates moves them apart. They have the same force but for the factor that `c` has.
+/// A bias between the plates is added with opposite signs. The plates' forces differ by the factor in `c`.
 #[inline(always)]
 pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     let DriveConstants { bias, amplitude, .. } = c.drive;
@@ -44,16 +45,17 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     [plate(c, f_1, wave.scaled(first, -amplitude), s_1), plate(c, f_2, wave.scaled(second, amplitude), s_2)]
 }
 
-/// Progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, (6).
+/// Returns the progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, (6).
 ///
-/// Their fields are waves of opposite sign about constant parts: one exponential and one division serve both.
+/// The two fields are waves of opposite sign about constant parts, so one exponential and one division serve both
+/// plates.
 ///
 /// ```text
 /// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
 /// ```
 ///
-/// `Constants::derive` keeps these exponents within `EXPONENT_MAX`. The product of both is then infinite only where both S are
-/// below 1e-47; they come out as zero.
+/// `Constants::derive` limits these exponents to `EXPONENT_MAX`. The product of both denominators is then infinite
+/// only where both S are below 1e-47. They are rounded to zero.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     let [e_1, e_2] = c.transition;
@@ -63,13 +65,14 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     [second * both, first * power * both]
 }
 
-/// The force of a plate at zero strain (6), with its derivatives, which the current needs, at the progress `s` of the transition.
+/// Returns a plate with its force at zero strain (6), and the derivatives that the current contains. `s` is the
+/// progress of the transition.
 ///
 /// ```text
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
 /// ```
 ///
-/// As printed, A has 2 f_min.
+/// As printed, A contains 2 f_min.
 #[inline(always)]
 fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
@@ -91,7 +94,7 @@ fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R)
     }
 }
 
-/// Forces F₁ and F₂ of the two plates at a displacement of the tip (N), (5), (6).
+/// Returns the forces F₁ and F₂ (N) of the two plates at a displacement of the tip, (5), (6).
 ///
 /// ```text
 /// F₁ = g(V₁) (1 − b x)     F₂ = g(V₂) (1 + b x)     b = a₂ s_ε
@@ -102,24 +105,24 @@ pub(super) fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x:
     [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
 }
 
-/// Stiffening of the compressed plate: L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|, (4).
+/// Returns the stiffening of the compressed plate, (4): L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|.
 ///
 /// ```text
 /// L = ln(1 + σ₀ (eᵘ − 1))     σ₀ = σ(z₀)     z₀ = a₁ε₀
 /// ```
 ///
-/// Accurate to rounding for any x: L ≈ σ₀ u for small u, u + ln σ₀ for large.
+/// The result is accurate to rounding for any x: L ≈ σ₀ u for small u, and u + ln σ₀ for large u.
 #[inline(always)]
 pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
     let u = c.u_per_tip * x.abs();
     let within = u.min(u.lit(EXPONENT_MAX));
-    // Beyond, L grows as u does.
+    // Beyond the limit, L grows as u does.
     (c.sigma_0 * within.exp_m1_of_ordinary()).ln_1p_of_normal() + (u - within)
 }
 
-/// The actuator's elastic force K_act(x) x (N), (3), (4).
+/// Returns the actuator's elastic force K_act(x) x (N), (3), (4).
 ///
-/// K_act is a secant stiffness with L/u in it; multiplied by x, no division by the strain is left.
+/// K_act is a secant stiffness that contains L/u. Its product with x contains no division by the strain.
 ///
 /// ```text
 /// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
@@ -129,26 +132,26 @@ pub(super) fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
     c.k_soft * x + c.f_stiff * stiffening(c, x).copysign(x)
 }
 
-/// The actuator's secant stiffness K_act (N/m), (3); its limit at x = 0.
+/// Returns the actuator's secant stiffness K_act (N/m), (3); at x = 0 its limit.
 #[inline(always)]
 pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
     let x = x.abs().max(x.lit(1e-100));
     elastic_force(c, x) / x
 }
 
-/// The drag coefficient of the wing: b₁ + b₂ cos 2ψ.
+/// Returns the drag coefficient of the wing: b₁ + b₂ cos 2ψ.
 #[inline(always)]
 pub(super) fn drag_coefficient<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.b_1 + c.b_2 * cos_2psi
 }
 
-/// Drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
+/// Returns the drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
 #[inline(always)]
 pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
-/// The hinge angle ψ̃ that the centre of pressure follows in this reading of (11).
+/// Returns the angle ψ̃ on which the centre of pressure depends in this reading of (11).
 #[inline(always)]
 pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     match reading {
@@ -158,7 +161,8 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     }
 }
 
-/// Aerodynamic torque about the hinge per ẋ|ẋ|: C_D (kg), (10), (11), with the centre of pressure at the [`tilt`] ψ̃.
+/// Returns the aerodynamic torque about the hinge per ẋ|ẋ|, (10), (11): C_D (kg). The centre of pressure is taken at
+/// the [`tilt`] ψ̃.
 ///
 /// ```text
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
@@ -171,21 +175,21 @@ pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, tilt: R, sin: R, cos: R) -> 
     c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
 }
 
-/// sin 2ψ and cos 2ψ.
+/// Returns sin 2ψ and cos 2ψ.
 #[inline(always)]
 pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
     (sin * cos * 2.0, cos * cos * 2.0 - 1.0)
 }
 
-/// The derivative `[ẋ, ẍ, ψ̇, ψ̈]`, (1), (2).
+/// Returns the derivative `[ẋ, ẍ, ψ̇, ψ̈]`, (1), (2).
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + (C_A + C_B cos 2ψ) |ẋ| ẋ = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + C_C |ψ̇| ψ̇ = C_D ẋ|ẋ| + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ
 /// ```
 ///
-/// Not in the paper: damping of stroke and hinge, zero unless asked for; and a [`Transmission`] whose ratio grows. Then
-/// T ẋ is φ̇ and T ẍ is φ̈.
+/// The equations extend the paper by damping of stroke and hinge (zero by default), and by a [`Transmission`] whose
+/// ratio grows. With the latter, T ẋ is φ̇ and T ẍ is φ̈.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,
@@ -216,7 +220,8 @@ pub(super) fn derivative<R: Real>(
     [x_dot, x_ddot, psi_dot, psi_ddot]
 }
 
-/// Force of the stroke's damping at the tip (N): that of the springs' loss factor, and that about the stroke axis.
+/// Returns the damping force of the stroke at the tip (N), from the springs' loss factor and the damping about the
+/// stroke axis.
 #[inline(always)]
 pub(super) fn stroke_damping<R: Real>(
     c: &Constants<R>,
@@ -227,21 +232,22 @@ pub(super) fn stroke_damping<R: Real>(
     c.tip_damping * x_dot + transmission.times(c.stroke_damping * rate)
 }
 
-/// Lift and drag of the wing (N) at the stroke rate φ̇ over T, which is ẋ in the paper. The paper prints neither; this is the
-/// form that (8) and (10) imply.
+/// Returns lift and drag of the wing (N). `rate` is the stroke rate φ̇ over T, which is ẋ in the paper.
+///
+/// The paper prints neither force; (8) and (10) imply this form.
 ///
 /// ```text
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
 /// ```
 ///
-/// Drag opposes the stroke: its work R_cp T ẋ D is the actuator's loss to the air.
+/// Drag opposes the stroke. Its power R_cp T ẋ D is the actuator's loss to the air.
 #[inline(always)]
 pub(super) fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
     let force = c.force * rate.abs() * rate;
     [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
 }
 
-/// The load of the air on the wing at a stroke, of which lift and drag act at R_cp; see [`lift_and_drag`] for the rate.
+/// Returns the load of the air on the wing at a stroke. Lift and drag act at R_cp; for `rate` see [`lift_and_drag`].
 ///
 /// ```text
 /// M_L = R_cp L     M_D = R_cp D     M_s = C_D ẋ|ẋ| − C_C |ψ̇| ψ̇
@@ -269,14 +275,15 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Power that charges the plates' capacitance (W), zero on the mean of a period: C_p (V₁V̇₁ + V₂V̇₂).
+/// Returns the power that charges the plates' capacitance (W): C_p (V₁V̇₁ + V₂V̇₂). Its mean over a period is zero.
 #[inline(always)]
 pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
     let [v_1, v_2] = [plates[0].voltage, plates[1].voltage];
     c.c_p * (v_1.value * v_1.rate + v_2.value * v_2.rate)
 }
 
-/// Currents into the two plates (A): the rates of their charges, which are the reciprocal of (6). Not in the paper.
+/// Returns the currents into the two plates (A): the rates of the charges that are reciprocal to (6). Not in the
+/// paper.
 ///
 /// ```text
 /// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
@@ -284,7 +291,7 @@ pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) 
 /// i₂ = C_p V̇₂ − g''(V₂) V̇₂ (x + ½ b x²) − g'(V₂) (1 + b x) ẋ
 /// ```
 ///
-/// Dielectric loss adds [`leakage`] to them.
+/// The dielectric loss adds the [`leakage`] to these currents.
 #[inline(always)]
 pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
     let [p_1, p_2] = plates;
@@ -297,7 +304,7 @@ pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, 
     ]
 }
 
-/// Currents of the dielectric loss (A): conductance times the voltage less its mean.
+/// Returns the currents of the dielectric loss (A): conductance times the deviation of the voltage from its mean.
 #[inline(always)]
 pub(super) fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
     let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];

@@ -1,10 +1,10 @@
-//! The transmission of the bimorph model: its ratio is constant, or grows with the square of the displacement.
+//! The transmission of the bimorph model: its ratio is constant or grows with the square of the displacement.
 //!
 //! ```text
 //! φ = T x + T₃ x³/3     φ̇ = T(x) ẋ     T(x) = T + T₃ x²
 //! ```
 //!
-//! The paper's is constant. Lagrange's equation for x with a moment M_φ about the stroke axis:
+//! In the paper the ratio is constant. Lagrange's equation for x with a moment M_φ about the stroke axis is:
 //!
 //! ```text
 //! (m_a + J T(x)²) ẍ + J T(x) T′(x) ẋ² = F(x) + T(x) M_φ     T′(x) = 2 T₃ x
@@ -38,7 +38,7 @@ pub(super) enum Transmission<R> {
 }
 
 impl<R: Real> Transmission<R> {
-    /// The transmission at the displacement `x` (m).
+    /// Returns the transmission at the displacement `x` (m).
     #[inline(always)]
     pub(super) fn at(c: &Constants<R>, law: Law, x: R) -> Transmission<R> {
         match law {
@@ -50,7 +50,8 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// t times a number. Of ẋ it makes φ̇/T (m/s); of a moment about the stroke axis times T, its force at the tip (N).
+    /// Returns t times a number. It turns ẋ into φ̇/T (m/s), and T times a moment about the stroke axis into a force
+    /// at the tip (N).
     #[inline(always)]
     pub(super) fn times(&self, number: R) -> R {
         match *self {
@@ -59,7 +60,7 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Acceleration of the tip (m/s²) by a `force` (N) on it: `ẍ = (F − J T T′ ẋ²)/(m_a + J T²)`.
+    /// Returns the acceleration of the tip (m/s²) for a `force` (N) on it: `ẍ = (F − J T T′ ẋ²)/(m_a + J T²)`.
     #[inline(always)]
     pub(super) fn acceleration(&self, c: &Constants<R>, force: R, x_dot: R) -> R {
         match *self {
@@ -71,7 +72,7 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Acceleration of the stroke φ̈/T (m/s²), `t ẍ + t′ ẋ²`.
+    /// Returns the acceleration of the stroke φ̈/T (m/s²): `t ẍ + t′ ẋ²`.
     #[inline(always)]
     pub(super) fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
         match *self {
@@ -81,7 +82,7 @@ impl<R: Real> Transmission<R> {
     }
 }
 
-/// The stroke angle φ (rad) at the displacement `x` (m).
+/// Returns the stroke φ (rad) at the displacement `x` (m).
 #[inline(always)]
 pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
     match law {
@@ -91,15 +92,16 @@ pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
 }
 
 impl Constants<f64> {
-    /// The displacement (m) of the tip at a stroke angle (rad): the inverse of [`stroke`] between the displacements at which
-    /// the ratio is zero.
+    /// Returns the displacement (m) of the tip at a stroke (rad).
+    ///
+    /// This is the inverse of [`stroke`] between the displacements at which the ratio is zero.
     pub(super) fn tip(&self, stroke: f64) -> f64 {
         let tau = self.ratio_growth;
         let linear = stroke / self.ratio;
         if tau == 0.0 {
             return linear;
         }
-        // Newton's iteration on x + τ x³/3, from below where that is convex and from above where it is concave.
+        // Newton's iteration on x + τ x³/3. It starts below the root if the function is convex, above it if concave.
         let limit = if tau < 0.0 { (-1.0 / tau).sqrt() } else { f64::INFINITY };
         let mut x = linear.clamp(-limit, limit);
         for _ in 0..60 {

@@ -1,21 +1,24 @@
-//! The chord along the span, which the paper does not give: blade elements and shape moments.
+//! The chord along the span, from shape moments or Legendre polynomials. The paper does not print it.
 
 use super::params::{FlowDirection, Params};
 use crate::aero::{Cut, Strips, check_chords, cut, sum};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_legendre;
 
-/// Number of blade elements. At the nodes of the Gauss-Legendre rule, 8 give the shape moments of a cubic chord
-/// exactly, and a settled motion within 1e-5 of that of 64.
+/// Number of blade elements.
+///
+/// At the nodes of the Gauss-Legendre rule, 8 elements give exact shape moments of a cubic chord. The settled motion
+/// differs by less than 1e-5 from the motion with 64 elements.
 pub(super) const BLADES: usize = 8;
 
 impl Params {
-    /// These parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord shape.
+    /// Returns these parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord
+    /// shape.
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
         let cuts = elements(&self);
         let length = self.wing_length;
-        // Of the elements, so that the moment of the chord itself is 1.
+        // The mean comes from the elements, so that the moment of the chord itself is exactly 1.
         let mean = if self.chords.is_on() { sum(&cuts, |_, c| c) / length } else { self.mean_chord };
         let moment = |f: fn(f64, f64) -> f64| sum(&cuts, |r, c| f(r / length, c / mean)) / length;
         let fourth = moment(|_, c| c * c * c * c);
@@ -34,7 +37,7 @@ impl Params {
         }
     }
 
-    /// The chord (m) at `span` wing lengths from the root, of the table or by Legendre polynomials.
+    /// Returns the chord (m) at `span` wing lengths from the root, from the table or from Legendre polynomials.
     ///
     /// ```text
     /// c = c̄ (1 + a₁ P₁(z) + a₂ P₂(z) + a₃ P₃(z))     z = 2 span − 1
@@ -51,7 +54,7 @@ impl Params {
     }
 }
 
-/// The blade elements, whose velocity is that of the mid-chord; none where the flow has one direction.
+/// Returns the blade elements, with the velocity at mid-chord. There are none if the flow has one direction.
 pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     let cuts = match p.flow_direction {
         FlowDirection::Uniform => Vec::new(),
@@ -61,7 +64,7 @@ pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     Ok(Strips::new(&cuts, p.air_density, -0.5))
 }
 
-/// Cuts the wing into blade elements.
+/// Returns the wing cut into blade elements.
 fn elements(p: &Params) -> Vec<Cut> {
     cut(&gauss_legendre(BLADES), p.root_radius(), p.wing_length, |x| p.chord(x))
 }

@@ -1,7 +1,7 @@
-//! Constants of the direct-drive model, which do not change along a trajectory; computed once per point.
+//! Constants of the direct-drive model, computed once per point.
 //!
-//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Powers of constants that the
-//! equations of motion need together are multiplied out here.
+//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Products of constants that the
+//! equations of motion use are computed here.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -17,31 +17,31 @@ use crate::piezo::{Laminate, Layer};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// The drive voltage, or the prescribed stroke.
+        /// Drive voltage, or prescribed stroke.
         pub drive: DriveConstants<R>,
 
         /// Stroke stiffness k_φ (N·m/rad), (11).
         pub k_phi: R,
         /// Hinge stiffness k_w (N·m/rad).
         pub k_w: R,
-        /// Damping of the stroke (N·m·s), that of its spring's loss factor included.
+        /// Damping of the stroke (N·m·s), with the equivalent damping of its spring's loss factor.
         pub stroke_damping: R,
-        /// Damping of the hinge (N·m·s), that of its loss factor included.
+        /// Damping of the hinge (N·m·s), with the equivalent damping of its loss factor.
         pub hinge_damping: R,
-        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
         pub hinge_strain: R,
         /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), (11), (38).
         pub gamma: R,
         /// Capacitance C_p (F), (37).
         pub c_p: R,
-        /// Conductance that stands for the dielectric loss (S).
+        /// Equivalent conductance of the dielectric loss (S).
         pub conductance: R,
         /// Share of the returned power that the supply recovers.
         pub charge_recovery: R,
 
         /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
         pub m11: R,
-        /// Inertia about the span axis that a pitched wing adds to the stroke m_s (kg·m²).
+        /// Inertia about the span axis that adds to the stroke's inertia when the wing is pitched m_s (kg·m²).
         pub m_s: R,
         /// Inertial coupling of stroke and pitch m₁₂ (kg·m²).
         pub m12: R,
@@ -58,7 +58,7 @@ crate::per_lane! {
         pub f1: R,
         /// Added-mass force per pitch acceleration f₂ (kg·m), (28).
         pub f2: R,
-        /// 1 for the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
+        /// 1 with the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
         pub gyroscopic: R,
 
         /// Lever of the stroke rate in the wing's mean velocity: R/2 + x_r (m).
@@ -75,23 +75,24 @@ crate::per_lane! {
 
         /// Lift per φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² (kg), (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
         pub lift: [R; 3],
-        /// Stroke moment of the drag per the same (kg·m), (25): ½ρA_w R [R² I₃₁, −R c̄ I₂₂, c̄² I₁₃/4].
+        /// Stroke moment of the drag per the same products (kg·m), (25): ½ρA_w R [R² I₃₁, −R c̄ I₂₂, c̄² I₁₃/4].
         pub stroke: [R; 3],
-        /// Pitch moment per the same (kg·m), (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃, c̄² I₀₄/4].
+        /// Pitch moment per the same products (kg·m), (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃, c̄² I₀₄/4].
         pub pitch: [R; 3],
         /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
         pub rotation: R,
-        /// The blade elements, where each has its own direction of flow; else none.
+        /// Blade elements if each has its own direction of flow, otherwise none.
         pub blades: Strips<R, BLADES>,
 
         /// Centre of pressure per radian of attack, in chords, (24).
         pub pressure_slope: R,
         /// Centre of pressure at zero attack, in chords, (24).
         pub pressure_offset: R,
-        /// 1 for the reading of the attack angle and 0 for the others: π/2 − σψ relative to the motion, π/2 − |ψ|, and π/2 − ψ.
+        /// 1 for the active reading of the attack angle and 0 for the others: π/2 − σψ relative to the motion, π/2 −
+        /// |ψ|, and π/2 − ψ.
         pub attack: [R; 3],
 
-        /// +1 if F_am sin ψ counts against lift, −1 as printed in (35).
+        /// +1 if F_am sin ψ is subtracted from the lift, −1 if added as printed in (35).
         pub lift_sign: R,
 
         /// Thickness of the piezoelectric layer t₀ (m).
@@ -102,11 +103,11 @@ crate::per_lane! {
 }
 
 impl Constants<f64> {
-    /// Derives the constants of a point.
+    /// Returns the constants of a point.
     ///
     /// # Errors
-    /// If the chord is negative somewhere, the mass matrix is not positive definite for every pitch angle, or a
-    /// constant is not finite.
+    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or a constant is
+    /// not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         p.chords.check()?;
         let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {
@@ -208,7 +209,7 @@ impl Constants<f64> {
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        // The determinant is linear in cos²ψ: positive everywhere if it is at both ends.
+        // The determinant is linear in cos²ψ: it is positive everywhere if it is positive at both ends.
         let pitch = self.m22 + self.a22;
         let coupling = self.m12 - self.a12;
         let upright = (self.m11 + self.a11) * pitch - coupling * coupling;

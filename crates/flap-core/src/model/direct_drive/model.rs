@@ -1,4 +1,4 @@
-//! The direct-drive model: its equations of motion, signals, columns of rows, and single motions.
+//! The direct-drive model: equations of motion, signals, columns of rows, and single motions.
 
 use super::constants::Constants;
 use super::params::{FlowDirection, Params};
@@ -23,18 +23,18 @@ crate::signals! {
     /// Signals of the direct-drive model.
     pub struct Signals {
         stroke: (Unit::DEG, "stroke angle", [Amplitude, PeakToPeak, Mean, Max, Min, First]) principal First,
-        pitch: (Unit::DEG, "pitch angle of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
+        pitch: (Unit::DEG, "pitch of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
         lift: (Unit::MN, "lift of the wing, Eq. (35)", [Mean, Max, Min]) principal Mean of_wings [Mean],
-        lift_translational: (Unit::MN, "lift without the part of the added mass, Eq. (21)", [Mean]),
+        lift_translational: (Unit::MN, "lift without the contribution of the added mass, Eq. (21)", [Mean]),
         drag: (Unit::MN, "translational drag along the stroke, Eq. (21)", [Magnitude]),
-        power: (Unit::MW, "electrical power current x voltage, Eq. (40); its mean is that of what the air, damping and dielectric take", [Mean]) principal Mean needs [Supply],
-        power_translational: (Unit::MW, "power taken by translational aerodynamics", [Mean]),
-        power_rotational: (Unit::MW, "power taken by rotational drag, Eq. (32)", [Mean]),
-        power_stroke_damping: (Unit::MW, "power taken by the damping of the stroke", [Mean]),
-        power_hinge_damping: (Unit::MW, "power taken by the damping of the hinge", [Mean]),
-        power_dielectric: (Unit::MW, "power taken by the dielectric loss", [Mean]),
+        power: (Unit::MW, "electrical power, Eq. (40) (current x voltage; its mean is the sum of the mean losses to air, damping and dielectric)", [Mean]) principal Mean needs [Supply],
+        power_translational: (Unit::MW, "power lost to translational aerodynamics", [Mean]),
+        power_rotational: (Unit::MW, "power lost to rotational drag, Eq. (32)", [Mean]),
+        power_stroke_damping: (Unit::MW, "power lost to the damping of the stroke", [Mean]),
+        power_hinge_damping: (Unit::MW, "power lost to the damping of the hinge", [Mean]),
+        power_dielectric: (Unit::MW, "power lost to the dielectric loss", [Mean]),
         current: (Unit::MA, "current into the actuator, Eq. (39)", [Rms, Peak]),
-        power_transduced: (Unit::MW, "electrical power without that of charging the capacitance and of the constant part of the voltage", []),
+        power_transduced: (Unit::MW, "electrical power without the power of the capacitance and of the constant part of the voltage", []),
     }
 }
 
@@ -48,17 +48,17 @@ const DERIVED: &[Column] = &[
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift in grams-force",
         |_, _, cycle| grams_force(cycle.lift.mean)),
-    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty where that is not more than zero",
+    Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw); empty unless the power is more than zero",
         |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
-    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part, less charge_recovery times what the supply takes back",
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part of the power, minus charge_recovery times the returned power",
         |_, c, cycle| supplied(cycle.power.measure(Supply), cycle.power.mean, c.charge_recovery) * 1e3).over_wings(Sum),
-    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the actuator's capacitance without recovery",
+    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power that charges the actuator's capacitance, without recovery",
         |model, c, _| charging(c.c_p, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3).over_wings(Sum),
-    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero except for the integration error",
         |_, _, cycle| DirectDrive::energy_audit(cycle)),
     Column::new("strain_surface_max", "", "largest strain of the piezoelectric layer's outer face, from the bending of the actuator",
         |_, c, cycle| cycle.stroke.measure(Peak) * c.strain_per_stroke.abs()).over_wings(Each),
-    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, bent to an arc; empty without hinge_thickness and hinge_length",
+    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, if the hinge bends to an arc; empty without hinge_thickness and hinge_length",
         |_, c, cycle| hinge_strain(c.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
     Column::new("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
         |model, c, _| model.drive.largest_voltage(&c.drive) / c.piezo_thickness * 1e-6).over_wings(Each),
@@ -68,7 +68,7 @@ const DERIVED: &[Column] = &[
         |_, c, _| DirectDrive::modes(c)[1].frequency),
 ];
 
-/// Sums over the second half of a period that is mirrored about the origin.
+/// Returns the sums over the second half of a period that is mirrored about the origin.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     Signals {
         stroke: first.stroke.negated(),
@@ -79,12 +79,12 @@ fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     }
 }
 
-/// The model.
+/// Variant of the direct-drive model: the choices on which its equations branch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DirectDrive {
-    /// The drive voltage, or the prescribed stroke.
+    /// Drive voltage, or prescribed stroke.
     pub drive: Drive,
-    /// Direction of the air's flow over the wing while it reverses.
+    /// Direction of the air's flow over the wing during reversal.
     pub flow: FlowDirection,
 }
 
@@ -97,8 +97,8 @@ impl Ode<4> for DirectDrive {
         self.drive.at(&c.drive, t)
     }
 
-    /// The paper takes one direction of flow for the whole wing: forces jump where it changes. Those of blade elements
-    /// do not.
+    /// The paper takes one direction of flow for the whole wing, so forces jump where it changes. With blade elements
+    /// they do not.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -120,14 +120,14 @@ impl Ode<4> for DirectDrive {
     fn switch<R: Real>(&self, c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) -> [R; 2] {
         match self.flow {
             FlowDirection::Uniform => mean_velocity(c, y, dy),
-            // A function that never changes its sign.
+            // Switching is off: this function never changes its sign.
             FlowDirection::Blade => [y[0].lit(1.0), y[0].lit(0.0)],
         }
     }
 }
 
 impl DirectDrive {
-    /// The mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²) at ψ = 0, with the added mass.
+    /// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²) at ψ = 0, with the added mass.
     fn mass_at_rest(c: &Constants<f64>) -> [f64; 3] {
         [c.m11 + c.a11, c.m12 - c.a12, c.m22 + c.a22]
     }
@@ -138,7 +138,7 @@ impl Model<4> for DirectDrive {
 
     const DESCRIPTION: Description = Description {
         name: "direct-drive",
-        doc: "unimorph bolted to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
+        doc: "unimorph attached directly to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
         parameters: Params::TABLE,
         presets: Params::PRESETS,
     };
@@ -161,7 +161,7 @@ impl Model<4> for DirectDrive {
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
-    /// About the stroke at rest under the constant part of the voltage, which only shifts the stroke.
+    /// The symmetry is about the rest position under the constant part of the voltage, which only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
         if literal != 0.0 || !self.drive.is_symmetric(&c.drive) {
@@ -172,7 +172,7 @@ impl Model<4> for DirectDrive {
         Some(Symmetry { centre: [stroke, 0.0, 0.0, 0.0], second_half })
     }
 
-    /// The parameters that a wing decides. The model takes the hinge's axis for the leading edge.
+    /// Returns the parameters that depend on the wing. In this model the hinge's axis is the leading edge.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let mut found = vec![("wing_length", wing.outline.length()), ("wing_offset", wing.offset)];
         found.extend(chord_table(&wing.outline));
@@ -204,7 +204,7 @@ impl Model<4> for DirectDrive {
         let (sin, cos) = psi.sin_cos();
         let air = aerodynamics(c, self.flow, side, &y, sin, cos);
         let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
-        // A prescribed stroke says nothing about the actuator.
+        // A prescribed stroke does not determine the actuator's force, so its quantities are unknown.
         let unknown = self.drive.prescribes_stroke();
         let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
         let [current, leakage] =
@@ -226,7 +226,8 @@ impl Model<4> for DirectDrive {
         }
     }
 
-    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all else is given back within a period.
+    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all other energy returns within a
+    /// period.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         cycle.power.balance(&[
             cycle.power_translational,
@@ -263,7 +264,7 @@ impl Motions<4> for DirectDrive {
         Constants { drive, ..*c }
     }
 
-    /// About ψ = 0, with the added mass of still air.
+    /// Returns the modes about ψ = 0, with the added mass of still air.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         Mode::coupled(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
     }

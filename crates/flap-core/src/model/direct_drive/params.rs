@@ -12,9 +12,9 @@ crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
     pub struct Params {
         ["drive"]
-        /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, that of the fundamental alone.
+        /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, this is the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
-        /// Constant part of the drive voltage. The paper drives with V_0 sin(wt) + V_0.
+        /// Constant part of the drive voltage. The paper's drive is V_0 sin(wt) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 209.0,
@@ -30,13 +30,14 @@ crate::parameters! {
         mean_chord: f64 = ("m", "c", Number(Positive)) 6.51e-3,
         /// Distance from the stroke axis to the wing's root. Not given in the paper.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
-        /// Chord at half the wing's length. Not given in the paper. For flow_direction = "uniform".
+        /// Chord at half of the wing length. Not given in the paper. Only for flow_direction = "uniform".
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Wing mass.
         wing_mass: f64 = ("kg", "M_w", Number(Positive)) 2.31e-6,
         /// Distance of the wing's centre of mass from its root, along the span.
         mass_centre_span: f64 = ("m", "r_g", Number(Any)) 9.42e-3,
-        /// Chordwise position of the wing's centre of mass, positive towards the leading edge: negative in a real wing (the paper prints its magnitude).
+        /// Chordwise position of the wing's centre of mass, positive towards the leading edge. It is negative in a
+        /// real wing (the paper prints its magnitude).
         mass_centre_chord: f64 = ("m", "y_g", Number(Any)) -2.48e-3,
         /// Wing inertia about the spanwise axis through the centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative)) 4.81e-12,
@@ -52,21 +53,26 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
         /// Damping of the wing hinge. Not in the paper.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor and size of the hinge.
+        /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
-        /// Direction of flow that the translational forces follow: that of the wing's mean velocity, one for the whole wing as in the paper, or that of each blade element's own velocity. With "blade" the shape moments, rotation_moment and midspan_chord are computed from the chord shape, and what is given for them is not used.
+        /// Direction of flow for the translational forces. "uniform" is the direction of the wing's mean velocity, as
+        /// in the paper. "blade" is the direction of each blade element's own velocity. With "blade", shape moments,
+        /// rotation_moment and midspan_chord follow from the chord shape, and values given for them are not used.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
-        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant term is 1; not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
+        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant
+        /// term is 1. Not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
-        /// Chord shape: coefficient of the Legendre polynomial P_2; not in the paper.
+        /// Chord shape: coefficient of the Legendre polynomial P_2. Not in the paper.
         chord_legendre_2: f64 = ("", "a_2", Number(Any)) -0.0913,
-        /// Chord shape: coefficient of the Legendre polynomial P_3; not in the paper.
+        /// Chord shape: coefficient of the Legendre polynomial P_3. Not in the paper.
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
-        /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for every flow_direction.
+        /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
+        /// every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
-        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are for flow_direction = "uniform".
+        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are only for
+        /// flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
         /// Wing shape moment: normalised integral of chord^4.
         shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)) 1.04,
@@ -80,7 +86,8 @@ crate::parameters! {
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)) 0.84,
         /// Wing shape moment: normalised integral of radius^3 * chord.
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. For flow_direction = "uniform".
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. Only
+        /// for flow_direction = "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)) 4.68e-10,
 
         ["actuator"]
@@ -100,21 +107,22 @@ crate::parameters! {
         piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)) 14.3e9,
         /// Young's modulus of the adhesive.
         adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)) 5.0e9,
-        /// Young's modulus of the shim, already halved for its slits.
+        /// Young's modulus of the shim, already halved because of its slits.
         shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)) 50.3e9,
         /// Density of the piezoelectric layer.
         piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)) 8000.0,
         /// Density of the adhesive.
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
-        /// Density of the shim, already halved for its slits.
+        /// Density of the shim, already halved because of its slits.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
         /// Piezoelectric coefficient. Its sign only mirrors the motion.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
-        /// Permittivity of the piezoelectric layer (free or clamped is not stated in the paper).
+        /// Permittivity of the piezoelectric layer (the paper does not state if free or clamped).
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Damping of the stroke, about the stroke axis. Not in the paper.
+        /// Damping of the stroke about the stroke axis. Not in the paper.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor of the stroke's spring, the actuator: a damping of loss factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the stroke's spring, the actuator. It acts as a damping of loss factor times stiffness over
+        /// the drive's angular frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
@@ -134,36 +142,37 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
-        /// Attack angle that moves the centre of pressure: relative to the motion, folded to at most 90 deg, or as printed (which breaks mirror symmetry).
+        /// Attack angle on which the centre of pressure depends. It is relative to the motion, folded to at most 90
+        /// deg, or as printed (which breaks mirror symmetry).
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
         /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
-        /// Sign of the added-mass part of lift, Eq. (35): corrected, or as printed.
+        /// Sign of the added-mass term of the lift, Eq. (35): corrected, or as printed.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
     }
 
-    /// The small type of Table A1, at the largest voltage and the frequency of Fig. 13.
+    /// Returns the small type of Table A1, at the largest voltage and the frequency of Fig. 13.
     pub fn ozaki2018_small() -> Params;
 }
 
 crate::choice! {
-    /// Directions of the air's flow over a wing that reverses.
+    /// Direction of the air's flow over a wing that reverses.
     pub enum FlowDirection {
-        /// One direction for the whole wing: that of its mean velocity. The paper's.
+        /// One direction for the whole wing, from its mean velocity: as in the paper.
         Uniform = "uniform",
-        /// Over each blade element by its own velocity.
+        /// One direction for each blade element, from its own velocity.
         Blade = "blade",
     }
 }
 
 crate::choice! {
-    /// Readings of Eq. (24): which attack angle the centre of pressure depends on.
+    /// Readings of Eq. (24): the attack angle on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
         Directional = "directional",
         /// π/2 − |ψ|: never above 90°.
         Folded = "folded",
-        /// |π/2 − ψ|: as printed. Breaks the mirror symmetry of the two half strokes.
+        /// |π/2 − ψ|: as printed. It breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }
@@ -173,7 +182,7 @@ crate::choice! {
     pub enum AddedMass {
         /// As in the paper.
         Paper = "paper",
-        /// With the gyroscopic terms that a Lagrangian gives; they do no work.
+        /// With the gyroscopic terms of a Lagrangian derivation. They do no work.
         Lagrangian = "lagrangian",
     }
 }
@@ -189,7 +198,7 @@ crate::choice! {
 }
 
 impl Params {
-    /// The published presets, and a hypothesis on them.
+    /// Published presets, and hypotheses on them.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
@@ -203,17 +212,17 @@ impl Params {
         },
         Preset {
             name: "ozaki2018-small-kw-swapped",
-            doc: "HYPOTHESIS: ozaki2018-small with the k_w of the large type, the table's columns of k_w swapped",
+            doc: "HYPOTHESIS: ozaki2018-small with the k_w of the large type, as if the columns of k_w in Table A1 were swapped",
             values: || Params::ozaki2018_small().with_hinge_of(&Params::ozaki2018_large()).to_values(),
         },
         Preset {
             name: "ozaki2018-large-kw-swapped",
-            doc: "HYPOTHESIS: ozaki2018-large with the k_w of the small type, the table's columns of k_w swapped",
+            doc: "HYPOTHESIS: ozaki2018-large with the k_w of the small type, as if the columns of k_w in Table A1 were swapped",
             values: || Params::ozaki2018_large().with_hinge_of(&Params::ozaki2018_small()).to_values(),
         },
     ];
 
-    /// The large type of Table A1, at the largest voltage and the frequency of Fig. 14.
+    /// Returns the large type of Table A1, at the largest voltage and the frequency of Fig. 14.
     pub fn ozaki2018_large() -> Params {
         Params {
             drive_voltage_pp: 100.0,
@@ -243,22 +252,24 @@ impl Params {
             actuator_root_width: 10.4e-3,
             actuator_tip_width: 4.4e-3,
             shim_thickness: 130e-6,
-            // Materials and air are those of the small type.
+            // Materials and air are the same as for the small type.
             ..Params::ozaki2018_small()
         }
     }
 
-    /// Distance from the stroke axis to the wing's root x_r (m).
+    /// Returns the distance x_r (m) from the stroke axis to the wing's root.
     pub(super) fn root_radius(&self) -> f64 {
         self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
-    /// A hypothesis: Table A1 with its columns of k_w swapped, which cannot be proved from the text.
+    /// Returns these parameters with the hinge stiffness of `other`.
+    ///
+    /// Hypothesis: the columns of k_w in Table A1 are swapped. The text of the paper cannot prove it.
     fn with_hinge_of(self, other: &Params) -> Params {
         Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }
 
-    /// The drive.
+    /// Returns the drive.
     pub(super) fn drive(&self) -> DriveConstants<f64> {
         let half = 0.5 * self.drive_voltage_pp;
         let levels = self.stroke.levels([self.drive_bias.unwrap_or(half), half]);

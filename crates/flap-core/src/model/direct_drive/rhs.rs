@@ -1,9 +1,11 @@
 //! Equations of motion and outputs of the direct-drive model.
 //!
-//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations, with the corrections listed
-//! in `docs/models/direct-drive.md`. State `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), their rates (rad/s). ψ = 0 with the
-//! wing's plane through the stroke axis; ψ > 0 when the trailing edge lags a wing that moves with φ̇ > 0.
-//! Lift is positive upwards, from the trailing towards the leading edge.
+//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations, with the corrections listed in
+//! `docs/models/direct-drive.md`.
+//!
+//! The state is `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), and their rates (rad/s). ψ = 0 if the wing's plane contains
+//! the stroke axis. ψ > 0 if the trailing edge lags a wing that moves with φ̇ > 0. Lift is positive upwards, from the
+//! trailing towards the leading edge.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -23,7 +25,7 @@ pub(super) struct Aerodynamics<R> {
     pub(super) drag: R,
     /// Moment about the stroke axis M_tr,y (N·m), (25).
     pub(super) stroke_moment: R,
-    /// Moment of the lift ∫ X dF_tr,Lift (N·m): not in the paper, nor in the equations of motion.
+    /// Moment of the lift ∫ X dF_tr,Lift (N·m). Neither the paper nor the equations of motion contain it.
     pub(super) lift_moment: R,
     /// Moment about the span axis M_tr,x′ (N·m), (23) with corrected sign.
     pub(super) pitch_moment: R,
@@ -31,7 +33,7 @@ pub(super) struct Aerodynamics<R> {
     pub(super) rotation_moment: R,
 }
 
-/// Aerodynamic forces and moments but for the added mass, (21)–(27), (32).
+/// Returns the aerodynamic forces and moments without the added mass, (21)–(27), (32).
 ///
 /// ```text
 /// w = ψ̇ cos ψ     C_L = K_L sin 2ψ     C_N = C_L sin ψ + C_D cos ψ
@@ -39,8 +41,7 @@ pub(super) struct Aerodynamics<R> {
 /// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// `flow` says whose direction u|u| and d_cp follow. `side` is σ, the
-/// sign of the wing's [`mean_velocity`].
+/// `flow` selects the direction of flow for u|u| and d_cp. `side` is σ, the sign of the wing's [`mean_velocity`].
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -73,7 +74,7 @@ pub(super) fn aerodynamics<R: Real>(
     }
 }
 
-/// The dynamic pressure q = ½ρ c u|u| along the span.
+/// Integrals of the dynamic pressure q = ½ρ c u|u| along the span.
 struct Pressure<R> {
     /// ∫ q dr (N).
     force: R,
@@ -83,7 +84,7 @@ struct Pressure<R> {
     pitch: R,
 }
 
-/// One direction of flow for the whole wing, σ, as in the paper.
+/// Returns the integrals with one direction of flow for the whole wing, σ, as in the paper.
 ///
 /// ```text
 /// ∫ q dr = ½ρA_w B_L σ     ∫ q X dr = ½ρA_w R B_Y σ     ∫ q c d_cp dr = ½ρA_w c̄ d_cp(σ) B_X σ
@@ -99,20 +100,20 @@ fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) ->
     }
 }
 
-/// A quadratic form, of its factors and the products of its variables.
+/// Returns a quadratic form, given its factors and the products of its variables.
 #[inline(always)]
 fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
     factors[0] * products[0] + factors[1] * products[1] + factors[2] * products[2]
 }
 
-/// A direction of flow for each blade element, its own.
+/// Returns the integrals with a separate direction of flow for each blade element.
 ///
 /// ```text
 /// u = X φ̇ − ½ c w
 /// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
 /// ```
 ///
-/// An element's velocity is zero where it changes its direction: nothing jumps, and there is no `side`.
+/// The velocity of an element is zero where its flow changes direction. Nothing jumps, and there is no `side`.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
@@ -128,7 +129,8 @@ fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R
     }
 }
 
-/// The wing's mean velocity ū (m/s), whose sign directs the aerodynamic forces, and its rate (m/s²).
+/// Returns the wing's mean velocity ū (m/s) and its rate (m/s²). The sign of ū is the direction of the aerodynamic
+/// forces.
 ///
 /// ```text
 /// ū = (R/2 + x_r) φ̇ − ½ c(R/2) ψ̇ cos ψ
@@ -143,7 +145,7 @@ pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) 
     [velocity, rate]
 }
 
-/// The centre of pressure d_cp (chords) in a flow of direction `side`, (24), in the reading that `c` asks for.
+/// Returns the centre of pressure d_cp (chords) in a flow of direction `side`, (24), in the reading selected in `c`.
 ///
 /// ```text
 /// d_cp = (0.82/π) α_d + 0.05
@@ -153,13 +155,15 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
     let [directional, folded, literal] = c.attack;
     let tilt = directional * side * psi + folded * psi.abs() + literal * psi;
     let attack = -tilt + FRAC_PI_2;
-    // |α|, but for the folded reading, which is signed.
+    // The magnitude |α|, except in the folded reading, which is signed.
     let attack = R::select(folded.lt(attack.lit(0.5)), attack.abs(), attack);
     c.pressure_slope * attack + c.pressure_offset
 }
 
-/// Mass matrix and generalised forces but the actuator's, from Lagrange's equations (3)–(18) with the added mass
-/// (28)–(30) and the aerodynamic moments (34) moved into them.
+/// Returns the mass matrix and the generalised forces without the actuator's force, from Lagrange's equations
+/// (3)–(18).
+///
+/// The added mass (28)–(30) is part of the mass matrix, the aerodynamic moments (34) are part of the forces.
 ///
 /// ```text
 /// ⎡m₁₁ + m_s s² + a₁₁ c²   (m₁₂ − a₁₂) c⎤ ⎡φ̈⎤ = ⎡Q₁ + ΓV⎤     s = sin ψ, c = cos ψ
@@ -169,9 +173,9 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 /// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
 /// ```
 ///
-/// Damping of stroke and hinge, which the paper does not have, takes from both in proportion to φ̇ and ψ̇.
+/// Damping of stroke and hinge, which is not in the paper, is subtracted in proportion to φ̇ and ψ̇.
 ///
-/// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
+/// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, with e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;
@@ -196,8 +200,10 @@ pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y
     Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
 }
 
-/// The moment e that the Lagrangian form of the added mass adds to the stroke per pitch rate, and takes from the pitch per
-/// stroke rate.
+/// Returns the gyroscopic moment e per rate.
+///
+/// The Lagrangian form of the added mass adds e times the pitch rate to the stroke. It subtracts e times the stroke
+/// rate from the pitch.
 #[inline(always)]
 fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, cos: R) -> R {
     c.gyroscopic * (c.a11 * *phi_dot * cos - c.a12 * *psi_dot) * sin
@@ -214,6 +220,8 @@ pub(super) struct AddedMassLoad<R> {
     pub(super) span_moment: R,
 }
 
+/// Returns force and moments of the added mass.
+///
 /// ```text
 /// A = φ̈ cos ψ − φ̇ψ̇ sin ψ
 /// F_am = −f₁ A + f₂ ψ̈     M_am,y″ = −a₁₁ A + a₁₂ ψ̈     M_am,x′ = a₁₂ A − a₂₂ ψ̈
@@ -229,15 +237,15 @@ pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4])
     }
 }
 
-/// Lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
+/// Returns the lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
 #[inline(always)]
 pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
 }
 
-/// The load of the air on the wing.
+/// Returns the load of the air on the wing.
 ///
-/// The added mass pushes along the wing's normal, which is (cos ψ e_t − sin ψ e_z):
+/// The force of the added mass acts along the wing's normal, which is (cos ψ e_t − sin ψ e_z):
 ///
 /// ```text
 /// L = F_tr,Lift − F_am sin ψ     D = F_tr,Drag − F_am cos ψ     M_s = M_tr,x′ + M_rot + M_am,x′
@@ -265,7 +273,8 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. Dielectric loss adds to it.
+/// Returns the current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. The dielectric
+/// loss adds to it.
 #[inline(always)]
 pub(super) fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot

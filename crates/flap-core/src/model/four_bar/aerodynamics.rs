@@ -1,7 +1,7 @@
 //! Forces and moments of the air on the wing of the four-bar model.
 //!
 //! Arabagi, Hines and Sitti 2013, (5)–(10), (16)–(18), with the corrections listed in `docs/models/four-bar.md`.
-//! Lift is positive upwards; moments are those about the stroke axis (Q_θ) and the rotation axis (Q_φ).
+//! Lift is positive upwards. Moments are about the stroke axis (Q_θ) and the rotation axis (Q_φ).
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -16,9 +16,9 @@ pub(super) struct Aerodynamics<R> {
     pub(super) lift: R,
     /// Translational drag (N), (5): the horizontal force against the motion for θ̇ > 0.
     pub(super) drag: R,
-    /// Its moment about the stroke axis (N·m), (16).
+    /// Moment of the translational drag about the stroke axis (N·m), (16).
     pub(super) stroke_moment: R,
-    /// Moment of the translational lift Σ r L_t (N·m): not in the paper, nor in the equations of motion.
+    /// Moment of the translational lift Σ r L_t (N·m). Neither the paper nor the equations of motion contain it.
     pub(super) lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
     pub(super) pitch_moment: R,
@@ -30,7 +30,7 @@ pub(super) struct Aerodynamics<R> {
     pub(super) rotation_pitch_moment: R,
 }
 
-/// The wing's attitude as the coefficients see it.
+/// Attitude of the wing, for the aerodynamic coefficients.
 #[derive(Clone, Copy, Debug)]
 struct Attitude<R> {
     /// Attack angle folded into [0, π/2], B.
@@ -39,14 +39,14 @@ struct Attitude<R> {
     tilt: R,
 }
 
-/// Attack angle and inclination at the pitch `phi`, on one `side`: σ = sign tan φ.
+/// Returns attack angle and inclination at the pitch `phi`. `side` is σ = sign tan φ.
 ///
 /// ```text
 /// φ = φ_m + kπ     B = π/2 − σφ_m     τ = (−1)^k φ_m
 /// ```
 ///
-/// k is such that φ_m lies within π/2 of σπ/4. So both angles go on smoothly where tan φ changes its sign, as long as
-/// `side` does not change.
+/// k is such that φ_m lies within π/2 of σπ/4. Both angles then remain smooth where tan φ changes its sign, as long
+/// as `side` does not change.
 #[inline(always)]
 fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     let k = ((phi - side * FRAC_PI_4) * FRAC_1_PI).round_ties_even();
@@ -55,7 +55,7 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     Attitude { attack: -(side * phi_m) + FRAC_PI_2, tilt: (odd * -2.0 + 1.0) * phi_m }
 }
 
-/// Lift and drag coefficient (9), (10) at the folded attack angle B (rad).
+/// Returns lift and drag coefficient (9), (10) at the folded attack angle B (rad).
 ///
 /// ```text
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
@@ -69,7 +69,7 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
     [lift_amplitude.mul_add(lift, lift_offset), drag_offset - drag_amplitude * drag]
 }
 
-/// Aerodynamic forces and moments but for the added mass, at a state on one `side`, given sin φ and cos φ.
+/// Returns the aerodynamic forces and moments without the added mass, at a state on one `side`.
 ///
 /// ```text
 /// α = π/2 + sφ, s = sign U; attack folded to B ≤ π/2; σ = sign tan φ
@@ -77,8 +77,8 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
 /// d_cp = (0.82/π)(π/2 + sτ) + 0.05     q = ½ρ U² c Δr
 /// ```
 ///
-/// The strips of both directions of flow share C_l, C_d and B, because |α| of one is π − |α| of the other. With d_cp
-/// put in, Σ c q s and Σ c q remain, of which the latter is a quadratic form of the rates.
+/// The strips of both directions of flow share C_l, C_d and B, because their angles |α| add up to π. With d_cp
+/// substituted, the sums Σ c q s and Σ c q remain. The latter is a quadratic form of the rates.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -112,27 +112,29 @@ pub(super) fn aerodynamics<R: Real>(
     }
 }
 
-/// The function whose sign σ = sign tan φ = sign sin 2φ is the `side`, and its rate: C_l changes its sign with it.
+/// Returns the switching function, whose sign σ = sign tan φ = sign sin 2φ is the `side`, and its rate. C_l changes
+/// sign with σ.
 ///
-/// At φ = 0, where the chord is vertical, C_l jumps between ±C_l(90°): the lift jumps, the equations of motion do not,
-/// as C_l enters them times sin φ. At |φ| = 90° it jumps between ±C_l(0), and so do the equations.
+/// At φ = 0 the chord is vertical and C_l jumps between ±C_l(90°). The lift jumps, but the equations of motion do
+/// not, because they contain C_l times sin φ. At |φ| = 90°, C_l jumps between ±C_l(0), and the equations jump too.
 #[inline(always)]
 pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
     [sin, phi_dot * 2.0 * cos]
 }
 
-/// The load of the air on the wing at a state with derivative `dy`, on one `side`.
+/// Returns the load of the air on the wing at a state with derivative `dy`, on one `side`.
 ///
-/// Rotational force and added mass push along the wing's normal, which is (cos φ e_t + sin φ e_z). With the normal
-/// acceleration of a strip, r A + κc φ̈ and A = θ̈ cos φ − θ̇φ̇ sin φ:
+/// Rotational force and added mass act along the wing's normal, which is (cos φ e_t + sin φ e_z). The normal
+/// acceleration of a strip is r A + κc φ̈, with A = θ̈ cos φ − θ̇φ̇ sin φ:
 ///
 /// ```text
 /// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
 /// ```
 ///
-/// The moments have r in every sum. M_s is −Q_φ, with κc in the sums of the added mass: φ > 0 moves the trailing edge with
-/// the stroke. The equations of motion have the added mass in the wing's centre of mass instead, (19).
+/// The moments have the factor r in every sum. M_s is −Q_φ, with κc in the sums of the added mass: φ > 0 moves the
+/// trailing edge with the stroke. In the equations of motion the added mass acts at the wing's centre of mass
+/// instead, (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let [theta, phi, _, _] = *y;
@@ -155,7 +157,7 @@ pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) 
     }
 }
 
-/// Lift of the added mass L_a (N), (7) with corrected sign, at known accelerations.
+/// Returns the lift of the added mass L_a (N), (7) with corrected sign, at known accelerations.
 ///
 /// ```text
 /// L_a = −(AM₁ (θ̈ cos φ − θ̇φ̇ sin φ) + AM₂ φ̈) sin φ

@@ -1,7 +1,7 @@
-//! Constants of the four-bar model, which do not change along a trajectory; computed once per point.
+//! Constants of the four-bar model, computed once per point.
 //!
-//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, those in brackets are missing
-//! from print and rebuilt (see `docs/models/four-bar.md`).
+//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations. Equations in brackets are missing
+//! from the printed paper and were reconstructed (see `docs/models/four-bar.md`).
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -22,7 +22,7 @@ crate::per_lane! {
         pub stiffness: R,
         /// Deflection of the free tip per voltage γ (m/V).
         pub deflection: R,
-        /// Voltage at which zero stroke is unloaded V_ref (V).
+        /// Voltage at which the actuator exerts no force at zero stroke V_ref (V).
         pub rest_voltage: R,
         /// 1/k_sc (m/N).
         pub series_compliance: R,
@@ -30,7 +30,7 @@ crate::per_lane! {
         pub coupling: R,
         /// Capacitance with the tip blocked C_b (F).
         pub capacitance: R,
-        /// Conductance that stands for the dielectric loss (S).
+        /// Equivalent conductance of the dielectric loss (S).
         pub conductance: R,
         /// Share of the returned power that the supply recovers.
         pub charge_recovery: R,
@@ -46,9 +46,9 @@ crate::per_lane! {
     pub struct Wing<R> {
         /// m R² (kg·m²).
         pub upright: R,
-        /// m β² + J_yy: the part of the stroke's inertia that goes with sin²φ (kg·m²).
+        /// m β² + J_yy: inertia of the stroke proportional to sin²φ (kg·m²).
         pub j_sin: R,
-        /// J_zz: the part of the stroke's inertia that goes with cos²φ (kg·m²).
+        /// J_zz: inertia of the stroke proportional to cos²φ (kg·m²).
         pub j_cos: R,
         /// Coupling of stroke and pitch P = m R β + J_xz (kg·m²).
         pub coupling: R,
@@ -58,11 +58,11 @@ crate::per_lane! {
         pub j_difference: R,
         /// Damping of the stroke D (N·m·s).
         pub stroke_damping: R,
-        /// Damping of the slider-crank (N·s/m) that stands for the loss factor of actuator and series spring.
+        /// Equivalent damping of the loss factor of actuator and series spring, at the slider-crank (N·s/m).
         pub spring_damping: R,
         /// Damping of the hinge d (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per angle (1/rad); zero if the hinge's size is not known.
+        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
         pub hinge_strain: R,
         /// Stiffness of the hinge k_rot (N·m/rad).
         pub hinge_stiffness: R,
@@ -70,11 +70,13 @@ crate::per_lane! {
 }
 
 crate::per_lane! {
-    /// Aerodynamic coefficients and moments of the wing's shape.
+    /// Aerodynamic coefficients, and moments of the wing's shape.
     pub struct Air<R> {
-        /// Lift coefficient (9): constant term, amplitude of the sine, factor of the attack angle, angle subtracted (rad).
+        /// Lift coefficient (9): constant term, amplitude of the sine, factor of the attack angle, angle subtracted
+        /// (rad).
         pub lift: [R; 4],
-        /// Drag coefficient (10): the same with a cosine.
+        /// Drag coefficient (10): constant term, amplitude of the cosine, factor of the attack angle, angle
+        /// subtracted (rad).
         pub drag: [R; 4],
         /// Arm of the centre of pressure at an attack angle of 90°, in chords, (17).
         pub pressure_upright: R,
@@ -85,20 +87,20 @@ crate::per_lane! {
 
         /// Rotational force per |φ̇|φ̇ (kg·m), (6): ½C_rotρ I₁ Σ c³Δr.
         pub rotation_force: R,
-        /// Its moment about the stroke axis (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
+        /// Moment of the rotational force about the stroke axis (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
         pub rotation_stroke: R,
-        /// Its moment about the rotation axis (kg·m²), (18): ½C_rotρ I₂ Σ c⁴Δr.
+        /// Moment of the rotational force about the rotation axis (kg·m²), (18): ½C_rotρ I₂ Σ c⁴Δr.
         pub rotation_pitch: R,
 
         /// Added-mass force per acceleration of the stroke (kg·m), (7).
         pub added_stroke: R,
         /// Added-mass force per acceleration of the pitch (kg·m), (7).
         pub added_pitch: R,
-        /// Its moment about the shoulder per acceleration of the stroke (kg·m²): π/4 ρ Σ r²c²Δr.
+        /// Moment of the added mass about the shoulder per acceleration of the stroke (kg·m²): π/4 ρ Σ r²c²Δr.
         pub added_stroke_2: R,
-        /// The same per acceleration of the pitch (kg·m²): π/4 ρ Σ r κc³Δr.
+        /// Moment of the added mass about the shoulder per acceleration of the pitch (kg·m²): π/4 ρ Σ r κc³Δr.
         pub added_pitch_1: R,
-        /// Its moment about the rotation axis per acceleration of the pitch (kg·m²): π/4 ρ Σ κ²c⁴Δr.
+        /// Moment of the added mass about the rotation axis per acceleration of the pitch (kg·m²): π/4 ρ Σ κ²c⁴Δr.
         pub added_span: R,
     }
 }
@@ -106,13 +108,13 @@ crate::per_lane! {
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// The drive voltage, or the prescribed stroke.
+        /// Drive voltage, or prescribed stroke.
         pub drive: DriveConstants<R>,
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
-        /// From tip displacement to the four-bar's input link.
+        /// Slider-crank, from the tip's displacement to the four-bar's input link.
         pub(crate) slider_crank: SliderCrank<R>,
-        /// From input link to stroke.
+        /// Four-bar, from the input link to the stroke.
         pub four_bar: FourBar<R>,
         /// Inertias of the links.
         pub links: LinkInertias<R>,
@@ -120,17 +122,20 @@ crate::per_lane! {
         pub wing: Wing<R>,
         /// Aerodynamics of the whole wing.
         pub air: Air<R>,
-        /// The wing's strips.
+        /// Strips of the wing.
         pub strips: Strips<R, MAX_STRIPS>,
     }
 }
 
 impl Constants<f64> {
-    /// Derives the constants of a point.
+    /// Returns the constants of a point.
     ///
     /// # Errors
-    /// If the four-bar has no neutral position, the chord is negative somewhere, the number of strips is not
-    /// allowed, the mass matrix is not positive definite for every position, or a constant is not finite.
+    /// - The four-bar has no neutral position.
+    /// - The chord is negative somewhere.
+    /// - The number of strips is not allowed.
+    /// - The mass matrix is not positive definite at every position.
+    /// - A constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = strips(p)?;
         let drive = p.drive();
@@ -149,7 +154,8 @@ impl Constants<f64> {
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        // Linear in cos²φ, so positive everywhere if it is at both ends; the links add at least link 3's inertia.
+        // Linear in cos²φ: positive everywhere if positive at both ends. The links add at least the inertia of link
+        // 3.
         let Wing { upright, j_sin, j_cos, coupling, j_pitch, .. } = self.wing;
         let least = upright + self.links.output;
         if (least + j_cos) * j_pitch > coupling * coupling && (least + j_sin) * j_pitch > 0.0 {
@@ -165,7 +171,7 @@ impl Constants<f64> {
     }
 }
 
-/// Cuts the wing into strips.
+/// Returns the wing cut into strips.
 fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
     p.chords.check()?;
@@ -185,8 +191,9 @@ fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Ok(cuts)
 }
 
-/// Actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s). The unimorph's tip follows
-/// Smits and Choi (1991): δ = γV − F/k_a.
+/// Returns actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
+///
+/// The unimorph's tip follows Smits and Choi (1991): δ = γV − F/k_a.
 ///
 /// ```text
 /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
@@ -199,7 +206,7 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     ]);
     let (l, w, s) = (p.actuator_length, p.actuator_width, laminate.bending_stiffness);
     let arm = laminate.mid_planes[1] - laminate.neutral_axis;
-    // Stress per field in the clamped piezoelectric layer (N/(V·m)).
+    // Piezoelectric stress per field in the clamped layer (N/(V·m)).
     let e = p.piezo_modulus * p.piezo_coefficient;
     let membrane = p.piezo_modulus * p.piezo_thickness + p.shim_modulus * p.shim_thickness;
     let clamped = (p.piezo_permittivity - e * p.piezo_coefficient) / p.piezo_thickness + e * e / membrane;
@@ -220,16 +227,16 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     }
 }
 
-/// The parameters that decide whether the four-bar can be assembled.
+/// Parameters that determine if the four-bar can be assembled.
 const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
 
-/// The four-bar in its neutral position.
+/// Returns the four-bar in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     let lengths = [p.ground_link, p.input_link, p.coupler_link, p.output_link];
     let Some(neutral) = p.neutral_angle.or_else(|| FourBar::stationary_angle(lengths)) else {
         return Err(Invalid::together(
             &LINKS,
-            "the four-bar has no largest transmission between 30 and 80 deg: set neutral_angle",
+            "the transmission of the four-bar has no maximum for output links between 30 and 80 deg: set neutral_angle",
         ));
     };
     let four_bar = FourBar::new(lengths, neutral);
@@ -246,7 +253,7 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
     }
 }
 
-/// Inertias of uniform links, about their pivots where they have one.
+/// Returns the inertias of uniform links. Links with a pivot have theirs about the pivot.
 fn link_inertias(p: &Params) -> LinkInertias<f64> {
     let about_centre =
         |given: Option<f64>, mass: f64, length: f64| given.unwrap_or(mass * length * length / 12.0);
@@ -261,8 +268,9 @@ fn link_inertias(p: &Params) -> LinkInertias<f64> {
     }
 }
 
-/// Inertia of the wing with the added mass in its centre of mass (13), (19), and the damping of its joints: at the angular
-/// frequency `rate` (rad/s), with a `spring` (N/m) at the slider-crank.
+/// Returns the wing's inertia with the added mass at its centre of mass (13), (19), and the damping of its joints.
+///
+/// `rate` is the angular frequency (rad/s), `spring` the stiffness (N/m) at the slider-crank.
 fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
     let m = p.wing_mass + FRAC_PI_4 * p.air_density * sum(cuts, |_, c| c * c);
     let (r, beta) = (p.mass_centre_radius, p.mass_centre_depth);
@@ -281,7 +289,8 @@ fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
     }
 }
 
-/// From the rotation axis to the mid-chord in (8), κ, and to where (17) begins, χ₀; in chords.
+/// Returns κ, the distance from the rotation axis to the mid-chord in (8), and χ₀, the offset in (17); both in
+/// chords.
 fn arms(p: &Params) -> [f64; 2] {
     match p.arms {
         Arms::Printed => [0.5, 0.0],
@@ -289,18 +298,19 @@ fn arms(p: &Params) -> [f64; 2] {
     }
 }
 
-/// Aerodynamics of the whole wing.
+/// Returns the aerodynamics of the whole wing.
 fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
     let [kappa, origin] = arms(p);
     let dynamic = 0.5 * p.air_density;
-    // ∫ z|z| dz and ∫ |z|³ dz over a chord of 1, z being the distance behind the rotation axis, which may be off the wing.
+    // ∫ z|z| dz and ∫ |z|³ dz over a chord of 1. z is the distance behind the rotation axis, which may lie outside
+    // the wing.
     let (before, behind) = (p.axis_position, 1.0 - p.axis_position);
     let cube = |z: f64| z.abs() * z.abs() * z.abs();
     let i_1 = (cube(behind) - cube(before)) / 3.0;
     let i_2 = (behind * cube(behind) + before * cube(before)) / 4.0;
     let drag = dynamic * p.rotation_drag;
     let added = FRAC_PI_4 * p.air_density;
-    // The mid-chord behind the rotation axis, in chords.
+    // Distance of the mid-chord behind the rotation axis, in chords.
     let behind_axis = match p.am_sign {
         AddedMassSign::Corrected => 0.5 - p.axis_position,
         AddedMassSign::Printed => p.axis_position - 0.5,

@@ -1,11 +1,13 @@
-//! A unimorph that flaps a passively pitching wing through a slider-crank and a four-bar.
+//! A unimorph actuator that drives a wing through a slider-crank and a four-bar. The wing pitches on a hinge.
 //!
 //! Arabagi, Hines and Sitti, "A simulation and design tool for a passive rotation flapping wing mechanism",
-//! IEEE/ASME Transactions on Mechatronics 18, 787 (2013). Quasi-static actuator in series with a spring, transmission
-//! with the inertia of its links, Lagrangian wing inertia, quasi-steady aerodynamics by strips, lift by component.
+//! IEEE/ASME Transactions on Mechatronics 18, 787 (2013).
 //!
-//! The paper prints neither the actuator's equations nor the sizes of wing and actuator: these are rebuilt and
-//! assumed. Current and power are an extension.
+//! The model contains a quasi-static actuator in series with a spring, and a transmission with the inertia of its
+//! links. The wing has Lagrangian inertia and quasi-steady aerodynamics by strips. The lift is given by component.
+//!
+//! The paper prints neither the actuator's equations nor the dimensions of wing and actuator. The equations were
+//! reconstructed and the dimensions assumed. Current and power are an extension.
 
 mod aerodynamics;
 mod constants;

@@ -1,4 +1,4 @@
-//! The four-bar model: its equations of motion, signals, columns of rows, and single motions.
+//! The four-bar model: equations of motion, signals, columns of rows, and single motions.
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load, side_of};
 use super::constants::Constants;
@@ -23,23 +23,23 @@ crate::signals! {
     /// Signals of the four-bar model.
     pub struct Signals {
         stroke: (Unit::DEG, "stroke angle", [Amplitude, PeakToPeak, Mean, Max, Min, First]) principal First,
-        pitch: (Unit::DEG, "pitch angle of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
+        pitch: (Unit::DEG, "pitch of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
         lift: (Unit::MN, "lift of the wing, Eq. (4)", [Mean, Max, Min]) principal Mean of_wings [Mean],
         lift_translational: (Unit::MN, "lift of the wing's translation, Eq. (5)", [Mean]),
         lift_rotational: (Unit::MN, "lift of the wing's rotation, Eq. (6)", [Mean]),
         lift_added_mass: (Unit::MN, "lift of the added mass, Eq. (7)", [Mean]),
         drag: (Unit::MN, "translational drag along the stroke, Eq. (5)", [Magnitude]),
-        power_drive: (Unit::MW, "mechanical power of the actuator on the stroke; its mean is the sum of the four that follow", [Mean]),
-        power_stroke_damping: (Unit::MW, "power taken by the damping of the stroke", [Mean]),
-        power_hinge_damping: (Unit::MW, "power taken by the damping of the hinge", [Mean]),
-        power_translational: (Unit::MW, "power taken by translational aerodynamics", [Mean]),
-        power_rotational: (Unit::MW, "power taken by rotational drag, Eqs. (6) and (18)", [Mean]),
-        power: (Unit::MW, "electrical power current x voltage (not in the paper); its mean is that of power_drive and power_dielectric", [Mean]) principal Mean needs [Supply],
-        power_dielectric: (Unit::MW, "power taken by the dielectric loss", [Mean]),
+        power_drive: (Unit::MW, "mechanical power of the actuator on the stroke (its mean is the sum of the means of power_stroke_damping, power_hinge_damping, power_translational and power_rotational)", [Mean]),
+        power_stroke_damping: (Unit::MW, "power lost to the damping of the stroke", [Mean]),
+        power_hinge_damping: (Unit::MW, "power lost to the damping of the hinge", [Mean]),
+        power_translational: (Unit::MW, "power lost to translational aerodynamics", [Mean]),
+        power_rotational: (Unit::MW, "power lost to rotational drag, Eqs. (6) and (18)", [Mean]),
+        power: (Unit::MW, "electrical power (current x voltage, not in the paper; its mean is the sum of the means of power_drive and power_dielectric)", [Mean]) principal Mean needs [Supply],
+        power_dielectric: (Unit::MW, "power lost to the dielectric loss", [Mean]),
         current: (Unit::MA, "current into the actuator (not in the paper)", [Rms, Peak]),
         tip: (Unit::UM, "displacement of the actuator's tip", [PeakToPeak, Peak]),
-        power_transduced: (Unit::MW, "electrical power without that of charging capacitances and of the constant part of the voltage", []),
-        power_driving: (Unit::MW, "mechanical power of the actuator without that of its stiffness", []),
+        power_transduced: (Unit::MW, "electrical power without the power of capacitances and of the constant part of the voltage", []),
+        power_driving: (Unit::MW, "mechanical power of the actuator without the power of its stiffness", []),
     }
 }
 
@@ -55,17 +55,17 @@ const DERIVED: &[Column] = &[
         |_, _, cycle| grams_force(cycle.lift.mean)),
     Column::new("efficiency_gf_per_w", "gf/W", "mean lift over mean electrical power (power_mean_mw)",
         |_, _, cycle| efficiency(grams_force(cycle.lift.mean), cycle.power.mean)),
-    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part, less charge_recovery times what the supply takes back",
+    Column::new("power_supply_mw", "mW", "mean power of the supply: the mean of the positive part of the power, minus charge_recovery times the returned power",
         |_, c, cycle| supplied(cycle.power.measure(Supply), cycle.power.mean, c.actuator.charge_recovery) * 1e3).over_wings(Sum),
-    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power of charging the blocked actuator's capacitance without recovery",
+    Column::new("power_capacitive_mw", "mW", "C V_pp^2 f / 2, the power that charges the blocked actuator's capacitance, without recovery",
         |model, c, _| {
             charging(c.actuator.capacitance, model.drive.voltage_range(&c.drive), c.drive.frequency()) * 1e3
         }).over_wings(Sum),
-    Column::new("energy_audit", "", "(power of the actuator's force - power_drive_mean_mw) / power_drive_mean_mw, zero but for the integration's error",
+    Column::new("energy_audit", "", "(power of the actuator's force - power_drive_mean_mw) / power_drive_mean_mw, zero except for the integration error",
         |_, _, cycle| FourBar::energy_audit(cycle)),
-    Column::new("electrical_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero but for the integration's error",
+    Column::new("electrical_audit", "", "(electrical power by current x voltage - power_mean_mw) / power_mean_mw, zero except for the integration error",
         |_, _, cycle| cycle.power.audit(&cycle.power_transduced)),
-    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, bent to an arc; empty without hinge_thickness and hinge_length",
+    Column::new("hinge_strain_max", "", "largest strain of the hinge's faces, if the hinge bends to an arc; empty without hinge_thickness and hinge_length",
         |_, c, cycle| hinge_strain(c.wing.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
     Column::new("field_max_v_per_um", "V/um", "largest electric field in the piezoelectric layer",
         |model, c, _| model.drive.largest_voltage(&c.drive) / c.actuator.piezo_thickness * 1e-6).over_wings(Each),
@@ -75,10 +75,10 @@ const DERIVED: &[Column] = &[
         |_, c, _| FourBar::modes(c)[1].frequency),
 ];
 
-/// The model.
+/// Variant of the four-bar model: the choices on which its equations branch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FourBar {
-    /// The drive voltage, or the prescribed stroke.
+    /// Drive voltage, or prescribed stroke.
     pub drive: Drive,
 }
 
@@ -91,10 +91,10 @@ impl Ode<4> for FourBar {
         self.drive.at(&c.drive, t)
     }
 
-    /// The equations of motion hardly jump (see `side_of`), but the lift does, and a mean over a step that
-    /// contains the jump is worth little. On 816 points of the 75 Hz system at rtol 1e-6, locating the jump costs
-    /// 7 % more right-hand sides and brings the error of the mean lift, relative to its components, from 9e-4
-    /// (median) and 2e-2 (largest) down to 7e-7 and 1e-5. Every point settles; otherwise a few in a thousand do not.
+    /// The equations of motion hardly jump (see `side_of`), but the lift does. A mean over a step that contains the
+    /// jump is inaccurate. On 816 points of the 75 Hz system at rtol 1e-6, locating the jump costs 7 % more
+    /// right-hand sides. It reduces the error of the mean lift, relative to its components, from 9e-4 (median) and
+    /// 2e-2 (largest) to 7e-7 and 1e-5. Every point settles; without it, a few in a thousand do not.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -146,8 +146,10 @@ impl Model<4> for FourBar {
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
     }
 
-    /// The parameters that a wing decides. The axis is at one share of the chord all along the span: the share of the wing's
-    /// area before the axis.
+    /// Returns the parameters that depend on the wing.
+    ///
+    /// The model's axis is at the same fraction of the chord along the whole span: the fraction of the wing's area
+    /// ahead of the axis.
     fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
         let before = wing.outline.integral(|_, leading, _| leading);
         let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
@@ -184,7 +186,7 @@ impl Model<4> for FourBar {
         let links = transmission(c, theta);
         let slider_rate = links.slope * theta_dot;
         let leakage = c.actuator.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
-        // A prescribed stroke says nothing about the actuator.
+        // A prescribed stroke does not determine the actuator's force and current.
         let [force, current] = if self.drive.prescribes_stroke() {
             [theta.lit(f64::NAN); 2]
         } else {
@@ -214,8 +216,8 @@ impl Model<4> for FourBar {
         }
     }
 
-    /// ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = the power that damping and air take: actuator, springs and inertia give back
-    /// everything within a period.
+    /// ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = the power lost to damping and air. Actuator, springs and inertia return
+    /// all their energy within a period.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let (stroke, hinge) = (cycle.power_stroke_damping, cycle.power_hinge_damping);
         let (translation, rotation) = (cycle.power_translational, cycle.power_rotational);
@@ -246,7 +248,8 @@ impl Motions<4> for FourBar {
         Constants { drive, ..*c }
     }
 
-    /// Of M(0) and K = diag(k_eff δ′(0)², k_rot): the actuator unloaded there, at the voltage V_ref.
+    /// Returns the modes of M(0) and K = diag(k_eff δ′(0)², k_rot). At the voltage V_ref the actuator is unloaded
+    /// there.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let links = transmission(c, 0.0);
         let stiffness = c.actuator.stiffness * links.slope * links.slope;

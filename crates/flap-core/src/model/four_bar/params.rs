@@ -1,7 +1,8 @@
-//! Parameters of the four-bar model, and the sets that stand for the paper's two prototypes.
+//! Parameters of the four-bar model, and presets for the paper's two prototypes.
 //!
-//! The paper gives the links of one four-bar, voltages, frequencies, the hinges' stiffness and damping, the series
-//! stiffness, C_rot and the position of the rotation axis. Everything else is assumed, and says so.
+//! The paper gives the links of one four-bar, voltages, frequencies, and the hinges' stiffness and damping. It also
+//! gives the series stiffness, C_rot and the position of the rotation axis. All other values are assumed and are
+//! described as such.
 
 use crate::aero::ChordTable;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
@@ -12,7 +13,8 @@ use crate::parameter::{Preset, Range};
 use crate::piezo::{EPSILON_0, ElectricalParameters};
 
 crate::parameters! {
-    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013 where it has any.
+    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013, if the paper has
+    /// one.
     pub struct Params {
         ["drive"]
         /// Drive voltage, peak to peak.
@@ -25,13 +27,13 @@ crate::parameters! {
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
-        /// Voltage at which the mechanism stands unloaded at zero stroke; assumed: not in the paper.
+        /// Voltage at which the actuator exerts no force at zero stroke; assumed: not in the paper.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
-        /// Actuator length; assumed: gives the drive its strength.
+        /// Actuator length; assumed: determines the force of the drive.
         actuator_length: f64 = ("m", "L", Number(Positive)) 16e-3,
-        /// Actuator width, uniform; assumed: gives the drive its strength.
+        /// Actuator width, uniform; assumed: determines the force of the drive.
         actuator_width: f64 = ("m", "w", Number(Positive)) 18e-3,
         /// Thickness of the piezoelectric layer; assumed: a commercial sheet.
         piezo_thickness: f64 = ("m", "h_p", Number(Positive)) 127e-6,
@@ -47,7 +49,7 @@ crate::parameters! {
         shim_density: f64 = ("kg/m^3", "rho_s", Number(NonNegative)) 7900.0,
         /// Piezoelectric coefficient, its magnitude; assumed: PZT-5H.
         piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)) 320e-12,
-        /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. Acts on the current alone.
+        /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. It affects the current alone.
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)) 3800.0 * EPSILON_0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
@@ -56,11 +58,11 @@ crate::parameters! {
         /// Stiffness in series between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)) 1400.0,
 
-        /// Radius of the slider-crank on the input link; assumed: tuned to the first resonance.
+        /// Radius of the slider-crank on the input link; assumed: adjusted to the first resonance.
         crank_radius: f64 = ("m", "L_c", Number(Positive)) 3.285e-3,
         /// Length of the slider-crank's connecting rod; assumed.
         connecting_rod: f64 = ("m", "L_s", Number(Positive)) 5e-3,
-        /// Ground link: distance of the four-bar's fixed pivots.
+        /// Ground link: distance between the four-bar's fixed pivots.
         ground_link: f64 = ("m", "L_0", Number(Positive)) 13.5e-3,
         /// Input link, driven by the slider-crank.
         input_link: f64 = ("m", "L_1", Number(Positive)) 12.1e-3,
@@ -68,7 +70,8 @@ crate::parameters! {
         coupler_link: f64 = ("m", "L_2", Number(Positive)) 10e-3,
         /// Output link, which carries the wing.
         output_link: f64 = ("m", "L_3", Number(Positive)) 5e-3,
-        /// Angle of the output link to the ground link at zero stroke; assumed: where the transmission is largest.
+        /// Angle of the output link to the ground link at zero stroke; assumed: the angle of the largest
+        /// transmission.
         neutral_angle: Option<f64> = ("rad", "psi_n", Following(Any, "the angle between 30 and 80 deg at which the transmission is stationary")) None,
         /// Mass of the input link; assumed: carbon fibre.
         input_link_mass: f64 = ("kg", "m_L1", Number(NonNegative)) 11.616e-6,
@@ -84,7 +87,8 @@ crate::parameters! {
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
         /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)) 2e-7,
-        /// Loss factor of the stroke's spring, actuator and series spring together: a damping of loss factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the stroke's springs (actuator and series spring together). It acts as a damping of loss
+        /// factor times stiffness over the drive's angular frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["hinge"]
@@ -92,7 +96,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)) 50e-6,
         /// Damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)) 5e-9,
-        /// Loss factor and size of the hinge.
+        /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing"]
@@ -102,15 +106,15 @@ crate::parameters! {
         wing_length: f64 = ("m", "L_w", Number(Positive)) 24e-3,
         /// Chord at the root; assumed. The chord is root_chord times a polynomial in x, 0 at the root and 1 at the tip.
         root_chord: f64 = ("m", "c_0", Number(Positive)) 8.3e-3,
-        /// The chord polynomial's constant term; assumed.
+        /// Constant term of the chord polynomial; assumed.
         chord_term_0: f64 = ("", "p_0", Number(Any)) 1.0,
-        /// The chord polynomial's factor of x; assumed.
+        /// Coefficient of x in the chord polynomial; assumed.
         chord_term_1: f64 = ("", "p_1", Number(Any)) 1.0,
-        /// The chord polynomial's factor of x^2; assumed.
+        /// Coefficient of x^2 in the chord polynomial; assumed.
         chord_term_2: f64 = ("", "p_2", Number(Any)) 0.0,
-        /// The chord polynomial's factor of x^3; assumed.
+        /// Coefficient of x^3 in the chord polynomial; assumed.
         chord_term_3: f64 = ("", "p_3", Number(Any)) 0.0,
-        /// The chord polynomial's factor of x^4; assumed: no chord at the tip.
+        /// Coefficient of x^4 in the chord polynomial; assumed: zero chord at the tip.
         chord_term_4: f64 = ("", "p_4", Number(Any)) -2.0,
         /// The chord as a table.
         chords: ChordTable = (flatten) ChordTable::off(),
@@ -128,7 +132,7 @@ crate::parameters! {
         wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative)) 4.269e-10,
         /// Wing inertia about the chordwise axis through the centre of mass; assumed.
         wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative)) 3.436e-10,
-        /// Product of inertia about the centre of mass, positive if the wing is deeper farther out; assumed.
+        /// Product of inertia about the centre of mass, positive if the wing is deeper towards the tip; assumed.
         wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)) -8.38e-12,
 
         ["air"]
@@ -158,27 +162,28 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
-        /// Chordwise arms of Eqs. (8) and (17): as printed, as if the rotation axis were the leading edge; or from the rotation axis.
+        /// Chordwise lever arms of Eqs. (8) and (17): as printed (as if the rotation axis were the leading edge), or
+        /// from the rotation axis.
         arms: Arms = ("", "", Choice(Arms::NAMES)) Arms::Printed,
-        /// Sign of the pitch acceleration's part of the added-mass lift, Eq. (7): corrected, or as printed.
+        /// Sign of the pitch acceleration's term of the added-mass lift, Eq. (7): corrected, or as printed.
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)) AddedMassSign::Corrected,
         ["strips of the wing"]
-        /// Strips of the wing: at Gauss-Legendre nodes, or of equal widths taken at their middles.
+        /// Strips of the wing: at Gauss-Legendre nodes, or of equal width with their midpoints.
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)) Quadrature::Gauss,
         /// Number of strips, a whole number from 1 to 64.
         strips: f64 = ("", "N", Number(STRIPS)) 16.0,
     }
 
-    /// The 75 Hz system, with voltages and hinge of the 70 Hz prototype of Figs. 13 to 15.
+    /// Returns the 75 Hz system, with voltages and hinge of the 70 Hz prototype of Figs. 13 to 15.
     pub fn arabagi2013_75hz() -> Params;
 }
 
 crate::choice! {
-    /// Readings of the chordwise arms of (8) and (17).
+    /// Readings of the chordwise lever arms of (8) and (17).
     pub enum Arms {
-        /// The mid-chord is c/2, the centre of pressure d_cp c from the rotation axis.
+        /// Distances from the rotation axis: c/2 to the mid-chord, d_cp c to the centre of pressure.
         Printed = "printed",
-        /// Both are measured from the leading edge, and the rotation axis is χc behind it.
+        /// Both distances are measured from the leading edge, and the rotation axis is χc behind it.
         Axis = "axis",
     }
 }
@@ -194,29 +199,29 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// Rules by which the wing is cut into strips.
+    /// Rules for cutting the wing into strips.
     pub enum Quadrature {
-        /// Strips at the nodes of the Gauss-Legendre rule: 8 of them are closer to the integral than 256 equal ones.
+        /// Strips at the nodes of the Gauss-Legendre rule. 8 of them are more accurate than 256 equal strips.
         Gauss = "gauss",
         /// Strips of equal width.
         Midpoint = "midpoint",
     }
 }
 
-/// The numbers of strips that are possible.
+/// Allowed numbers of strips.
 pub(super) const STRIPS: Range = Range::Whole(1, MOST_STRIPS);
 
 const MOST_STRIPS: u32 = 64;
 
-/// The largest number of strips.
+/// Largest number of strips.
 pub(super) const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
-/// 7.2° and 9.82° in radians: the angles of (9) and (10).
+/// The angles of (9) and (10): 7.2° and 9.82°, in radians.
 const LIFT_PHASE: f64 = 7.2 / 180.0 * core::f64::consts::PI;
 const DRAG_PHASE: f64 = 9.82 / 180.0 * core::f64::consts::PI;
 
 impl Params {
-    /// The sets that stand for the paper's prototypes.
+    /// Presets for the paper's prototypes.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "arabagi2013-75hz",
@@ -230,7 +235,7 @@ impl Params {
         },
     ];
 
-    /// The 30 Hz system of Figs. 7 to 9, with the links of the 75 Hz one.
+    /// Returns the 30 Hz system of Figs. 7 to 9, with the links of the 75 Hz system.
     pub fn arabagi2013_30hz() -> Params {
         Params {
             drive_voltage_pp: 180.0,
@@ -250,12 +255,13 @@ impl Params {
             wing_inertia_normal: 1.0273e-9,
             wing_inertia_chord: 8.362e-10,
             wing_inertia_product: -1.682e-11,
-            // Materials, links and air are those of the 75 Hz system.
+            // Materials, links and air are the same as in the 75 Hz system.
             ..Params::arabagi2013_75hz()
         }
     }
 
-    /// The chord (m) at `x`, from 0 at the wing's root to 1 at its tip: of the table, or of the polynomial.
+    /// Returns the chord (m) at `x`, from 0 at the wing's root to 1 at its tip, from the table or from the
+    /// polynomial.
     pub fn chord(&self, x: f64) -> f64 {
         if let Some(chord) = self.chords.chord(x) {
             return chord;
@@ -265,7 +271,7 @@ impl Params {
         self.root_chord * terms.iter().fold(0.0, |sum, term| sum * x + term)
     }
 
-    /// The drive.
+    /// Returns the drive.
     pub(super) fn drive(&self) -> DriveConstants<f64> {
         let levels = self.stroke.levels([self.drive_bias, 0.5 * self.drive_voltage_pp]);
         DriveConstants::new(self.drive_frequency, &self.waveform, levels)

@@ -1,8 +1,10 @@
 //! Equations of motion of the four-bar model.
 //!
 //! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, with the corrections listed in
-//! `docs/models/four-bar.md`. State `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), their rates (rad/s). At φ = 0 the chord
-//! is vertical; φ > 0 displaces the trailing edge, which hangs below, to where θ > 0 goes.
+//! `docs/models/four-bar.md`.
+//!
+//! The state is `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), and their rates (rad/s). At φ = 0 the chord is vertical,
+//! with the trailing edge below. φ > 0 displaces the trailing edge towards positive θ.
 
 use super::aerodynamics::aerodynamics;
 use super::constants::{Actuator, Constants, Wing};
@@ -10,7 +12,7 @@ use crate::drive::Wave;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Actuator, slider-crank and four-bar as the stroke sees them.
+/// Actuator, slider-crank and four-bar, reduced to the stroke.
 #[derive(Clone, Copy, Debug)]
 pub struct Transmission<R> {
     /// Displacement of the slider-crank δ (m).
@@ -19,13 +21,13 @@ pub struct Transmission<R> {
     pub slope: R,
     /// δ″ (m).
     pub bend: R,
-    /// Inertia of links and actuator G (kg·m²), the sums of (13).
+    /// Inertia of links and actuator about the stroke axis G (kg·m²), the sums of (13).
     pub inertia: R,
-    /// Half its derivative with respect to θ, G′/2 (kg·m²).
+    /// Half of the derivative of G with respect to θ, G′/2 (kg·m²).
     pub half_inertia_slope: R,
 }
 
-/// The transmission at the stroke `theta`.
+/// Returns the transmission at the stroke `theta` (rad).
 ///
 /// ```text
 /// δ′ = δ_η θ₁′     δ″ = δ_ηη θ₁′² + δ_η θ₁″
@@ -49,7 +51,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
     }
 }
 
-/// Force of the actuator on the slider-crank F (N) [(1), (2)].
+/// Returns the force of the actuator on the slider-crank F (N) [(1), (2)].
 ///
 /// ```text
 /// F = k_eff (γ (V − V_ref) − δ)
@@ -59,7 +61,8 @@ pub(super) fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) 
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
-/// Displacement of the actuator's tip δ_a (m): the slider-crank's and the series spring's. Not in the paper.
+/// Returns the displacement of the actuator's tip δ_a (m), the sum of the displacements of slider-crank and series
+/// spring. Not in the paper.
 ///
 /// ```text
 /// δ_a = δ + F/k_sc
@@ -69,7 +72,7 @@ pub(super) fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
     displacement + force * c.series_compliance
 }
 
-/// Current into the actuator (A), by reciprocity; not in the paper.
+/// Returns the current into the actuator (A), by reciprocity. Not in the paper.
 ///
 /// ```text
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
@@ -80,7 +83,7 @@ pub(super) fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R)
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
 
-/// The part of the [`current`] that charges capacitances (A), and has no power on the mean of a period.
+/// Returns the part of the [`current`] that charges capacitances (A). Its mean power over a period is zero.
 ///
 /// ```text
 /// (C_b + Γ k_eff γ/k_sc) V̇
@@ -90,13 +93,13 @@ pub(super) fn charging_current<R: Real>(c: &Actuator<R>, drive: &Wave<R>) -> R {
     (c.capacitance + c.coupling * c.stiffness * c.deflection * c.series_compliance) * drive.rate
 }
 
-/// The part of the actuator's [`force`] that a change of voltage by `swing` (V) makes (N): k_eff γ swing.
+/// Returns the part of the actuator's [`force`] (N) due to a change of voltage by `swing` (V): k_eff γ swing.
 #[inline(always)]
 pub(super) fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
     c.stiffness * c.deflection * swing
 }
 
-/// The mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), of (13).
+/// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), from (13).
 ///
 /// ```text
 /// M₁₁ = m R² + (m β² + J_yy) sin²φ + J_zz cos²φ + G     M₁₂ = P cos φ     M₂₂ = J_φ
@@ -111,14 +114,15 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
     ]
 }
 
-/// Mass matrix and generalised forces but the actuator's, from Lagrange's equations (14), (15).
+/// Returns the mass matrix and the generalised forces without the actuator's force, from Lagrange's equations (14),
+/// (15).
 ///
 /// ```text
 /// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡F δ′ + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 ///
-/// D is the viscous damping of the stroke with that of the loss factor of the drive spring, D + γ k_eff δ′²/ω.
+/// The damping of the stroke includes the loss factor of the drive's springs: D + γ k_eff δ′²/ω.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let [_, phi, theta_dot, phi_dot] = *y;
@@ -139,8 +143,10 @@ pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: 
     Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
 }
 
-/// Damping of the stroke (N·m·s): D, and that of the loss factor γ of actuator and series spring, which the paper does not
-/// have.
+/// Returns the damping of the stroke (N·m·s): D, and the equivalent damping of the loss factor γ of actuator and
+/// series spring.
+///
+/// The loss factor is not in the paper.
 ///
 /// ```text
 /// D + γ k_eff δ′²/ω

@@ -1,4 +1,4 @@
-//! The numbers in an ensemble's lanes, and a step of all of them.
+//! Numbers in an ensemble's lanes, and a step of all lanes.
 
 use super::queue::{Observer, Restart};
 use crate::num::{Lanes, PerLane};
@@ -10,12 +10,12 @@ use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
 use crate::ode::variation::{RESPONSE_SCALE, Varied};
 use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
-/// The numbers of the runs in lanes, with responses to D changes.
+/// Numbers of the runs in lanes, with responses to D changes.
 pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     token: R::Token,
     tolerances: Tolerances,
 
-    // One of each per lane.
+    // One set per lane.
     constants: O::Constants<R>,
     totals: V::Totals<R>,
     span: R,
@@ -24,7 +24,7 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     atol_of_responses: [R; N],
     t: R,
     h: R,
-    /// The step size with which a span begins.
+    /// Step size at the beginning of a span.
     h_begin: R,
     step: Step<R, N>,
     responses: [Step<R, N>; D],
@@ -35,16 +35,16 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     error: R,
 }
 
-/// Lanes to which something has happened in a step, one bit each.
+/// Lanes with an event in a step, one bit each.
 pub(super) struct Events {
     /// Lanes at the end of their span.
     pub(super) landed: u64,
-    /// Lanes whose run has failed.
+    /// Lanes with a failed run.
     pub(super) failed: u64,
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Bank<R, O, V, N, D> {
-    /// A bank with the same run in every lane, so that idle ones compute nothing odd.
+    /// Returns a bank with the same run in every lane, so that idle lanes compute ordinary numbers.
     #[inline(always)]
     pub(super) fn new(
         token: R::Token,
@@ -80,14 +80,14 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// Puts a run into a lane.
+    /// Loads a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
         let Start { y, span, scale, tolerance_factor, change, .. } = *start;
         self.restart(lane, &Restart { y, span, scale, tolerance_factor, change }, observer);
     }
 
-    /// Gives a lane's run a new beginning.
+    /// Restarts the run of a lane.
     pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
@@ -105,7 +105,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// Finds first slope and step size in the `fresh` lanes, one bit each. The others compute along and keep theirs.
+    /// Computes first slope and step size in the `fresh` lanes, one bit each. The other lanes keep theirs.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
         let fresh = R::mask(self.token, fresh);
@@ -145,7 +145,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// Makes a lane ready for the next span.
+    /// Prepares a lane for the next span.
     pub(super) fn begin_span(&mut self, lane: usize) {
         let h = span_step(self.h_begin.lane(lane), self.h.lane(lane));
         let memory = Memory::new(0.0);
@@ -172,7 +172,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         self.steps_in_span = self.steps_in_span + 1.0;
 
         let proposal = h * verdict.factor;
-        // A step cut short by its target says little about the next one.
+        // A step shortened to land on its target is no measure for the next step size.
         let h_next = R::select(verdict.accepted & landing, proposal.max(self.h), proposal);
         let mut crossing =
             Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
@@ -200,7 +200,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         Events { landed, failed: exhausted | stuck }
     }
 
-    /// Renews the first slope in the lanes that have arrived at their switching surface.
+    /// Recomputes the first slope in the lanes that have arrived at their switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());
@@ -219,7 +219,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         self.switches = R::select(arrived, self.switches + 1.0, self.switches);
     }
 
-    /// The states and responses at the beginning of the step.
+    /// Returns the states and responses at the beginning of the step.
     #[inline(always)]
     fn begins(&self) -> Varied<[R; N], D> {
         let mut begins = Varied { motion: self.step.y[0], responses: [self.step.y[0]; D] };
@@ -229,7 +229,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         begins
     }
 
-    /// The mean square of error over tolerance of the step, as in [`crate::ode::norm`].
+    /// Returns the mean square of error over tolerance of the step, as in [`crate::ode::norm`].
     #[inline(always)]
     fn error_squared(&self) -> R {
         let Step { y: [y, .., y_new], error, .. } = &self.step;
@@ -240,27 +240,27 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         sum * (1.0 / (N * (1 + D)) as f64)
     }
 
-    /// The state of one lane.
+    /// Returns the state of one lane.
     pub(super) fn state(&self, lane: usize) -> [f64; N] {
         self.step.y[0].get(lane)
     }
 
-    /// The responses in one lane.
+    /// Returns the responses in one lane.
     pub(super) fn responses(&self, lane: usize) -> [[f64; N]; D] {
         core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }
 
-    /// The totals of one lane.
+    /// Returns the totals of one lane.
     pub(super) fn totals(&self, lane: usize) -> V::Totals<f64> {
         self.totals.get(lane)
     }
 
-    /// The ending of a run that has failed in its last step.
+    /// Returns the ending of a run that failed in its last step.
     pub(super) fn failure(&self, lane: usize) -> Ending {
         Ending::of_failure(self.error.lane(lane))
     }
 
-    /// Crossings of the switching surface in one lane.
+    /// Returns the number of crossings of the switching surface in one lane.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -271,7 +271,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     }
 }
 
-/// The absolute tolerances of responses to changes of these sizes.
+/// Returns the absolute tolerances of responses to changes of these sizes.
 fn of_responses<const N: usize>(
     tolerances: &Tolerances,
     tolerance_factor: f64,

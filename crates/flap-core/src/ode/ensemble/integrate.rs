@@ -1,26 +1,27 @@
-//! Many initial values at once.
+//! Integration of many initial value problems at once.
 
 use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use super::schedule::run;
 use crate::num::{Backend, Kernel, Simd};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
 
-/// The end of a run.
+/// Result of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Integrated<T, const N: usize> {
-    /// The state; where the run has failed, the last one.
+    /// Final state. If the run failed, the last state.
     pub y: [f64; N],
-    /// The observer's totals.
+    /// Totals of the observer.
     pub totals: T,
-    /// The ending and the cost.
+    /// Ending and cost.
     pub outcome: Outcome,
 }
 
-/// Integrates a run from each of `starts` over so many `spans`, in the SIMD lanes of `backend`, and sums along the runs what
-/// `observer` does ([`Unobserved`](super::Unobserved) for nothing). The ends are in the order of the starts. `spans` is at
-/// least one.
+/// Integrates one run from each of `starts` over `spans` spans, in the SIMD lanes of `backend`.
 ///
-/// Decays x' = −k x with 1,000 rates k (1/s), from x = 1 over one second:
+/// The results are in the order of the starts. `observer` sums up quantities along the runs; use
+/// [`Unobserved`](super::Unobserved) if you need none. `spans` is at least 1.
+///
+/// Example: decays x' = −k x with 1,000 rates k (1/s), from x = 1 over one second.
 ///
 /// ```
 /// use flap_core::num::{Backend, Real};
@@ -76,7 +77,7 @@ impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Kernel for Integrate<'_, O, V
         let Integrate { ode, observer, tolerances, starts, spans } = self;
         let mut queue = List { starts, spans, begun: 0, ends: vec![None; starts.len()] };
         run(simd, ode, observer, tolerances, &mut queue);
-        // Every run ends.
+        // Every run has ended, so no entry is `None`.
         queue.ends.into_iter().flatten().collect()
     }
 }
@@ -91,7 +92,7 @@ struct List<'a, C, T, const N: usize> {
 impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
     for List<'_, O::Constants<f64>, V::Totals<f64>, N>
 {
-    /// The position of the run, and the spans that it has left.
+    /// Position of the run, and number of spans left.
     type Run = (usize, u32);
 
     fn next(&mut self, _idle: bool) -> Option<NewRun<(usize, u32), O::Constants<f64>, N>> {

@@ -1,9 +1,10 @@
 //! Many runs in SIMD lanes.
 //!
-//! Every lane has its own time, step size, acceptance of steps, and constants. A lane whose run has ended takes
-//! the next one from the queue while its neighbours go on, so lanes are full until the queue is empty; a run
-//! that fails is reported and replaced likewise. No operation mixes lanes: a run's results do not depend on
-//! its neighbours, and equal those of [`super::solve`] to the last bit.
+//! Every lane has its own time, step size, error control and constants. When the run in a lane ends or fails, the
+//! lane takes the next run from the queue while the other lanes go on. All lanes are used until the queue is empty.
+//!
+//! No operation mixes lanes: a run's results do not depend on the other runs, and equal the results of
+//! [`super::solve`] to the last bit.
 
 mod bank;
 mod integrate;

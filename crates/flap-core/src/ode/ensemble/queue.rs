@@ -1,16 +1,16 @@
-//! The source of an ensemble's runs, and sums along them.
+//! Source of an ensemble's runs, and sums along them.
 
 use crate::num::{Lanes, PerLane};
 use crate::ode::step::Attempt;
 use crate::ode::{Ode, Outcome, Start};
 
-/// A run to be started: the caller's note of it, and its beginning.
+/// A run to be started: the caller's label, and the start.
 pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);
 
-/// A new beginning of a run that keeps its lane, with the same constants.
+/// A restart of a run in the same lane, with the same constants.
 #[derive(Clone, Copy, Debug)]
 pub struct Restart<const N: usize> {
-    /// The initial state.
+    /// Initial state.
     pub y: [f64; N],
     /// As [`Start::span`].
     pub span: f64,
@@ -23,64 +23,65 @@ pub struct Restart<const N: usize> {
 }
 
 impl<const N: usize> Restart<N> {
-    /// The beginning of a run with these constants.
+    /// Returns the start of a run with these constants.
     pub(crate) fn start<C>(self, constants: C) -> Start<C, N> {
         let Restart { y, span, scale, tolerance_factor, change } = self;
         Start { constants, y, span, scale, tolerance_factor, change }
     }
 }
 
-/// A run at the end of a span, or where it has failed.
+/// A run at the end of a span, or at its failure.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanEnd<'a, T, const N: usize> {
-    /// The state.
+    /// State.
     pub y: &'a [f64; N],
-    /// The observer's totals since the run's beginning.
+    /// Totals of the observer since the run's start.
     pub totals: &'a T,
-    /// The response of the state to the change of each initial state by [`Start::change`]; empty in [`run`](super::run).
+    /// Responses of the state to a change of each initial state by [`Start::change`]; empty in [`run`](super::run).
     pub responses: &'a [[f64; N]],
-    /// The ending and the cost since the run's beginning. The ending is [`Stopped`](crate::ode::Ending::Stopped) at the end of
-    /// a span.
+    /// Ending and cost since the run's start. At the end of a span the ending is
+    /// [`Stopped`](crate::ode::Ending::Stopped).
     pub outcome: Outcome,
 }
 
-/// The next work of a run that keeps its lane.
+/// Next task of a run that keeps its lane.
 #[derive(Clone, Copy, Debug)]
 pub enum Next<const N: usize> {
-    /// The next span, from the state at the end of the last one. A run that has failed cannot have one.
+    /// The next span, from the state at the end of the last one. Not allowed after a failure.
     Span,
-    /// A span from another state, or with other tolerances. Totals and costs begin again.
+    /// A span from another state or with other tolerances. Totals and costs begin at zero again.
     Restart(Restart<N>),
 }
 
-/// A source of runs, which also receives their results.
+/// Source of runs and receiver of their results.
 pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
-    /// The caller's note of a run while it is in a lane.
+    /// The caller's label of a run while it is in a lane.
     type Run;
 
-    /// The next run, or `None` if there is none for now.
+    /// Returns the next run, or `None` if there is none at present.
     ///
-    /// With `idle`, no lane is running: the call may wait, and `None` ends the ensemble.
+    /// If `idle` is true, no lane is running: the call may wait, and `None` ends the ensemble.
     fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, O::Constants<f64>, N>>;
 
-    /// Takes a run at the end of a span, or where it has failed. Returns it with its next work if it is to keep its lane.
+    /// Receives a run at the end of a span, or at its failure. Returns the run and its next task to keep it in its
+    /// lane.
     fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)>;
 
-    /// True to end at once. Runs in lanes are dropped; see [`Interrupt`](crate::ode::Interrupt).
+    /// Returns true to end at once. Runs in lanes are dropped; see [`Interrupt`](crate::ode::Interrupt).
     fn interrupted(&self) -> bool {
         false
     }
 }
 
-/// Sums along a run, lane by lane.
+/// Observer that computes sums along a run, lane by lane.
 pub trait Observer<O: Ode<N>, const N: usize> {
-    /// The sums.
+    /// Sums.
     type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
 
-    /// The sums before the first step.
+    /// Returns the sums before the first step.
     fn nothing(&self) -> Self::Totals<f64>;
 
-    /// Adds a step of a run with the constants `c`, in the lanes in which it was `accepted`.
+    /// Adds a step of a run with the constants `c`, in the lanes in which the step was `accepted`.
     fn add<R: Lanes>(
         &self,
         c: &O::Constants<R>,
@@ -90,7 +91,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
     );
 }
 
-/// Observes nothing.
+/// Observer that computes nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Unobserved;
 

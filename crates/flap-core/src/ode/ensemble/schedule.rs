@@ -1,4 +1,4 @@
-//! The schedule of an ensemble: it fills lanes from the queue, steps, and takes runs that have ended out of their lanes.
+//! Schedule of an ensemble: it loads runs from the queue into lanes, steps, and unloads runs that have ended.
 
 use core::ops::AddAssign;
 
@@ -7,7 +7,7 @@ use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
-/// Use of the lanes: the steps that served a run, and all.
+/// Use of the lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
     /// Steps attempted in lanes with a run.
@@ -23,7 +23,7 @@ impl AddAssign for Occupancy {
     }
 }
 
-/// Integrates the runs of `queue` until it has no more or is interrupted. Returns the use of the lanes.
+/// Integrates the runs of `queue` until it is empty or interrupted. Returns the use of the lanes.
 pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -34,7 +34,7 @@ pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
 }
 
-/// [`run`], with the responses of the states to changes of their initial values.
+/// [`run`] with the responses of the states to changes of their initial values.
 pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -45,7 +45,7 @@ pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N:
     run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
 }
 
-/// [`run`], with responses to D changes.
+/// [`run`] with responses to D changes.
 fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
     simd: S,
     ode: &O,
@@ -54,7 +54,7 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     queue: &mut impl Queue<O, V, N>,
 ) -> Occupancy {
     let Some(first) = queue.next(true) else { return Occupancy::default() };
-    // The callbacks of a queue may call this again: enter a function with these instructions enabled.
+    // The queue's callbacks may call this again, so it enters a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
@@ -64,34 +64,34 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     )
 }
 
-/// The most lanes of any backend: two registers of AVX-512.
+/// Largest number of lanes of any backend: two registers of AVX-512.
 const MOST_LANES: usize = 16;
 
 /// The lanes, and the run in each of them.
 struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize> {
     bank: Bank<R, O, V, N, D>,
-    /// The run in each lane; `None` in a lane that waits for work.
+    /// Run in each lane; `None` if the lane waits for work.
     runs: [Option<Running<Run>>; MOST_LANES],
-    /// Vector steps made.
+    /// Number of vector steps.
     steps: u64,
-    /// Steps that the runs which have ended took.
+    /// Number of steps of the runs that have ended.
     used: u64,
     /// Lanes with a run, one bit each.
     active: u64,
-    /// Lanes whose run has not begun, one bit each.
+    /// Lanes whose run has not started, one bit each.
     fresh: u64,
 }
 
 struct Running<Run> {
     run: Run,
-    /// Vector steps made when it began.
+    /// Number of vector steps at its start.
     began: u64,
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize>
     Schedule<R, O, V, Run, N, D>
 {
-    /// A schedule with one run, in lane 0.
+    /// Returns a schedule with one run, in lane 0.
     #[inline(always)]
     fn new(
         token: R::Token,
@@ -112,20 +112,20 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
         schedule
     }
 
-    /// Puts a run into a lane.
+    /// Loads a run into a lane.
     fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.bank.load(lane, start, observer);
         self.begin(lane, run);
     }
 
-    /// Begins a run in a lane that has been loaded.
+    /// Starts a loaded run.
     fn begin(&mut self, lane: usize, run: Run) {
         self.runs[lane] = Some(Running { run, began: self.steps });
         self.active |= 1 << lane;
         self.fresh |= 1 << lane;
     }
 
-    /// Runs the queue empty.
+    /// Integrates until the queue is empty.
     #[inline(always)]
     fn drive(mut self, ode: &O, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) -> Occupancy {
         loop {
@@ -149,7 +149,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
         }
     }
 
-    /// Fills the lanes that wait, as far as there are runs.
+    /// Fills waiting lanes, as long as the queue has runs.
     fn refill(&mut self, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             if self.active & (1 << lane) != 0 {
@@ -162,7 +162,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
         }
     }
 
-    /// Hands the runs at the ends of their spans to the queue, and those that have failed.
+    /// Passes runs at the ends of their spans and failed runs to the queue.
     fn settle(&mut self, events: &Events, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;

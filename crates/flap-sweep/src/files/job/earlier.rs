@@ -1,4 +1,4 @@
-//! A job that finds earlier results: it continues them, or compares them with its own.
+//! Jobs with earlier results under the same name: a job continues them, or compares them with its own rows.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::run::Summary;
 use crate::run::identity::Identity;
 
 impl<'a> Job<'a> {
-    /// Begins behind the points that are done.
+    /// Begins after the finished points.
     pub(super) fn resume(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
@@ -32,12 +32,12 @@ impl<'a> Job<'a> {
         Ok(begun)
     }
 
-    /// Begins behind the points that are done of the results at `place`.
+    /// Begins after the finished points of the results at `place`.
     fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
             replacement::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
         let sidecar = Sidecar::read(&sidecar_of(place));
-        // Rows that were moved away leave a sidecar in the way of others.
+        // If rows were moved elsewhere, their sidecar remains here.
         let is_alone = place == self.out && !place.exists();
         if let Ok(sidecar) = &sidecar
             && sidecar.state == State::Complete
@@ -64,27 +64,30 @@ impl<'a> Job<'a> {
         Ok(Writing { lost: Some(lost), unlocked, ..self.writing(target, before) }.into())
     }
 
-    /// The end of the job if the sidecar of the results at `place` calls them complete. Only a run that was killed at its very end
-    /// `has_journal` left: its last steps are repeated, and nothing is written otherwise.
+    /// Ends the job if the sidecar of the results at `place` has the state complete.
+    ///
+    /// `has_journal` is true only for a run that was killed at its very end. Its last steps are then repeated;
+    /// otherwise nothing is written.
     fn is_complete<'b>(
         &self,
         place: &Path,
         sidecar: &Sidecar,
         has_journal: bool,
     ) -> Result<Begun<'b>, JobError> {
-        // The rows of a replacement may have their name already.
+        // The rows of a replacement may already have their final name.
         let rows = if place.exists() { place } else { &self.out };
         if !has_journal {
             return self.compared(rows, sidecar);
         }
-        // The earlier results of a replacement are locked already.
+        // The earlier results of a replacement are already locked.
         let _held = if place == self.out { output::hold(place)? } else { None };
         let outcome = self.compared(rows, sidecar)?;
         self.complete(place)?;
         Ok(outcome)
     }
 
-    /// The end of the job if complete results at `rows` have this sidecar: they are the rows wanted, and sound, or in the way.
+    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. Otherwise it
+    /// fails.
     fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
@@ -94,8 +97,8 @@ impl<'a> Job<'a> {
         sound(rows, sidecar)
     }
 
-    /// True if the sweep that began the unfinished results at `place` can be continued from their sidecar, by this build on
-    /// this machine.
+    /// Returns true if this build on this machine can continue the sweep of the unfinished results at `place` from
+    /// their sidecar.
     fn continues(&self, place: &Path) -> bool {
         let own = self.identity();
         let past = journal::read(&journal_of(place)).ok().flatten().map(|past| past.header.identity);
@@ -103,25 +106,26 @@ impl<'a> Job<'a> {
         past == sidecar && past.is_some_and(|past| past.is_by_program_of(&own))
     }
 
-    /// The identity of the rows of the job.
+    /// Returns the identity of the job's rows.
     fn identity(&self) -> Identity {
         Identity::of(self.plan, &self.options.run)
     }
 
-    /// The error, with the first line of the grid file that has changed.
+    /// Returns the error, with the first changed line of the grid file.
     fn cannot_resume(&self, place: &Path, error: ResumeError) -> JobError {
         let changed = self.changed_since(place, matches!(error, ResumeError::Changed { .. }));
         JobError::Resume { error, changed, continues: self.continues(place) }
     }
 
-    /// The first line of the grid file that has changed since the results at `place` were begun, in words; `None` unless they
-    /// are `other` rows.
+    /// Returns the first line of the grid file that has changed since the results at `place` were begun, in words.
+    ///
+    /// `None` unless they are `other` rows.
     fn changed_since(&self, place: &Path, other: bool) -> Option<String> {
         let before = Sidecar::read(&sidecar_of(place)).ok().filter(|_| other)?;
         self.changed_line(&before)
     }
 
-    /// The first line of the grid file that has changed since the rows of a sidecar were begun, in words.
+    /// Returns the first line of the grid file that differs from the sidecar's grid, in words.
     fn changed_line(&self, before: &Sidecar) -> Option<String> {
         let of_devices = before.devices.iter().zip(self.plan.devices());
         let mut of_devices = of_devices.map(|(before, now)| difference(&before.text, &now.text, &now.name));
@@ -130,7 +134,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// The end of the job if the results at `rows` hold the rows wanted, and are sound.
+/// Ends the job if the results at `rows` contain the rows of this job and are undamaged.
 fn sound<'b>(rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
     let format = Format::of(rows)?;
     integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
@@ -138,7 +142,7 @@ fn sound<'b>(rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
     Ok(Begun::Complete { all_periodic })
 }
 
-/// The first line of the file called `name` that differs, in words.
+/// Returns the first line that differs in the file called `name`, in words.
 fn difference(before: &str, now: &str, name: &str) -> Option<String> {
     let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
     let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;

@@ -1,7 +1,7 @@
-//! The rows of a plan into a result file with its sidecar, such that the run can be resumed.
+//! Writes the rows of a plan into a result file with its sidecar. An interrupted run can be resumed.
 //!
-//! [`begin`] opens the files. The caller pulls rows, from [`run::rows`](crate::run::rows) on this machine or from chunks of others,
-//! writes them to [`Writing::sink`], and ends with [`Writing::finish`].
+//! [`begin`] opens the files. The caller gets rows from [`run::rows`](crate::run::rows) on this machine or from
+//! chunks of other machines, writes them to [`Writing::sink`], and ends with [`Writing::finish`].
 
 use std::fs::{self, File};
 use std::io;
@@ -25,86 +25,87 @@ use crate::table::layout::Layout;
 
 mod earlier;
 
-/// A plan that is to be run, and the file for its rows.
+/// A plan to run, and the file for its rows.
 pub struct Job<'a> {
-    /// The points.
+    /// Points.
     pub plan: &'a Plan,
-    /// The result file.
+    /// Result file.
     pub out: PathBuf,
-    /// The treatment of results that are there already.
+    /// Treatment of existing results.
     pub begin: Begin,
     /// Options of the session.
     pub options: SessionOptions,
-    /// The earlier results that the points of a rerun are taken from.
+    /// Earlier results whose points are run again, if this is a rerun.
     pub origin: Option<Origin>,
 }
 
-/// The treatment of results that are there already.
+/// Treatment of existing results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Begin {
-    /// Unfinished rows of the job are continued, and complete ones leave nothing to run. Other rows are an error.
+    /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Other rows are an error.
     Continue,
-    /// They are replaced when the new ones are complete. Until then the new ones have [another name](replacement::unfinished).
+    /// Existing results are replaced when the new ones are complete. Until then the new results have [another
+    /// name](replacement::unfinished).
     Restart,
 }
 
-/// A job that has begun.
+/// A job after [`begin`].
 pub enum Begun<'a> {
-    /// Its rows are to be written.
+    /// Rows must be written.
     Writing(Box<Writing<'a>>),
-    /// All of its rows are there already.
+    /// All rows exist already.
     Complete {
-        /// True if all of them are periodic.
+        /// True if all rows are periodic.
         all_periodic: bool,
     },
 }
 
-/// The result file of a job while rows are written.
+/// Result file of a job while rows are written.
 pub struct Writing<'a> {
     job: &'a Job<'a>,
     target: Target,
-    /// Summary of the rows of earlier runs. The next row is that of the point behind those done.
+    /// Summary of the rows of earlier runs. The next row belongs to the point after them.
     pub before: Summary,
-    /// Number of rows that earlier runs had written but that are no longer in the file, if the job continues one. They are computed
-    /// again.
+    /// Number of rows that earlier runs had written but that are missing in the file, if the job continues a run.
+    /// They are computed again.
     pub lost: Option<u64>,
-    /// Reason why the results could not be locked: another run that writes to them would not be noticed.
+    /// Reason for a failed lock. Without a lock, another run that writes to the results is not detected.
     pub unlocked: Option<io::Error>,
-    /// The earlier results of a replacement, locked until the end of the job.
+    /// Earlier results of a replacement, locked until the end of the job.
     held: Option<File>,
     begun: Instant,
 }
 
-/// The file that takes the rows.
+/// Target of the rows.
 enum Target {
-    /// A regular file, with its journal and its sidecar.
+    /// A regular file with its journal and sidecar.
     Session(Box<Session>, Box<Sidecar>),
-    /// A device or a pipe, which has nothing beside it, and nothing to resume.
+    /// A device or a pipe, without files beside it. It cannot be resumed.
     Stream(CsvSink<File>),
 }
 
-/// A job that has ended.
+/// A finished job.
 #[derive(Debug)]
 pub struct Done {
-    /// Summary of all rows, those of earlier runs too.
+    /// Summary of all rows, including the rows of earlier runs.
     pub summary: Summary,
     /// Number of rows of earlier runs.
     pub rows_before: u64,
     /// Running time of this process (s).
     pub seconds: f64,
-    /// The file that holds the rows; `None` for a stream.
+    /// File that contains the rows; `None` for a stream.
     pub place: Option<PathBuf>,
 }
 
 /// Begins the job.
 ///
 /// # Errors
-/// - [`JobError::Overlap`] if the results would overwrite a file that they are made from
-/// - [`JobError::Format`] if the name of the results stands for no format
-/// - [`JobError::Exists`] if a file of that name holds other rows
-/// - [`JobError::Create`] if the results cannot be made
+/// - [`JobError::Overlap`] if the results would overwrite one of the input files
+/// - [`JobError::Format`] if the ending of the name belongs to no format
+/// - [`JobError::Exists`] if a file of this name contains other rows
+/// - [`JobError::Create`] if the results cannot be created
 /// - [`JobError::Resume`] if the run cannot be resumed
-/// - [`JobError::Open`] if the results are complete already, but damaged
+/// - [`JobError::Open`] if the results are complete but damaged
 /// - [`JobError::Write`] if a file beside the results cannot be written
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
@@ -145,7 +146,7 @@ impl<'a> Job<'a> {
         Ok(Writing { unlocked, held, ..self.writing(target, Summary::default()) }.into())
     }
 
-    /// Begins with the empty `file`, which was created at `place`. If it `replaces` earlier results, it has their name in the end.
+    /// Begins with the empty `file` at `place`. If it `replaces` earlier results, it gets their name in the end.
     fn start_at(
         &self,
         (place, format): (&Path, Format),
@@ -160,23 +161,23 @@ impl<'a> Job<'a> {
                 .map_err(|error| JobError::write(place, error, false))
         });
         let session = begun.inspect_err(|_| {
-            // Nothing is in these files. The first error is the one to report.
+            // These files are empty. The first error is the one to report.
             let _ = replacement::remove_companions(place).and_then(|()| fs::remove_file(disk::target(place)));
         })?;
         Ok(Target::Session(Box::new(session), Box::new(sidecar)))
     }
 
-    /// The sidecar of a sweep that `started` at this time.
+    /// Returns the sidecar of a sweep that `started` at this time.
     fn sidecar(&self, started: String) -> Sidecar {
         Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
     }
 
-    /// The job behind the rows that `before` counts.
+    /// Returns the job after the rows that `before` counts.
     fn writing(&'a self, target: Target, before: Summary) -> Writing<'a> {
         Writing { job: self, target, before, lost: None, unlocked: None, held: None, begun: Instant::now() }
     }
 
-    /// Gives the complete results at `place` their name, and removes the files that they do not need.
+    /// Gives the complete results at `place` their final name, and removes the files that they do not need.
     fn complete(&self, place: &Path) -> Result<(), JobError> {
         let completed = if place == self.out {
             replacement::remove_progress(place)
@@ -194,7 +195,7 @@ impl<'a> From<Writing<'a>> for Begun<'a> {
 }
 
 impl Writing<'_> {
-    /// The sink for the rows behind those of earlier runs.
+    /// Returns the sink for the rows after the rows of earlier runs.
     pub fn sink(&mut self) -> &mut dyn Sink {
         match &mut self.target {
             Target::Session(session, _) => &mut **session,
@@ -202,10 +203,10 @@ impl Writing<'_> {
         }
     }
 
-    /// Completes the results and their sidecar, after a run that `ended` so.
+    /// Completes the results and their sidecar. `ended` is the result of the run.
     ///
     /// # Errors
-    /// - [`JobError::Run`] with the error of the run; the rows written are kept with their journal
+    /// - [`JobError::Run`] with the error of the run; the written rows are kept with their journal
     /// - [`JobError::Write`] if a file beside the results cannot be written
     pub fn finish(self, ended: Result<Summary, RunError>) -> Result<Done, JobError> {
         let rows_before = self.before.rows;
@@ -252,23 +253,23 @@ fn write_sidecar(place: &Path, sidecar: &Sidecar, resumable: bool) -> Result<(),
 /// Reason why a job failed.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
-    /// The results would overwrite a file that they are made from.
+    /// The results would overwrite one of the input files.
     #[error(transparent)]
     Overlap(#[from] Overlap),
-    /// The name stands for no format.
+    /// The ending of the name belongs to no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The results cannot be made.
+    /// The results cannot be created.
     #[error(transparent)]
     Create(#[from] CreateError),
-    /// A file has the name of the results, and does not hold their rows.
+    /// A file of this name contains other rows.
     #[error("{} exists already{}", path.display(), other_rows(changes))]
     Exists {
         /// The file.
         path: PathBuf,
-        /// The differences between its rows and those of the job, in words; empty if they are not known.
+        /// Differences between its rows and the rows of the job, in words; empty if unknown.
         changes: Vec<String>,
-        /// The first line of the grid file that differs, in words.
+        /// First line of the grid file that differs, in words.
         changed: Option<String>,
     },
     /// The run cannot be resumed.
@@ -276,15 +277,15 @@ pub enum JobError {
     Resume {
         /// The reason.
         error: ResumeError,
-        /// The first line of the grid file that has changed, in words.
+        /// First line of the grid file that has changed, in words.
         changed: Option<String>,
         /// True if the sweep that began the rows can be continued from its sidecar.
         continues: bool,
     },
-    /// The results are complete, but they or their sidecar are damaged or cannot be read.
+    /// The results are complete, but they or their sidecar are damaged or unreadable.
     #[error(transparent)]
     Open(OpenError),
-    /// A file beside the results cannot be written, or they cannot be completed.
+    /// A file beside the results cannot be written, or the results cannot be completed.
     #[error("cannot write {}: {source}", path.display())]
     Write {
         /// The file.
@@ -299,12 +300,12 @@ pub enum JobError {
     Run {
         /// The reason.
         error: RunError,
-        /// True if the run can be resumed: if its rows went into a file.
+        /// True if the run can be resumed, because its rows are in a file.
         resumable: bool,
     },
 }
 
-/// The differences of existing rows, as the end of a message.
+/// Returns the differences of existing rows, as the end of a message.
 fn other_rows(changes: &[String]) -> String {
     if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
 }

@@ -1,7 +1,7 @@
-//! Checksums of rows, by which damage is noticed and found.
+//! Checksums of rows, which detect and locate damage.
 //!
-//! They are computed from the rows as text, which is the same in every format: a converted file keeps them. Lines are
-//! counted from the first one of the file, so neither threads nor interruptions change a checksum.
+//! They are computed from the rows as text, which is the same in every format, so a converted file keeps them. Lines
+//! are counted from the first one of the file, so threads and interruptions do not change checksums.
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};
@@ -12,13 +12,15 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::notation::text::digits;
 
-/// Rows in one block, which has a checksum, and is a frame in compressed files. Blocks begin at the same rows for any number
-/// of threads, and in a resumed run, so that the bytes do not depend on them.
+/// Number of rows in a block, which has a checksum and is a frame in compressed files.
 ///
-/// Rows in a frame that is not complete are lost if the process is killed. More of them would hardly make files smaller.
+/// Blocks begin at the same rows for any number of threads and in resumed runs, so the bytes of files do not depend
+/// on them. Rows in an incomplete frame are lost if the process is killed. Larger blocks would hardly make files
+/// smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
-/// Number of checksums in one line of text: a sidecar of ten million rows has 3,300 such lines, a ten-thousandth of the rows.
+/// Number of checksums in one line of a sidecar. Ten million rows take 3,300 such lines, a ten-thousandth of the
+/// rows.
 const PER_LINE: usize = 12;
 
 /// Checksums of a result file: of its rows as text, and of its bytes.
@@ -26,27 +28,27 @@ const PER_LINE: usize = 12;
 pub struct Checksums {
     /// XXH3 of the header and all rows as lines of CSV, in hexadecimal digits.
     pub text: String,
-    /// The lower half of the XXH3 of the header.
+    /// Lower half of the XXH3 of the header.
     pub header: String,
-    /// Number of rows in each block but the last.
+    /// Number of rows in each block except the last.
     pub block_rows: u32,
-    /// The lower half of the XXH3 of every block of rows: enough to find damage that `text` reveals.
+    /// Lower half of the XXH3 of every block of rows. It is sufficient to locate damage that `text` detects.
     pub blocks: String,
-    /// Checksum of the file's own bytes; `None` if the file was not made by writing sound rows.
+    /// Checksum of the file's own bytes; `None` if the file was not written from undamaged rows.
     pub file: Option<FileSum>,
 }
 
-/// A checksum of a file's bytes.
+/// Checksum of a file's bytes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FileSum {
     /// Number of bytes.
     pub bytes: u64,
-    /// Their XXH3, in hexadecimal digits.
+    /// XXH3 of the bytes, in hexadecimal digits.
     pub xxh3: String,
 }
 
 impl FileSum {
-    /// The checksum of all that can be read from `source`.
+    /// Returns the checksum of all bytes of `source`.
     ///
     /// # Errors
     /// The error of `source`.
@@ -58,22 +60,22 @@ impl FileSum {
 }
 
 impl Checksums {
-    /// The checksums of the blocks, the first one that of the header; `None` if they are not as flap writes them.
+    /// Returns the checksums of header and blocks; `None` if they do not have flap's format.
     pub(crate) fn parts(&self) -> Option<Vec<u32>> {
         let words = std::iter::once(self.header.as_str()).chain(self.blocks.split_whitespace());
         words.map(|word| u32::from_str_radix(word, 16).ok()).collect()
     }
 }
 
-/// Takes the text of a file in pieces of any size, and computes its checksums.
+/// Computes the checksums of a file's text, which it receives in pieces of any size.
 #[derive(Clone)]
 pub(crate) struct TextDigest {
     whole: Xxh3Default,
     block: Xxh3Default,
-    /// True if `block` has taken bytes.
+    /// True if `block` contains bytes.
     is_begun: bool,
     lines: u64,
-    /// The checksum of the header, then those of blocks.
+    /// Checksum of the header, then checksums of blocks.
     parts: Vec<u32>,
 }
 
@@ -96,7 +98,7 @@ impl TextDigest {
             self.block.update(line);
             self.is_begun = true;
             self.lines += 1;
-            // The header ends with line 1, the first block with line 257.
+            // Line 1 ends the header, and line 257 ends the first block.
             if self.lines % u64::from(BLOCK_ROWS) == 1 {
                 self.parts.push(lower_half(self.block.digest()));
                 self.block.reset();
@@ -110,17 +112,17 @@ impl TextDigest {
         }
     }
 
-    /// Number of lines after the header that end.
+    /// Returns the number of complete lines after the header.
     pub(crate) fn rows(&self) -> u64 {
         self.lines.saturating_sub(1)
     }
 
-    /// The checksum of all the text.
+    /// Returns the checksum of the whole text.
     pub(crate) fn text(&self) -> String {
         digits(self.whole.digest())
     }
 
-    /// The checksums of the header and of blocks. The last block may have fewer rows than others.
+    /// Returns the checksums of header and blocks. The last block may have fewer rows than the others.
     pub(crate) fn parts(&self) -> Vec<u32> {
         let mut parts = self.parts.clone();
         if self.is_begun {
@@ -129,7 +131,7 @@ impl TextDigest {
         parts
     }
 
-    /// The checksums that a sidecar records, with that of the `file` which holds the text.
+    /// Returns the checksums for a sidecar. `file` is the checksum of the file that contains the text.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let parts = self.parts();
         let header = parts.first().map_or_else(String::new, |part| format!("{part:08x}"));

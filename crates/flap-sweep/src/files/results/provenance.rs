@@ -1,4 +1,4 @@
-//! The origin of rows, as far as it decides them: the metadata that Parquet files carry, written and read back.
+//! Origin of rows: the metadata of Parquet files, for writing and reading.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,19 +14,19 @@ use crate::plan::{Plan, PointsFile, Source};
 use crate::run::identity::Identity;
 use crate::table::layout::{Column, Layout};
 
-/// The columns of a file and the origin of its rows.
+/// Columns of a file and the origin of its rows.
 ///
-/// Nothing in it depends on when, where or on how many threads a plan is run, so that equal rows are equal files.
+/// It is independent of time, machine and number of threads, so equal rows give equal files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Provenance {
-    /// The columns, from left to right.
+    /// Columns, from left to right.
     pub columns: Vec<Column>,
     /// Keys with their texts.
     pub entries: Vec<(String, String)>,
 }
 
 impl Provenance {
-    /// The origin of the rows of `plan`; `identity` gives the version and the arithmetic.
+    /// Returns the origin of the rows of `plan`. `identity` contains version and arithmetic.
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
@@ -54,10 +54,11 @@ impl Provenance {
     }
 }
 
-/// The devices that a grid begins with, as `[[device]]` tables.
+/// Devices of a grid, as `[[device]]` tables.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Devices {
-    /// With their paths from the folder of the grid file: equal grids in different folders are equal files.
+    /// Devices with their paths relative to the folder of the grid file, so that equal grids in different folders
+    /// give equal files.
     #[serde(default)]
     device: Vec<Source>,
 }
@@ -72,7 +73,7 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// The parameters before the axes are applied, without those that follow others.
+/// Returns the parameters before the axes are applied, without parameters that follow others.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),
@@ -83,33 +84,35 @@ pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     set.map(|(parameter, base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }
 
-/// `value` as TOML. Names, numbers and words always have a text.
+/// Returns `value` as TOML. For names, numbers and words this never fails.
 fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
 }
 
-/// The entries that [`Provenance`] writes, by their keys.
+/// Entries that [`Provenance`] writes, by key.
 #[derive(Clone, Debug)]
 pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
 
 impl<'a> Recorded<'a> {
-    /// The entries of a file, if flap has written them.
+    /// Returns the entries of a file, if flap wrote them.
     pub fn of(entries: &'a [(String, String)]) -> Option<Recorded<'a>> {
         let entries: BTreeMap<&str, &str> =
             entries.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();
         entries.contains_key("flap").then_some(Recorded(entries))
     }
 
-    /// The unit of each column that has one.
+    /// Returns the unit of each column that has one.
     pub fn units(&self) -> BTreeMap<String, String> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
     }
 
-    /// The plan of these rows, which may be only some of its points. `None` if the grid file is of another version of flap, its
-    /// devices were not recorded, or a file of points has moved or changed.
+    /// Returns the plan of these rows, which may contain only some of its points.
+    ///
+    /// `None` if the grid file belongs to another version of flap, its devices were not recorded, or a file of points
+    /// has moved or changed.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
         let Devices { device } = toml::from_str(self.text("flap.devices")).ok()?;
-        // Devices were named from the folder of the grid file, which is that of the name here.
+        // Devices are named relative to the folder of the grid file, which is the folder of this name.
         let plan = grid::parse_recorded("grid", self.text("flap.grid"), &device, models).ok()?;
         let solver = toml::from_str(self.text("flap.solver")).ok()?;
         let plan = plan.with_solver(solver).ok()?;
@@ -117,7 +120,7 @@ impl<'a> Recorded<'a> {
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }
 
-    /// The entry `key`, such as `flap.build`; empty if there is none.
+    /// Returns the entry `key`, such as `flap.build`; empty if there is none.
     pub fn text(&self, key: &str) -> &'a str {
         self.0.get(key).copied().unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! Rows out of a file of any format, as text, and their digest.
+//! Reads rows from a file of any format, as text, and computes their digest.
 
 use std::fmt;
 use std::fs::File;
@@ -10,23 +10,23 @@ use super::{Format, TextDigest, text, text_sum};
 use crate::files::csv_sink::cause;
 use crate::notation::text::count;
 
-/// Longest line, or lines without a row in them: 16 MiB. A line of results has some hundred bytes, and one of ten thousand
-/// columns has less than 1 MiB.
+/// Longest line, or lines without a row: 16 MiB. A line of results has some hundred bytes, with ten thousand columns
+/// less than 1 MiB.
 const LONGEST_LINE: usize = 16 << 20;
 
-/// A reader that fails within a line that is too long: a few bytes of a compressed file can stand for a line of any length.
+/// A reader that fails within a line that is too long. A few compressed bytes can expand to a line of any length.
 pub struct Bounded<R> {
     source: R,
     since_line: usize,
 }
 
 impl<R: Read> Bounded<R> {
-    /// Reads from `source`.
+    /// Returns a reader of `source`.
     pub fn new(source: R) -> Bounded<R> {
         Bounded { source, since_line: 0 }
     }
 
-    /// Begins a new line: the one before was read to its end.
+    /// Begins a new line, after the previous line was read to its end.
     pub fn begin_line(&mut self) {
         self.since_line = 0;
     }
@@ -37,7 +37,7 @@ impl<R: Read> Read for Bounded<R> {
         if self.since_line > LONGEST_LINE {
             let message =
                 format!("a line is longer than {} MiB: this is not a table of numbers", LONGEST_LINE >> 20);
-            // The kind of this error is one that readers of damaged lines do not skip: nothing behind it can be read.
+            // An error of this kind ends reading. Readers skip damaged lines only for other kinds.
             return Err(io::Error::other(message));
         }
         let count = self.source.read(buffer)?;
@@ -46,24 +46,24 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-/// Reads the rows of a result file in their order.
+/// Reader of the rows of a result file in their order.
 pub struct Reader {
     names: Vec<String>,
     rows: Rows,
     missed: Option<Missed>,
 }
 
-/// The rows that a tolerant reader left out.
+/// Rows that a tolerant reader left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missed {
-    /// Number of lines that are no rows.
+    /// Number of lines that are not rows.
     pub rows: u64,
-    /// Reason why nothing behind the last row can be read.
+    /// Reason for an unreadable rest after the last row.
     pub rest: Option<String>,
 }
 
 impl Missed {
-    /// True if nothing was left out.
+    /// Returns true if nothing was left out.
     pub fn is_none(&self) -> bool {
         *self == Missed::default()
     }
@@ -77,7 +77,7 @@ impl fmt::Display for Missed {
         }
         if let Some(reason) = &self.rest {
             let between = if self.rows > 0 { "; " } else { "" };
-            write!(f, "{between}everything behind the last readable row is left out ({reason})")?;
+            write!(f, "{between}everything after the last readable row is left out ({reason})")?;
         }
         Ok(())
     }
@@ -90,10 +90,10 @@ enum Rows {
 }
 
 impl Reader {
-    /// Reads from the beginning of `file`.
+    /// Returns a reader at the beginning of `file`.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the file is not of this format
+    /// - [`io::ErrorKind::InvalidData`] if the file does not have this format
     /// - [`io::ErrorKind::Other`] if flap was built without Parquet
     /// - the error of the operating system if the file cannot be read
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
@@ -109,40 +109,40 @@ impl Reader {
         }
     }
 
-    /// Reads text, plain or compressed.
+    /// Returns a reader of text, plain or compressed.
     pub(crate) fn of_text(source: impl Read + 'static, format: Format) -> io::Result<Reader> {
         let mut rows = csv::Reader::from_reader(Bounded::new(text::decoded(source, format)?));
         let names = rows.headers().map_err(cause)?.iter().map(str::to_owned).collect();
         Ok(Reader { names, rows: Rows::Text(rows), missed: None })
     }
 
-    /// Makes the reader tolerant: from now on it leaves out rows that cannot be read, instead of giving an error.
+    /// Makes the reader tolerant: from now on it leaves out unreadable rows instead of returning an error.
     pub(crate) fn tolerate(&mut self) {
         self.missed = Some(Missed::default());
     }
 
-    /// True if rows that cannot be read are left out.
+    /// Returns true if the reader leaves out unreadable rows.
     pub fn is_tolerant(&self) -> bool {
         self.missed.is_some()
     }
 
-    /// The rows that were left out, if there are any.
+    /// Returns the rows that were left out, if there are any.
     pub fn missed(&self) -> Option<&Missed> {
         self.missed.as_ref().filter(|missed| !missed.is_none())
     }
 
-    /// Counts the last row among those left out, and returns true; false if the reader is not tolerant.
+    /// Counts the last row as left out and returns true; returns false if the reader is not tolerant.
     pub fn leave_out(&mut self) -> bool {
         self.missed.as_mut().map(|missed| missed.rows += 1).is_some()
     }
 
-    /// The column names.
+    /// Returns the column names.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). Empty for other
-    /// formats.
+    /// Returns the metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). Empty
+    /// for other formats.
     pub fn entries(&self) -> &[(String, String)] {
         match &self.rows {
             Rows::Text(_) => &[],
@@ -151,16 +151,16 @@ impl Reader {
         }
     }
 
-    /// Reads the next row into `row`; false if there is none left.
+    /// Reads the next row into `row`. Returns false if there is none left.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the row does not fit the header, or is damaged
+    /// - [`io::ErrorKind::InvalidData`] if the row does not match the header, or is damaged
     /// - the error of the operating system if the file cannot be read
     pub fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         loop {
             match (self.read(row), &mut self.missed) {
                 (Err(error), Some(missed)) if error.raw_os_error().is_none() => {
-                    // A damaged line is alone; a damaged frame or page hides the lines behind it.
+                    // After a damaged line, the next line can be read. After a damaged frame or page, nothing can.
                     if matches!(self.rows, Rows::Text(_)) && error.kind() == io::ErrorKind::InvalidData {
                         missed.rows += 1;
                     } else {
@@ -186,7 +186,8 @@ impl Reader {
     }
 }
 
-/// The digest of the rows in `file` as text; with an error if that ends where the file cannot be decoded.
+/// Returns the digest of the rows in `file` as text, and an error if the digest ends where the file cannot be
+/// decoded.
 pub(crate) fn sum_up(file: File, format: Format) -> (TextDigest, io::Result<()>) {
     match format {
         #[cfg(feature = "parquet")]

@@ -1,4 +1,4 @@
-//! A check that rows are those of a plan, each in its place, with cells that fit their columns; and a reader that checks each row.
+//! Checks that rows belong to a plan, are in order, and have cells that match their columns.
 
 use std::io;
 
@@ -10,28 +10,28 @@ use crate::plan::Plan;
 use crate::plan::selection::Selection;
 use crate::table::layout::{Cell, Column, Layout};
 
-/// A check of rows in their order.
+/// Check of rows in their order.
 pub struct RowCheck {
     columns: Vec<Column>,
     status: usize,
     selection: Selection,
     points: u64,
-    /// Number of rows that were written; `None` if it is not known.
+    /// Number of written rows; `None` if unknown.
     rows: Option<u64>,
     /// First position among the selected points that the next row may have.
     next: u64,
     seen: u64,
-    /// True if no point may be left out.
+    /// True if every point must have a row.
     is_dense: bool,
-    /// True if a point may have more than one row: a design of a response has a curve of them.
+    /// True if a point may have several rows, as for a design with a response curve.
     is_repeated: bool,
 }
 
-/// A row that is not the next one of the plan. Rows are counted from 1.
+/// Error of a row that is not the next row of the plan. Rows count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RowError {
-    /// It has another number of cells than there are columns.
-    #[error("row {row} has {cells} cells, not {columns}")]
+    /// The number of cells differs from the number of columns.
+    #[error("row {row} has {cells} cells instead of {columns}")]
     Width {
         /// Number of the row.
         row: u64,
@@ -40,7 +40,7 @@ pub enum RowError {
         /// Number of columns.
         columns: usize,
     },
-    /// A cell does not fit its column.
+    /// A cell does not match the type of its column.
     #[error("row {row}: `{cell}` does not fit column {column}")]
     Cell {
         /// Number of the row.
@@ -50,32 +50,32 @@ pub enum RowError {
         /// Name of the column.
         column: String,
     },
-    /// There is no such status.
-    #[error("row {row}: there is no status `{status}`")]
+    /// The status does not exist.
+    #[error("row {row}: `{status}` is not a status")]
     Status {
         /// Number of the row.
         row: u64,
-        /// The cell of the status.
+        /// Cell of the status.
         status: String,
     },
     /// The plan does not select the point.
-    #[error("row {row} is of point `{point}`, which was not run")]
+    #[error("row {row} belongs to point `{point}`, which was not run")]
     Point {
         /// Number of the row.
         row: u64,
-        /// The cell of the point.
+        /// Cell of the point.
         point: String,
     },
-    /// The point is not behind that of the row before.
-    #[error("row {row} is of point {point}: it comes twice or out of order")]
+    /// The point does not follow the point of the previous row.
+    #[error("row {row} belongs to point {point}: it is repeated or out of order")]
     Order {
         /// Number of the row.
         row: u64,
         /// Index of the point.
         point: u64,
     },
-    /// A point between this row and the one before has no row.
-    #[error("row {row} is of point {point}: the row of point {missing} is missing")]
+    /// A point between the previous row and this one has no row.
+    #[error("row {row} belongs to point {point}: the row of point {missing} is missing")]
     Gap {
         /// Number of the row.
         row: u64,
@@ -84,8 +84,8 @@ pub enum RowError {
         /// Index of the point without a row.
         missing: u64,
     },
-    /// The file has another number of rows than were written.
-    #[error("it holds {found} rows, but {written} were written")]
+    /// The number of rows differs from the number of written rows.
+    #[error("it contains {found} rows, but {written} were written")]
     Count {
         /// Number of rows in the file.
         found: u64,
@@ -95,12 +95,12 @@ pub enum RowError {
 }
 
 impl RowCheck {
-    /// A check of the rows of `plan`; `rows` is the number of rows that were written, if it is known.
+    /// Returns a check of the rows of `plan`. `rows` is the number of written rows, if known.
     pub fn new(plan: &Plan, rows: Option<u64>) -> RowCheck {
         RowCheck::of(plan, plan.selection().clone(), rows)
     }
 
-    /// A check of the rows of other points than `plan` selects.
+    /// Returns a check of the rows of other points than `plan` selects.
     pub fn of(plan: &Plan, selection: Selection, rows: Option<u64>) -> RowCheck {
         let columns = Layout::of(plan).columns();
         let status = columns.iter().position(|column| column.name == "status").unwrap_or(0);
@@ -117,21 +117,21 @@ impl RowCheck {
         }
     }
 
-    /// True if the plan's columns have these names.
+    /// Returns true if the plan's columns have these names.
     pub(crate) fn has_columns(&self, names: &[String]) -> bool {
         names.iter().eq(self.columns.iter().map(|column| &column.name))
     }
 
-    /// Allows missing rows from now on: for a reader that leaves out rows which it cannot read.
+    /// Allows missing rows from now on, for a reader that leaves out unreadable rows.
     pub fn allow_gaps(&mut self) {
         self.is_dense = false;
         self.rows = None;
     }
 
-    /// The point of the next row.
+    /// Checks the next row and returns its point.
     ///
     /// # Errors
-    /// [`RowError`] if it is not the next row of the plan.
+    /// [`RowError`] if the row is not the next row of the plan.
     pub fn row(&mut self, cells: &StringRecord) -> Result<u64, RowError> {
         let row = self.seen + 1;
         let columns = self.columns.len();
@@ -165,10 +165,10 @@ impl RowCheck {
         Ok(point)
     }
 
-    /// Checks at the end that no row is missing.
+    /// Checks after the last row that no row is missing.
     ///
     /// # Errors
-    /// [`RowError::Count`] if there were more or fewer rows than were written.
+    /// [`RowError::Count`] if the number of rows differs from the number of written rows.
     pub fn end(&self) -> Result<(), RowError> {
         match self.rows {
             Some(written) if written != self.seen => Err(RowError::Count { found: self.seen, written }),
@@ -176,7 +176,7 @@ impl RowCheck {
         }
     }
 
-    /// The position of a point among those selected.
+    /// Returns the position of a point among the selected points.
     fn position(&self, point: u64) -> Option<u64> {
         if point >= self.points {
             return None;
@@ -189,32 +189,32 @@ impl RowCheck {
     }
 }
 
-/// A reader whose rows are checked. If it is tolerant, rows that fail the check are left out.
+/// A reader that checks its rows. If it is tolerant, it leaves out rows that fail the check.
 pub(crate) struct Checked<'a> {
     reader: &'a mut Reader,
     check: RowCheck,
     row: StringRecord,
 }
 
-/// Rows that are not those of the plan, or cannot be read.
+/// Error of rows that cannot be read or do not belong to the plan.
 #[derive(Debug, thiserror::Error)]
 pub enum RowsError {
     /// The file cannot be read.
     #[error(transparent)]
     Read(#[from] io::Error),
-    /// The file has other columns.
-    #[error("its columns differ from those of the grid in its sidecar")]
+    /// The file's columns differ from the plan's columns.
+    #[error("its columns differ from the columns of the grid in its sidecar")]
     Columns,
-    /// A row is not the next one of the plan.
+    /// A row is not the next row of the plan.
     #[error(transparent)]
     Row(#[from] RowError),
 }
 
 impl<'a> Checked<'a> {
-    /// Checks the rows of `reader`, which is at its first row.
+    /// Returns a reader that checks the rows of `reader`, which must be at its first row.
     ///
     /// # Errors
-    /// [`RowsError::Columns`] if the file has other columns than the plan.
+    /// [`RowsError::Columns`] if the file's columns differ from the plan's columns.
     pub(crate) fn new(reader: &'a mut Reader, mut check: RowCheck) -> Result<Checked<'a>, RowsError> {
         if !check.has_columns(reader.names()) {
             return Err(RowsError::Columns);
@@ -225,11 +225,11 @@ impl<'a> Checked<'a> {
         Ok(Checked { reader, check, row: StringRecord::new() })
     }
 
-    /// Reads the next row, and gives its point; `None` behind the last one.
+    /// Reads the next row and returns its point; `None` after the last row.
     ///
     /// # Errors
     /// - [`RowsError::Read`] if the file cannot be read
-    /// - [`RowsError::Row`] if the row is not the next one of the plan, or rows are missing at the end
+    /// - [`RowsError::Row`] if the row is not the next row of the plan, or rows are missing at the end
     pub(crate) fn next(&mut self) -> Result<Option<u64>, RowsError> {
         while self.reader.next(&mut self.row)? {
             match self.check.row(&self.row) {
@@ -242,7 +242,7 @@ impl<'a> Checked<'a> {
         Ok(None)
     }
 
-    /// The cells of the row that was read last.
+    /// Returns the cells of the last row.
     pub(crate) fn row(&self) -> &StringRecord {
         &self.row
     }

@@ -1,4 +1,4 @@
-//! Rows as lines of comma-separated values, plain or compressed, into a file with a checksum.
+//! Writes rows as lines of comma-separated values, plain or compressed, into a file with a checksum.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -11,30 +11,33 @@ use crate::notation::text::digits;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Compression level, Zstandard's default: higher ones take longer and save little on digits.
+/// Compression level: Zstandard's default. Higher levels take longer and hardly reduce the size.
 const LEVEL: i32 = 3;
 
-/// Binary logarithm of the memory that reading a compressed file may take (bytes): the limit of the command `zstd`.
+/// Binary logarithm of the memory for reading a compressed file (bytes): the limit of the command `zstd`.
 const WINDOW_LOG_MAX: u32 = 27;
 
-/// Writes one header line, then one line per row: [`Format::Csv`] as plain text, other formats in compressed frames of
-/// [`BLOCK_ROWS`] rows.
+/// Writer of one header line, then one line per row.
+///
+/// [`Format::Csv`] is plain text. Other formats have compressed frames of [`BLOCK_ROWS`] rows.
 pub struct TextRows {
     lines: Lines<Frames>,
     rows_in_block: u32,
 }
 
 impl TextRows {
-    /// Writes to `file`, which is empty.
+    /// Returns a writer to `file`, which must be empty.
     ///
     /// # Errors
-    /// [`io::ErrorKind::Other`] if there is no memory for the compressor.
+    /// [`io::ErrorKind::Other`] if there is not enough memory for the compressor.
     pub fn new(file: File, format: Format) -> io::Result<TextRows> {
         TextRows::on(Hashed::new(file), format, TextDigest::new())
     }
 
-    /// Continues behind the `bytes` in `file` whose hash is `hash`, and whose rows are `text`. These bytes end where a row and
-    /// a frame end.
+    /// Returns a writer that continues after `bytes` bytes of `file`, which have the hash `hash` and contain the rows
+    /// `text`.
+    ///
+    /// These bytes must end where a row and a frame end.
     pub(crate) fn after(
         file: File,
         format: Format,
@@ -53,7 +56,7 @@ impl TextRows {
         Ok(TextRows { lines: Lines::new(frames), rows_in_block: 0 })
     }
 
-    /// Writes the header, which is a frame of its own.
+    /// Writes the header, which is a separate frame.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -71,7 +74,7 @@ impl TextRows {
         self.end_row()
     }
 
-    /// Writes a row whose cells are not text yet.
+    /// Writes a row of cells that are not text.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -89,7 +92,7 @@ impl TextRows {
         Ok(())
     }
 
-    /// Hands rows to the operating system, except in compressed files, where that would change the bytes.
+    /// Passes rows to the operating system, except in compressed files, where this would change the bytes.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -97,7 +100,7 @@ impl TextRows {
         if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
 
-    /// Ends the file here, even within a frame.
+    /// Ends the file, also within a frame.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -105,24 +108,26 @@ impl TextRows {
         self.lines.flush()
     }
 
-    /// True if a run that is resumed here yields the bytes of one that was not interrupted.
+    /// Returns true if a run resumed at this row produces the same bytes as an uninterrupted run.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
-    /// The part of the file that is written; all rows are in it after [`TextRows::flush`] where the file may be cut.
+    /// Returns number and checksum of the written bytes. If the file may be cut here, they contain all rows after
+    /// [`TextRows::flush`].
     pub(crate) fn extent(&self) -> FileSum {
         self.lines.target().file.sum()
     }
 
-    /// The checksums of all rows after [`TextRows::finish`], with that of the file they were written to, or `file` if they
-    /// have been converted into another one.
+    /// Returns the checksums of all rows after [`TextRows::finish`].
+    ///
+    /// `file` is the checksum of the file that contains the converted rows; `None` for the file written here.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let frames = self.lines.target();
         frames.text.checksums(file.or_else(|| Some(frames.file.sum())))
     }
 
-    /// The file.
+    /// Returns the file.
     pub fn file(&self) -> &File {
         &self.lines.target().file.file
     }
@@ -137,11 +142,11 @@ struct Frames {
     file: Hashed,
     compressor: Option<zstd::bulk::Compressor<'static>>,
     frame: Vec<u8>,
-    /// Digest of the text before it is compressed.
+    /// Digest of the uncompressed text.
     text: TextDigest,
 }
 
-/// A compressor whose frames end in a checksum, so that any reader notices damage.
+/// Returns a compressor whose frames end in a checksum, so that any reader detects damage.
 fn compressor() -> io::Result<zstd::bulk::Compressor<'static>> {
     let mut compressor = zstd::bulk::Compressor::new(LEVEL)?;
     compressor.include_checksum(true)?;
@@ -171,15 +176,16 @@ impl Write for Frames {
     }
 }
 
-/// The digest of the text of rows in `source`, which is not Parquet; with an error if that ends where it cannot be
-/// decompressed.
+/// Returns the digest of the text of rows in `source`, which must not be Parquet.
+///
+/// Also returns an error if the digest ends where the text cannot be decompressed.
 pub(crate) fn text_sum(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = decoded(source, format).and_then(|mut text| io::copy(&mut text, &mut digest));
     (digest, summed.map(|_| ()))
 }
 
-/// The text of rows in `source`, which is not Parquet.
+/// Returns the text of rows in `source`, which must not be Parquet.
 pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<Box<dyn Read + 'a>> {
     let mut source = BufReader::with_capacity(1 << 16, source);
     match format {
@@ -188,7 +194,7 @@ pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<
             decoder.window_log_max(WINDOW_LOG_MAX)?;
             Ok(Box::new(decoder))
         }
-        // A file without frames is a text without characters.
+        // A file without frames contains no text.
         _ => Ok(Box::new(source)),
     }
 }
@@ -201,17 +207,17 @@ pub(super) struct Hashed {
 }
 
 impl Hashed {
-    /// An empty file.
+    /// Returns an empty file.
     pub(super) fn new(file: File) -> Hashed {
         Hashed::after(file, Xxh3Default::new(), 0)
     }
 
-    /// A file that holds `bytes` bytes already, whose hash is `hash`.
+    /// Returns a file that already contains `bytes` bytes with the hash `hash`.
     pub(super) fn after(file: File, hash: Xxh3Default, bytes: u64) -> Hashed {
         Hashed { file, hash, bytes }
     }
 
-    /// Number and checksum of the bytes in the file.
+    /// Returns number and checksum of the bytes in the file.
     pub(super) fn sum(&self) -> FileSum {
         FileSum { bytes: self.bytes, xxh3: digits(self.hash.digest()) }
     }

@@ -1,4 +1,4 @@
-//! Rows as text into a file of any format, and conversions from one format to another.
+//! Writes rows as text into a file of any format, and converts files from one format to another.
 
 use std::fs::File;
 use std::io;
@@ -8,7 +8,7 @@ use csv::StringRecord;
 use super::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, TextRows};
 use crate::files::disk::Durable as _;
 
-/// A file of any format that takes rows as text.
+/// Writer of rows as text to a file of any format.
 pub struct Writer(Rows);
 
 enum Rows {
@@ -18,7 +18,7 @@ enum Rows {
 }
 
 impl Writer {
-    /// Begins an empty file.
+    /// Creates an empty file.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -40,7 +40,7 @@ impl Writer {
     /// Writes a row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if a cell does not fit its column
+    /// - [`io::ErrorKind::InvalidData`] if a cell does not match its column
     /// - the error of the operating system if the file cannot be written
     pub fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
         match &mut self.0 {
@@ -50,7 +50,7 @@ impl Writer {
         }
     }
 
-    /// Completes the file, makes it durable, and gives its checksums.
+    /// Completes the file, makes it durable, and returns its checksums.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -67,18 +67,18 @@ impl Writer {
     }
 }
 
-/// Rows that cannot be converted.
+/// Error of rows that cannot be converted.
 #[derive(Debug, thiserror::Error)]
 pub enum ConvertError {
-    /// They cannot be read, or are not those of the plan.
+    /// The rows cannot be read, or do not belong to the plan.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// They cannot be written.
+    /// The rows cannot be written.
     #[error("cannot write rows: {0}")]
     Write(#[from] io::Error),
 }
 
-/// The rows and the file that a conversion has written.
+/// Result of a conversion.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Converted {
     /// Number of rows.
@@ -87,7 +87,8 @@ pub struct Converted {
     pub checksums: Checksums,
 }
 
-/// Writes the rows of `from` to `to`, which is empty. Rows of a tolerant reader that fail `check` are left out.
+/// Writes the rows of `from` to `to`, which must be empty. If `from` is tolerant, rows that fail `check` are left
+/// out.
 ///
 /// # Errors
 /// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`

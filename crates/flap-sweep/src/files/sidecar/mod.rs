@@ -1,8 +1,8 @@
-//! The file beside the results that records where they come from: `<results>.meta.toml`.
+//! The sidecar, which records the origin of results: `<results>.meta.toml`.
 //!
-//! It is written when a sweep starts, with `state = "running"`, and again when it ends. Each time it is replaced as a whole,
-//! so a reader never sees an incomplete sidecar. It has all that is needed to run the sweep again and to check the results.
-//! Its first line is the checksum of the others.
+//! It is written when a sweep starts, with `state = "running"`, and again when it ends. Each time it is replaced as a
+//! whole, so a reader never gets an incomplete sidecar. It contains everything for running the sweep again and
+//! checking the results. Its first line is the checksum of the other lines.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -26,12 +26,12 @@ pub use to_plan::PlanError;
 
 mod to_plan;
 
-/// The contents of a sidecar.
+/// Contents of a sidecar.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sidecar {
     /// State of the sweep.
     pub state: State,
-    /// Reason of a failure.
+    /// Error message of a failed sweep.
     pub error: Option<String>,
     /// Name of the model.
     pub model: String,
@@ -39,7 +39,7 @@ pub struct Sidecar {
     pub preset: String,
     /// Number of points of the grid.
     pub points: u64,
-    /// The shard that is run, such as `2/3`; `None` for all points.
+    /// Shard, such as `2/3`; `None` for all points.
     pub shard: Option<String>,
     /// Start of the first session, as RFC 3339 in UTC.
     pub started: String,
@@ -49,27 +49,27 @@ pub struct Sidecar {
     pub seconds: Option<f64>,
     /// Number of worker threads.
     pub threads: usize,
-    /// Instructions of the lanes.
+    /// Instruction set of the lanes.
     pub instructions: String,
-    /// Path of the file that lists the points of the sample, from the working directory, if one does.
+    /// Path of the file that lists the points of the sample, relative to the working directory, if there is one.
     pub points_file: Option<String>,
-    /// The build, the settings and the hashes that decide the rows.
+    /// Build, settings and hashes that determine the rows.
     pub identity: Identity,
-    /// The summary of the rows, once the sweep has ended.
+    /// Summary of the rows, once the sweep has ended.
     pub summary: Option<Summary>,
-    /// The points of a rerun.
+    /// Points of a rerun.
     pub rerun: Option<Rerun>,
-    /// The parameter that is followed, if the points are designs with a curve of rows each.
+    /// Followed parameter, if the points are designs with response curves.
     pub followed: Option<Followed>,
-    /// The parameters before the axes are applied, without those that follow others.
+    /// Parameters before the axes are applied, without parameters that follow others.
     parameters: BTreeMap<String, Value>,
-    /// The parameters that are varied.
+    /// Varied parameters.
     varied: Vec<Unit>,
-    /// The measures in the rows.
+    /// Measures in the rows.
     columns: Vec<Unit>,
-    /// The grid file.
+    /// Grid file.
     pub grid: Source,
-    /// The devices that the grid begins with: its own, then those that this one begins with.
+    /// Devices of the grid: its own device first, then the devices on which this one is based.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub devices: Vec<Source>,
     /// Checksums of complete results.
@@ -80,45 +80,45 @@ pub struct Sidecar {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// Running, or killed while it was.
+    /// The sweep is running, or was killed while running.
     Running,
-    /// Every row is written.
+    /// All rows are written.
     Complete,
-    /// Stopped before the end.
+    /// The sweep was stopped before the end.
     Interrupted,
-    /// Failed before the end.
+    /// The sweep failed before the end.
     Failed,
 }
 
-/// The earlier results that the points of a rerun are taken from.
+/// Earlier results that contain the points of a rerun.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
-    /// The result file.
+    /// Result file.
     pub of: String,
-    /// The statuses of the points there.
+    /// Statuses of the points there.
     pub statuses: Vec<String>,
 }
 
-/// The points of a rerun.
+/// Points of a rerun.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rerun {
-    /// The earlier results.
+    /// Earlier results.
     #[serde(flatten)]
     pub origin: Origin,
-    /// The indices of the points, such as `3,17,20-31`.
+    /// Indices of the points, such as `3,17,20-31`.
     pub points: String,
 }
 
-/// The parameter that rises and falls in a response, see [`Along`].
+/// Parameter that rises and falls in a response, see [`Along`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// Its name.
+    /// Name of the parameter.
     pub parameter: String,
-    /// Its values, rising.
+    /// Values, in ascending order.
     pub values: Vec<f64>,
     /// Largest error of the ends of bistable bands.
     pub tolerance: f64,
-    /// True if the unstable orbits of bistable bands are looked for.
+    /// True if unstable orbits of bistable bands are computed.
     pub unstable: bool,
 }
 
@@ -136,8 +136,9 @@ impl Unit {
 }
 
 impl Sidecar {
-    /// The contents for a sweep of `plan` that starts at the time `started`. `origin` names the earlier results that the points of a
-    /// rerun are taken from.
+    /// Returns the contents for a sweep of `plan` that starts at the time `started`.
+    ///
+    /// `origin` are the earlier results that contain the points of a rerun.
     pub fn new(plan: &Plan, started: String, options: &RunOptions, origin: Option<Origin>) -> Sidecar {
         let layout = Layout::of(plan);
         let (shard, rerun) = match plan.selection() {
@@ -182,7 +183,7 @@ impl Sidecar {
         self.seconds = Some(seconds);
     }
 
-    /// Records that the sweep failed with `error`, after `seconds` of running.
+    /// Records the failure of the sweep with the message `error`, after `seconds` of running.
     pub fn fail(&mut self, error: String, finished: String, seconds: f64) {
         self.state = State::Failed;
         self.error = Some(error);
@@ -190,73 +191,73 @@ impl Sidecar {
         self.seconds = Some(seconds);
     }
 
-    /// Number of rows of complete results.
+    /// Returns the number of rows of complete results.
     pub fn rows(&self) -> Option<u64> {
         let summary = self.summary.as_ref().filter(|_| self.state == State::Complete);
         summary.map(|summary| summary.rows)
     }
 
-    /// The earlier results that the points are taken from, if these are the results of a rerun.
+    /// Returns the earlier results that contain the points, if these are the results of a rerun.
     pub fn origin(&self) -> Option<&Origin> {
         self.rerun.as_ref().map(|rerun| &rerun.origin)
     }
 }
 
-/// The parameter that a plan follows.
+/// Returns the parameter that a plan follows.
 fn followed(plan: &Plan) -> Option<Followed> {
     let Along { parameter, values, tolerance, unstable } = plan.followed()?.clone();
     let parameter = plan.parameters()[parameter].name.to_owned();
     Some(Followed { parameter, values, tolerance, unstable })
 }
 
-/// The beginning of the first line, which is also TOML: other readers need not know it.
+/// Beginning of the first line. It is TOML too, so other readers need not treat it specially.
 const CHECKSUM: &str = "checksum = \"";
 
-/// A file that cannot be used as a sidecar.
+/// Error of a file that cannot be used as a sidecar.
 #[derive(Debug, thiserror::Error)]
 pub enum SidecarError {
-    /// It cannot be read.
-    #[error("{}: cannot be read: {source}", path.display())]
+    /// The file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// The error of the operating system.
         source: io::Error,
     },
-    /// It is not a sidecar.
+    /// The file is not a sidecar.
     #[error("{}: not a sidecar of results: {reason}", path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// The mistake in it.
+        /// Mistake in the file.
         reason: String,
     },
-    /// It has changed since flap wrote it.
+    /// The file has changed since flap wrote it.
     #[error("{} is damaged: {reason}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// The sign of the change.
+        /// Evidence of the change.
         reason: &'static str,
     },
 }
 
-/// A text that is not one of a sidecar.
+/// Error of a text that is not a sidecar.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseError {
-    /// It never was one.
+    /// The text does not have the format of a sidecar.
     #[error("{0}")]
     Format(String),
-    /// It has changed since it was written.
+    /// The text has changed since it was written.
     #[error("{0}")]
     Damaged(&'static str),
 }
 
 impl Sidecar {
-    /// The text of the file.
+    /// Returns the text of the file.
     ///
     /// # Errors
-    /// [`toml::ser::Error`] if TOML cannot hold a number, such as 2^63 points.
+    /// [`toml::ser::Error`] if TOML cannot represent a number, such as 2^63 points.
     pub fn text(&self) -> Result<String, toml::ser::Error> {
         let contents = toml::to_string(self)?;
         Ok(format!("{CHECKSUM}{}\"\n{contents}", text::hash(&contents)))
@@ -272,7 +273,7 @@ impl Sidecar {
         Sidecar::read_as(path, Sidecar::parse)
     }
 
-    /// Reads the file, damaged or not.
+    /// Reads the file without requiring a correct checksum.
     ///
     /// # Errors
     /// - [`SidecarError::Io`] if it cannot be read
@@ -298,7 +299,7 @@ impl Sidecar {
         })
     }
 
-    /// Reads the bytes of the file.
+    /// Parses the bytes of the file.
     ///
     /// # Errors
     /// - [`ParseError::Format`] if they are not a sidecar
@@ -317,14 +318,14 @@ impl Sidecar {
         Err(ParseError::Damaged("its first line is not its checksum"))
     }
 
-    /// Reads the bytes of the file without its checksum line, or with one that is ignored. Bytes that are not UTF-8 become
-    /// U+FFFD.
+    /// Parses the bytes of the file without its checksum line, or with any checksum line. Bytes that are not UTF-8
+    /// become U+FFFD.
     fn parse_damaged(bytes: &[u8]) -> Result<Sidecar, ParseError> {
         toml::from_str(&String::from_utf8_lossy(bytes))
             .map_err(|error| ParseError::Format(error.message().to_owned()))
     }
 
-    /// Writes the file, in place of an earlier one.
+    /// Writes the file. It replaces an earlier one.
     ///
     /// # Errors
     /// The error of the operating system if it cannot be written.
@@ -332,7 +333,7 @@ impl Sidecar {
         self.prepare(path)?.commit()
     }
 
-    /// Writes the file, which has its name once it is committed.
+    /// Writes the file under a temporary name. [`disk::Whole::commit`] gives it its final name.
     pub(crate) fn prepare(&self, path: &Path) -> io::Result<disk::Whole> {
         let text = self.text().map_err(io::Error::other)?;
         let whole = disk::Whole::begin(path)?;

@@ -13,38 +13,38 @@ use crate::plan::selection;
 use crate::plan::{Along, Plan, PointsFile};
 use crate::run::identity::{self, Identity};
 
-/// A sidecar without a plan.
+/// Error of a sidecar whose plan cannot be restored.
 #[derive(Debug, thiserror::Error)]
 pub enum PlanError {
-    /// The grid file in it has mistakes for this version of flap.
-    #[error("the grid in it has mistakes")]
+    /// The recorded grid file has mistakes for this version of flap.
+    #[error("the recorded grid has mistakes")]
     Grid(Mistakes),
-    /// The grid file in it has another hash than the one that was run.
-    #[error("the grid in it was edited after the sweep")]
+    /// The recorded grid file and the recorded hash differ.
+    #[error("the recorded grid was edited after the sweep")]
     GridText,
-    /// The points in it are not points of the grid.
-    #[error("its points are not points of its grid")]
+    /// The recorded points are not points of the grid.
+    #[error("the recorded points are not points of the recorded grid")]
     Points,
-    /// The solver settings in it are outside the limits of a grid file.
-    #[error("its solver settings are outside the limits of a grid file")]
+    /// The recorded solver settings are outside the limits of a grid file.
+    #[error("the recorded solver settings are outside the limits of a grid file")]
     Solver,
     /// The file of points has changed.
-    #[error("{} no longer holds the points that were run", .0.as_deref().unwrap_or("its file of points"))]
+    #[error("{} has changed since the points were run", .0.as_deref().unwrap_or("its file of points"))]
     PointsFile(Option<String>),
-    /// The model has no parameter or no option of a name in it.
-    #[error("its parameters are not those of its model")]
+    /// The model does not have a recorded parameter or option.
+    #[error("the recorded parameters are not parameters of the model")]
     Parameters,
 }
 
 impl Sidecar {
-    /// The plan of these rows, with the presets of `models`.
+    /// Returns the plan of these rows, with the presets of `models`.
     ///
     /// # Errors
-    /// - [`PlanError::GridText`] if the grid file in it was edited
-    /// - [`PlanError::Grid`] if it has mistakes: it is of another version of flap
+    /// - [`PlanError::GridText`] if the recorded grid file was edited
+    /// - [`PlanError::Grid`] if it has mistakes, because it belongs to another version of flap
     /// - [`PlanError::Solver`] if the solver settings are outside the limits of a grid file
     /// - [`PlanError::PointsFile`] if the file of points has changed
-    /// - [`PlanError::Parameters`] if the model of a response has no parameter or no option of a name in it
+    /// - [`PlanError::Parameters`] if the model of a response does not have a recorded parameter or option
     /// - [`PlanError::Points`] if the points that were run are not points of the grid
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let Identity { grid, devices, points_file, solver, .. } = &self.identity;
@@ -71,8 +71,9 @@ impl Sidecar {
         }
     }
 
-    /// The plan whose points are designs with a curve: without the axis of the followed parameter, and with the parameters of
-    /// the command line.
+    /// Returns the plan whose points are designs with response curves.
+    ///
+    /// It lacks the axis of the followed parameter, and contains the parameters of the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameter = Parameter::index(plan.parameters(), &followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);
@@ -88,7 +89,7 @@ impl Sidecar {
     }
 }
 
-/// The value of a parameter in a sidecar: a number, or the name of an option.
+/// Returns the value of a parameter in a sidecar: a number, or the name of an option.
 fn number(parameter: &Parameter, recorded: &Value) -> Option<f64> {
     match (recorded, &parameter.kind) {
         (Value::Float(number), _) => Some(*number),

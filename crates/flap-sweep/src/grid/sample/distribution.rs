@@ -1,4 +1,4 @@
-//! The distribution of a sampled parameter: `{ from, to }`, `{ mean, sd }`, or a list.
+//! Distribution of a sampled parameter: `{ from, to }`, `{ mean, sd }`, or a list.
 
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
@@ -16,8 +16,9 @@ const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// The distribution of `parameter`, which has the value `base` where it is not sampled. `None`, with a report, if it makes no
-/// sense.
+/// Returns the distribution of `parameter`. `None`, with a report, if there are mistakes.
+///
+/// `base` is the parameter's value without sampling.
 pub(super) fn read(
     parameter: &Parameter,
     base: Value,
@@ -55,18 +56,18 @@ pub(super) fn read(
     if has("mean") || has("sd") || has("relative_sd") { reader.normal(base) } else { reader.uniform() }
 }
 
-/// The reader of one distribution. Its methods return `None`, with a report, for what makes no sense.
+/// Reader of one distribution. Its methods return `None`, with a report, if there are mistakes.
 struct Reader<'a, 't> {
     parameter: &'a Parameter<'a>,
-    /// The entry of the parameter.
+    /// Entry of the parameter.
     whole: &'a Entry<'t>,
-    /// The entries of the distribution.
+    /// Entries of the distribution.
     entries: &'a [Entry<'t>],
     problems: &'a mut Problems,
 }
 
 impl Reader<'_, '_> {
-    /// The value of an end of the range, if it is given: `Err`, with a report, if it is wrong.
+    /// Returns an end of the range, if it is given; `Err`, with a report, if it is wrong.
     fn end(&mut self, key: &str) -> Result<Option<f64>, ()> {
         match table::find(self.entries, key) {
             Some(entry) => {
@@ -104,7 +105,7 @@ impl Reader<'_, '_> {
             return None;
         }
         let Some(mean) = mean.or(base.given()) else {
-            let message = format!("`{}` has no value of its own to be the mean", self.whole.key);
+            let message = format!("`{}` is not set, so it has no value for the mean", self.whole.key);
             self.problems.report(self.whole.value.span(), message).help("give the distribution a `mean`");
             return None;
         };
@@ -113,7 +114,7 @@ impl Reader<'_, '_> {
         self.sound(Distribution::Normal { mean, sd, from, to })
     }
 
-    /// The standard deviation in the unit of the parameter.
+    /// Returns the standard deviation in the unit of the parameter.
     fn sd(&mut self, mean: f64) -> Option<f64> {
         let (absolute, relative) =
             (table::find(self.entries, "sd"), table::find(self.entries, "relative_sd"));
@@ -136,7 +137,11 @@ impl Reader<'_, '_> {
         if sd > 0.0 && sd.is_finite() {
             return Some(sd);
         }
-        let message = format!("`{}` must come to more than zero, not {}", entry.key, value::shown(sd));
+        let message = format!(
+            "`{}` must give a standard deviation of more than zero, not {}",
+            entry.key,
+            value::shown(sd)
+        );
         let diagnostic = self.problems.report(entry.value.span(), message);
         if unit.is_none() && mean == 0.0 {
             diagnostic.help("the mean is zero: give `sd` in the unit of the parameter");
@@ -144,7 +149,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// The distribution, if it has values.
+    /// Returns the distribution, if it has values.
     fn sound(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }
@@ -160,7 +165,7 @@ impl Reader<'_, '_> {
             Distribution::Uniform { from, to } if !(to - from).is_finite() => TOO_WIDE,
             Distribution::LogUniform { from, to } if !(to / from).is_normal() => TOO_WIDE,
             Distribution::Normal { .. } if !distribution.is_possible() => {
-                "nothing of the normal distribution lies between `from` and `to`"
+                "the normal distribution has no values between `from` and `to`"
             }
             _ => return Some(distribution),
         };

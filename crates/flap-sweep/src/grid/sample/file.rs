@@ -1,4 +1,4 @@
-//! A sample from a file: a CSV table of points, with the names of parameters as headings.
+//! A sample from a file: a CSV table of points with the names of parameters as headings.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -16,13 +16,13 @@ use crate::notation::value::{self, UnitOf};
 use crate::plan::axes::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
-/// Mistakes in cells that are reported; a file with more has the wrong columns.
+/// Largest number of reported cells. A file with more mistakes has the wrong columns.
 const MOST_CELLS: usize = 10;
 
-/// Most bytes of a line: a heading or a number for each parameter has far fewer.
+/// Largest number of bytes in a line. A line of headings or numbers has far fewer.
 const LONGEST_LINE: usize = 1 << 20;
 
-/// The points of the file that the section names.
+/// Returns the points of the file that the section names.
 pub(super) fn read(
     section: &Entry<'_>,
     entries: &[Entry<'_>],
@@ -63,11 +63,12 @@ pub(super) fn read(
 struct Column<'t, 'p> {
     index: usize,
     parameter: &'p Parameter<'p>,
-    /// The unit in the heading; numbers in cells are in it.
+    /// Unit in the heading. Numbers in cells have this unit.
     unit: Option<&'t str>,
 }
 
-/// The values of the parameters, each with whether its heading has a unit, and true if there was nothing to report.
+/// Returns the values of the parameters, each with true if its heading has a unit. Also returns true if there are no
+/// mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
         let begin = line.as_ptr().addr() - source.text.as_ptr().addr();
@@ -123,7 +124,7 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
     (columns.collect(), mistakes == 0)
 }
 
-/// The parameter that a heading names, with or without a unit: `wing_area` or `wing_area [mm^2]`.
+/// Returns the parameter of a heading with or without a unit: `wing_area` or `wing_area [mm^2]`.
 fn heading<'t, 'p>(
     text: &'t str,
     span: &Range<usize>,
@@ -156,7 +157,7 @@ fn heading<'t, 'p>(
     Some(Column { index, parameter, unit })
 }
 
-/// The name in a heading, and the unit in brackets behind it; `None` if the brackets are not a pair at the end.
+/// Returns name and unit of a heading; `None` if its brackets are not a pair at the end.
 fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     let Some((name, rest)) = heading.split_once('[') else {
         return (!heading.contains(']')).then_some((heading, None));
@@ -165,19 +166,20 @@ fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     (!name.contains(']') && !unit.contains(['[', ']'])).then(|| (name.trim(), Some(unit.trim())))
 }
 
-/// The value of a cell, or the mistake in it with the line on what to do.
+/// Returns the value of a cell, or its mistake and advice.
 fn value(column: &Column<'_, '_>, text: &str) -> Result<f64, (String, Option<String>)> {
     let unit = column.unit.map_or(UnitOf::TextOrSi, UnitOf::Column);
     value::of_text(column.parameter, text, unit)
         .map_err(|error| (error.message(column.parameter.name, text), error.help()))
 }
 
-/// A cell: its text without the blanks and quotes around it, and its bytes in the file.
+/// A cell: its text without surrounding blanks and quotes, and its bytes in the file.
 type Cell<'t> = (&'t str, Range<usize>);
 
-/// The lines of a CSV file that are not blank.
+/// Returns the lines of a CSV file that are not blank.
 ///
-/// Neither numbers nor units nor options have commas: a quote is a character like others, so that bytes of cells are known.
+/// Numbers, units and options contain no commas. Quotes therefore need no special treatment, and the bytes of cells
+/// are known.
 fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -188,11 +190,11 @@ fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
     records.map(|record| cells(text, &record)).filter(|cells| cells.len() > 1 || !cells[0].1.is_empty())
 }
 
-/// The cells of a record of the CSV file `text`.
+/// Returns the cells of a record of the CSV file `text`.
 fn cells<'t>(text: &'t str, record: &ByteRecord) -> Vec<Cell<'t>> {
     let position =
         record.position().and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or_default();
-    // The reader leaves out a byte order mark, and line ends before a record.
+    // The reader skips a byte order mark, and line ends before a record.
     let rest = &text[position..];
     let rest = if position == 0 { rest.strip_prefix('\u{feff}').unwrap_or(rest) } else { rest };
     let rest = rest.trim_start_matches(['\r', '\n']);

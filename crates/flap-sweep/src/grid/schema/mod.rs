@@ -1,7 +1,8 @@
-//! The JSON schema of grid files, from the tables that their check uses: editors complete keys and show mistakes with it.
+//! JSON schema of grid files, from the tables that their check uses. Editors use it to complete keys and show
+//! mistakes.
 //!
-//! The schema accepts every grid that the check accepts. It refuses unknown keys, options and types; units, formulas and
-//! contradictions are left to the check.
+//! The schema accepts every grid that the check accepts. It rejects unknown keys, options and types. It does not
+//! check units, formulas and contradictions.
 
 mod model;
 mod sections;
@@ -12,12 +13,13 @@ use serde_json::{Value, json};
 
 use super::table::KEYS;
 
-/// The schema of grid files with the presets of these models (draft 2020-12).
+/// Returns the schema of grid files with the presets of these models (draft 2020-12).
 pub fn of_models(models: &[&'static dyn Simulator]) -> Value {
     root(models, None)
 }
 
-/// The schema of grid files with the presets of one model, whose parameters default to the values of `preset`.
+/// Returns the schema of grid files with the presets of one model. The parameters' defaults are the values of
+/// `preset`.
 pub fn of_preset(model: &'static dyn Simulator, preset: &Preset) -> Value {
     root(&[model], Some(preset))
 }
@@ -56,8 +58,10 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
     schema
 }
 
-/// A section that differs between models. The preset decides which model's applies; here each is named, so that editors know
-/// all keys, beside the empty schema, which accepts anything.
+/// Returns the schema of a section that differs between models. The preset determines which model applies.
+///
+/// The schema lists the sections of all models, so that editors offer all keys, and the empty schema, which accepts
+/// anything.
 fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
     let references =
         models.iter().map(|model| sections::to(&format!("{}/properties/{section}", model.name())));
@@ -65,14 +69,16 @@ fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
     json!({"description": sections::about(section), "anyOf": any})
 }
 
-/// The rules of the model whose preset the grid names. The preset of a device is not known: a grid that begins with one has the
-/// rules of the `only` model, if there is one.
+/// Returns the rules of the model whose preset the grid names.
+///
+/// The preset of a device is unknown. A grid that starts from a device has the rules of the `only` model, if there is
+/// one.
 fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };
     let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
     let mut is_named = json!({"properties": {"preset": {"enum": presets}}});
-    // The parameters and columns of a vehicle have the names of its wings in them.
+    // Names of parameters and columns of a vehicle contain the names of its wings.
     let mut rules = json!({"if": {"not": {"required": ["vehicle"]}}, "then": sections::to(model.name())});
     if only {
         rules = json!({"allOf": [rules, begins]});

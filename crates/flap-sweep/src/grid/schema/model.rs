@@ -1,4 +1,5 @@
-//! The schemas of one model: of each parameter, as a value, along an axis and as a distribution, and of the sections with them.
+//! Schemas of one model: of each parameter as a value, an axis and a distribution, and of the sections that contain
+//! parameters.
 
 use std::fmt::Write as _;
 
@@ -17,7 +18,7 @@ use crate::plan::sample::Design;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
-/// The definitions that all parameters share: of numbers that describe values along axes and their distributions.
+/// Returns the definitions that all parameters share: of the numbers that describe axes and distributions.
 pub(super) fn shared() -> Map<String, Value> {
     let keys = ["n", "step", "scale", "sd", "relative_sd", "source"];
     sections::properties(keys, |key| match key {
@@ -28,11 +29,11 @@ pub(super) fn shared() -> Map<String, Value> {
         "relative_sd" => {
             sections::positive("Standard deviation as a share of the value, such as \"5 %\".", false)
         }
-        _ => sections::text("The place that the value comes from, in your words."),
+        _ => sections::text("Source of the value, as free text."),
     })
 }
 
-/// A single value of the parameter with this place in the model's table.
+/// Returns the schema of a single value of parameter number `place`.
 pub(super) fn value(model: &dyn Simulator, place: usize, defaults: Option<&Preset>) -> Value {
     let parameter = &model.parameters()[place];
     let description = description(model, place);
@@ -51,7 +52,7 @@ pub(super) fn value(model: &dyn Simulator, place: usize, defaults: Option<&Prese
     schema
 }
 
-/// Puts the range of numbers into the schema.
+/// Adds the range of numbers to the schema.
 fn limit(schema: &mut Value, allowed: Range) {
     let limits = match allowed {
         Range::Any => vec![],
@@ -70,7 +71,7 @@ fn limit(schema: &mut Value, allowed: Range) {
     }
 }
 
-/// A default as a user writes it.
+/// Returns a default in the form of a grid file.
 fn default_of(parameter: &Parameter, value: f64) -> Value {
     match parameter.kind {
         Kind::Choice(_) => json!(text::value(parameter, value)),
@@ -79,7 +80,7 @@ fn default_of(parameter: &Parameter, value: f64) -> Value {
     }
 }
 
-/// Meaning, symbol, unit, range, and the values of the presets.
+/// Returns description, symbol, unit, range, and the values of the presets.
 fn description(model: &dyn Simulator, place: usize) -> String {
     let parameter = &model.parameters()[place];
     let Parameter { unit, symbol, kind, .. } = parameter;
@@ -107,12 +108,12 @@ fn description(model: &dyn Simulator, place: usize) -> String {
     lines
 }
 
-/// The meaning as a sentence.
+/// Returns the description as a sentence.
 fn meaning(parameter: &Parameter) -> String {
     capitalized(parameter.doc.trim_end_matches('.')) + "."
 }
 
-/// Unit and range in words.
+/// Returns unit and range in words.
 fn numbers(unit: &str, range: Range) -> String {
     let form = if unit.is_empty() {
         "A number, or text such as \"5 %\"".to_owned()
@@ -122,7 +123,7 @@ fn numbers(unit: &str, range: Range) -> String {
     format!("\n\n{form}; {}.", range.describe())
 }
 
-/// A value with its standard error. `value` is the schema of the value.
+/// Returns the schema of a value with its standard error. `value` is the schema of the value.
 pub(super) fn uncertain(parameter: &Parameter, value: &Value) -> Value {
     let keys =
         sections::properties(
@@ -136,7 +137,8 @@ pub(super) fn uncertain(parameter: &Parameter, value: &Value) -> Value {
     table
 }
 
-/// The values of a parameter along an axis: a list, or a range. `value` is the schema of one of them.
+/// Returns the schema of the values of a parameter along an axis: a list or a range. `value` is the schema of one
+/// value.
 pub(super) fn axis(parameter: &Parameter, value: &Value) -> Value {
     let meaning = meaning(parameter);
     if let Kind::Choice(_) = parameter.kind {
@@ -166,7 +168,7 @@ pub(super) fn axis(parameter: &Parameter, value: &Value) -> Value {
     })
 }
 
-/// The distribution of a parameter, or a list of values. `value` is the schema of a value.
+/// Returns the schema of a distribution of a parameter, or a list of values. `value` is the schema of one value.
 pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
     if let Kind::Choice(_) = parameter.kind {
         return axis(parameter, value);
@@ -178,7 +180,7 @@ pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
     let normal: Vec<Value> = ["mean", "sd", "relative_sd"].map(|key| json!({"required": [key]})).into();
     json!({
         "description": format!(
-            "{}\n\nEqually likely values: {{ from, to }}. Normal ones: {{ mean, sd }} or {{ relative_sd }}. Or a list.",
+            "{}\n\nUniform distribution: {{ from, to }}. Normal distribution: {{ mean, sd }} or {{ relative_sd }}. Or a list of values.",
             meaning(parameter)
         ),
         "type": ["array", "object"],
@@ -192,7 +194,8 @@ pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
     })
 }
 
-/// Puts the rules of a model into the definitions of a schema, under the model's name, and those of its parameters.
+/// Adds the rules of a model to the definitions of a schema, under the model's name, and the definitions of its
+/// parameters.
 pub(super) fn define(
     model: &'static dyn Simulator,
     defaults: Option<&Preset>,
@@ -216,12 +219,12 @@ pub(super) fn define(
     definitions.insert(name.to_owned(), sections(model));
 }
 
-/// The definition of the names of measures.
+/// Name of the definition of measures.
 const MEASURE: &str = "measure";
-/// The definition of the names of columns.
+/// Name of the definition of columns.
 const COLUMN: &str = "column";
 
-/// The name of a definition.
+/// Returns the name of a definition.
 fn key(model: &str, parameter: &Parameter, role: &str) -> String {
     format!("{model}.{}.{role}", parameter.name)
 }
@@ -258,7 +261,7 @@ fn sections(model: &'static dyn Simulator) -> Value {
     })
 }
 
-/// A table with a key for each parameter. Former names are accepted, but editors do not offer them.
+/// Returns a table with a key for each parameter. It accepts former names, but editors do not offer them.
 fn keyed<'p>(
     description: &str,
     parameters: impl IntoIterator<Item = &'p Parameter<'p>>,
@@ -281,17 +284,17 @@ fn keyed<'p>(
     table
 }
 
-/// A single value, or a table with its standard error. The drive frequency may be the resonance.
+/// Returns a single value, or a table with its standard error. The drive frequency may also be the resonance.
 fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
     let value = reference(model.name(), parameter, "value");
     let uncertain = reference(model.name(), parameter, "uncertain");
     let word = json!({"const": resonance::WORD, "description": "Each design is run at its own resonance."});
     let alone = if parameter.name == DRIVE_FREQUENCY { json!({"anyOf": [value, word]}) } else { value };
-    // The conditions decide; the list with the empty schema names both forms for editors.
+    // The conditions decide. The list with the empty schema shows both forms to editors.
     json!({"anyOf": [{}, alone, uncertain], "if": {"type": "object"}, "then": uncertain, "else": alone})
 }
 
-/// Correlations between two parameters each.
+/// Returns the schema of correlations, each between two parameters.
 fn correlation(parameters: &[Parameter]) -> Value {
     let name = json!({"enum": names(parameters, |kind| !matches!(kind, Kind::Choice(_)))});
     let keys = sections::properties(CORRELATION_KEYS, |key| match key {
@@ -302,7 +305,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
             pair
         }
         _ => json!({
-            "description": "Their correlation.", "type": "number", "exclusiveMinimum": -1, "exclusiveMaximum": 1,
+            "description": "Correlation of the two parameters.", "type": "number", "exclusiveMinimum": -1, "exclusiveMaximum": 1,
         }),
     });
     let mut pair = sections::table(about("correlation"), keys);
@@ -310,7 +313,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
     json!({"description": about("correlation"), "type": "array", "items": pair})
 }
 
-/// The names of parameters of some kinds, former ones included.
+/// Returns the names of parameters of the wanted kinds, including former names.
 fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind) -> bool) -> Vec<&'p str> {
     let wanted = parameters.iter().filter(|parameter| is_wanted(parameter.kind));
     let names = wanted.flat_map(|parameter| [parameter.name, parameter.former]);
@@ -352,7 +355,7 @@ fn gradient(parameters: &[Parameter], measure: &Value) -> Value {
     let name = json!({"enum": names(parameters, has_shares)});
     let keys = sections::properties(gradient::KEYS, |key| match key {
         "of" => sections::list("Measures of the model or of [measure].", &or_own(measure)),
-        _ => sections::list("Parameters that have a value: neither derived nor choices.", &name),
+        _ => sections::list("Parameters with a value, which are neither derived nor choices.", &name),
     });
     let mut table = sections::table(about("gradient"), keys);
     table["required"] = json!(gradient::KEYS);
@@ -362,22 +365,22 @@ fn gradient(parameters: &[Parameter], measure: &Value) -> Value {
 fn output(column: &Value) -> Value {
     let keys = sections::properties(output::KEYS, |key| match key {
         "path" => sections::text(
-            "The file, relative to the working directory: .csv, .csv.zst or .parquet; - for stdout.",
+            "Result file, relative to the working directory: .csv, .csv.zst or .parquet; - for stdout.",
         ),
         _ => sections::list(
-            "Columns to write behind the status, in this order. Default: all of them.",
+            "Columns to write after the status, in this order. Default: all columns.",
             &or_own(column),
         ),
     });
     sections::table(about("output"), keys)
 }
 
-/// A known name, or any other: the user may define it.
+/// Returns the schema of a known name or any other name, because the user may define it.
 fn or_own(known: &Value) -> Value {
     json!({"anyOf": [known, {"type": "string"}]})
 }
 
-/// The name of a measure, or of a column on the course of a run.
+/// Returns the schema of the name of a measure, or of a column about the run.
 fn one_of(measures: &[Column], run: &[Fixed]) -> Value {
     let measures = measures.iter().map(|column| (column.name.as_str(), column.doc.as_str()));
     let run = run.iter().map(|column| (column.name, column.doc));

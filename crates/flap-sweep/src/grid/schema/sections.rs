@@ -1,4 +1,4 @@
-//! The schemas of sections that are the same for all models, and small schemas of which larger ones consist.
+//! Schemas of sections that are equal for all models, and small schemas for use in larger ones.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings};
 use flap_core::vehicle::MOST_WINGS;
@@ -9,12 +9,12 @@ use crate::grid::uncertainty::VALUE_KEYS;
 use crate::grid::vehicle::{KEYS, PLANE_KEYS, WING_KEYS};
 use crate::resonance::{Objective, Range};
 
-/// A reference to a definition.
+/// Returns a reference to a definition.
 pub(super) fn to(definition: &str) -> Value {
     json!({"$ref": format!("#/$defs/{definition}")})
 }
 
-/// A schema for each of the keys.
+/// Returns a schema for each of the keys.
 pub(super) fn properties<'k>(
     keys: impl IntoIterator<Item = &'k str>,
     schema: impl Fn(&str) -> Value,
@@ -22,7 +22,7 @@ pub(super) fn properties<'k>(
     keys.into_iter().map(|key| (key.to_owned(), schema(key))).collect()
 }
 
-/// A table with these keys and no others.
+/// Returns the schema of a table with these keys and no others.
 pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value {
     json!({
         "description": description,
@@ -32,29 +32,29 @@ pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value 
     })
 }
 
-/// One of some options.
+/// Returns the schema of one of some options.
 pub(super) fn choice(description: &str, options: &[&str]) -> Value {
     json!({"description": description, "enum": options})
 }
 
-/// Text that is not empty.
+/// Returns the schema of text that is not empty.
 pub(super) fn text(description: &str) -> Value {
     json!({"description": description, "type": "string", "minLength": 1})
 }
 
-/// A whole number from 1 on.
+/// Returns the schema of a whole number from 1 to `most`.
 pub(super) fn count(description: &str, most: u64) -> Value {
     json!({"description": description, "type": "integer", "minimum": 1, "maximum": most})
 }
 
-/// A list without repetitions.
+/// Returns the schema of a list without repetitions.
 pub(super) fn list(description: &str, items: &Value) -> Value {
     json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
 }
 
-/// A number, bare or as text: with a unit if it `has_unit`.
+/// Returns the schema of a number, bare or as text. The text has a unit if `has_unit` is true.
 pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
-    // A number; then a unit, where there must be one. Units other than `1/m` begin with neither a digit nor a point.
+    // A number, then a unit if required. Units other than `1/m` begin with neither a digit nor a point.
     let pattern = if has_unit {
         r"^\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?(\s*[^0-9.\s]|\s+1)"
     } else {
@@ -63,24 +63,24 @@ pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     json!({"description": description, "type": ["number", "string"], "pattern": pattern})
 }
 
-/// A number of more than zero, bare or as text: with a unit if it `has_unit`.
+/// Returns the schema of a number of more than zero, bare or as text. The text has a unit if `has_unit` is true.
 pub(super) fn positive(description: &str, has_unit: bool) -> Value {
     let mut schema = quantity(description, has_unit);
     schema["exclusiveMinimum"] = json!(0);
     schema
 }
 
-/// The meaning of a section.
+/// Returns the description of a section.
 pub(super) fn about(section: &str) -> &'static str {
     match section {
-        "description" => "Text of your own.",
+        "description" => "Free text.",
         "preset" => "The published design to start from. It chooses the model.",
-        "device" => "The file of your own design to start from, in place of a preset.",
-        "params" => "Single values that replace those of the preset or device.",
+        "device" => "The file of a design to start from, in place of a preset.",
+        "params" => "Single values that replace values of the preset or device.",
         "correlation" => "Correlations between parameters that have standard errors.",
-        "vehicle" => "Wings that make a vehicle, with their places and what differs between them.",
+        "vehicle" => "Wings of a vehicle, with their positions and their differences.",
         "resonance" => {
-            "The search for the resonance of each design. It needs drive_frequency = \"resonance\" under [params]."
+            "The search for the resonance of each design. It requires drive_frequency = \"resonance\" under [params]."
         }
         "axes" => {
             "Parameters that vary: the points are all combinations of all axes. The last axis varies fastest."
@@ -89,7 +89,7 @@ pub(super) fn about(section: &str) -> &'static str {
         "sample" => "Points that are spread over the design space, or listed in a file.",
         "derived" => "Parameters that follow from others by a formula in SI units.",
         "where" => "Conditions: points that do not satisfy all of them are not run.",
-        "measure" => "Columns of your own, computed from measures and parameters.",
+        "measure" => "Additional columns, computed from measures and parameters.",
         "gradient" => "Columns with derivatives of measures by parameters.",
         "solver" => "Settings of the integrator and of the search for settled motions.",
         "output" => "The file for the rows, and its columns.",
@@ -97,7 +97,7 @@ pub(super) fn about(section: &str) -> &'static str {
     }
 }
 
-/// The presets, each with its meaning.
+/// Returns the schema of presets, each with its description.
 pub(super) fn preset(models: &[&'static dyn Simulator]) -> Value {
     let presets = models.iter().flat_map(|model| model.presets());
     let (names, docs): (Vec<&str>, Vec<&str>) = presets.map(|preset| (preset.name, preset.doc)).unzip();
@@ -161,7 +161,7 @@ pub(super) fn solver() -> Value {
     table(about("solver"), settings.collect())
 }
 
-/// The text with a capital first letter.
+/// Returns the text with a capital first letter.
 pub(super) fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
@@ -169,7 +169,7 @@ pub(super) fn capitalized(text: &str) -> String {
 
 pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(KEYS, |key| match key {
-        "about" => lengths("The point about which torques are taken: forward, to the left, upwards."),
+        "about" => lengths("Reference point of the torques: forward, to the left, upwards."),
         "total_mass" => mass(),
         _ => json!({
             "description": "The wings, each under [[vehicle.wings]].",
@@ -181,7 +181,7 @@ pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     table
 }
 
-/// A mass, with or without its standard error.
+/// Returns the schema of a mass, with or without its standard error.
 fn mass() -> Value {
     let about = "Mass of the whole vehicle, in kg or as text with a unit.";
     let mass = positive(about, true);
@@ -192,7 +192,7 @@ fn mass() -> Value {
     json!({"description": about, "anyOf": [mass, uncertain]})
 }
 
-/// A wing.
+/// Returns the schema of a wing.
 fn wing(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(WING_KEYS, |key| match key {
         "name" => json!({
@@ -200,18 +200,18 @@ fn wing(models: &[&'static dyn Simulator]) -> Value {
             "type": "string", "pattern": "^[a-z][a-z0-9_]*$",
         }),
         "mirrored" => json!({
-            "description": "The wing is the mirror image of one at its position: a wing on the right.", "type": "boolean",
+            "description": "True for the mirror image of a wing at its position, which is a wing on the right.", "type": "boolean",
         }),
         "position" => {
-            lengths("The shoulder: forward, to the left, upwards; of a mirrored wing to the right.")
+            lengths("The shoulder: forward, to the left (for a mirrored wing to the right), upwards.")
         }
         "plane" => {
             let angles = properties(PLANE_KEYS, |_| number("An angle, in rad or as text with a unit."));
-            table("The orientation of its stroke plane.", angles)
+            table("The orientation of the stroke plane.", angles)
         }
         "preset" => preset(models),
-        "device" => text("A device whose numbers the wing has."),
-        _ => json!({"description": "Parameters that the wing has of its own.", "type": "object"}),
+        "device" => text("A device with the numbers of this wing."),
+        _ => json!({"description": "Parameters of this wing alone.", "type": "object"}),
     });
     let mut table = table("A wing of the vehicle.", keys);
     table["required"] = json!(["name"]);
@@ -219,7 +219,7 @@ fn wing(models: &[&'static dyn Simulator]) -> Value {
     table
 }
 
-/// Three lengths.
+/// Returns the schema of three lengths.
 fn lengths(description: &str) -> Value {
     json!({
         "description": description, "type": "array", "minItems": 3, "maxItems": 3,
@@ -227,7 +227,7 @@ fn lengths(description: &str) -> Value {
     })
 }
 
-/// A number, or text with a unit.
+/// Returns the schema of a number, or text with a unit.
 fn number(description: &str) -> Value {
     json!({"description": description, "type": ["number", "string", "object"]})
 }

@@ -10,9 +10,9 @@ use crate::notation::{nearest, text};
 /// A mistake in an expression, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// Bytes of the text at fault. May be empty where something is missing.
+    /// Bytes of the text with the mistake. Empty if something is missing.
     pub span: Range<usize>,
-    /// The mistake.
+    /// Mistake.
     pub problem: ExpressionProblem,
 }
 
@@ -22,98 +22,98 @@ const IS_NUMBER: &str = "this is a number, not a condition";
 /// A mistake in an expression.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExpressionProblem {
-    /// There is nothing.
+    /// The text is empty.
     #[error("the expression is empty")]
     Empty,
-    /// A character that means nothing.
-    #[error("`{}` means nothing in an expression", .0.escape_debug())]
+    /// A character without meaning.
+    #[error("`{}` is not allowed in an expression", .0.escape_debug())]
     Character(char),
-    /// A number that is not one, such as `2x`.
+    /// Text that begins like a number but is none, such as `2x`.
     #[error("`{0}` is not a number")]
     BadNumber(String),
-    /// A number beyond the largest 64-bit float.
+    /// A number above the largest 64-bit float.
     #[error("the number is too large (largest about 1.8e308)")]
     TooLarge,
-    /// Text without the quote that ends it.
+    /// Text without a closing quote.
     #[error("a closing quote is missing")]
     OpenQuote,
-    /// Something else should stand here.
+    /// Another element is expected here.
     #[error("expected {0}")]
     Expected(&'static str),
-    /// An operator of other languages, with the one to write.
+    /// An operator of other languages, with the operator to use instead.
     #[error("`{0}` is not an operator")]
     Foreign(&'static str, &'static str),
     /// A comparison of a comparison, such as `1 < x < 2`.
     #[error("comparisons cannot be chained")]
     Chain,
-    /// A condition where there must be a number, or the other way round: the kind that there must be.
+    /// A condition in place of a number, or a number in place of a condition. Contains the expected kind.
     #[error("{}", if *.0 == Kind::Number { IS_CONDITION } else { IS_NUMBER })]
     Mismatch(Kind),
     /// Parentheses and operators nested too deeply.
     #[error("the expression is nested too deeply")]
     TooDeep,
-    /// A name that stands for nothing.
+    /// An unknown name.
     #[error("unknown name `{name}`")]
     UnknownName {
         /// The name.
         name: String,
-        /// The name that may have been meant.
+        /// The most similar known name.
         nearest: Option<String>,
     },
-    /// A name of no function.
+    /// An unknown function.
     #[error("there is no function `{0}`")]
     UnknownFunction(String),
-    /// A function without its parentheses.
+    /// A function name without parentheses.
     #[error("`{0}` is a function")]
     BareFunction(String),
     /// A function with too few or too many arguments.
     #[error("`{name}` takes {takes}")]
     Arguments {
-        /// The function.
+        /// Name of the function.
         name: String,
-        /// The arguments that it takes, such as `one argument`.
+        /// Expected arguments, such as `one argument`.
         takes: &'static str,
     },
-    /// A choice where there must be a number.
+    /// A choice in place of a number.
     #[error("`{name}` is a choice between options, not a number")]
     ChoiceAsNumber {
-        /// The name.
+        /// Name of the choice.
         name: String,
-        /// Its options.
+        /// Options of the choice.
         options: &'static [&'static str],
     },
     /// A comparison of a choice with text that is none of its options.
     #[error("`{name}` has no option `{option}`")]
     UnknownOption {
-        /// The name.
+        /// Name of the choice.
         name: String,
-        /// The text that it is compared with.
+        /// Text with which it is compared.
         option: String,
-        /// Its options.
+        /// Options of the choice.
         options: &'static [&'static str],
     },
     /// A number that is not set and follows others.
-    #[error("`{name}` has no value of its own")]
+    #[error("`{name}` is not set")]
     Unset {
-        /// The name.
+        /// Name of the parameter.
         name: String,
-        /// The others that it follows, in words.
+        /// Description of the parameters that it follows.
         follows: &'static str,
     },
 }
 
-/// The reason why a parameter that is not set has no number.
+/// Returns the reason why an unset parameter has no number.
 fn why_unset(follows: &str) -> String {
     text::no_default(follows).unwrap_or_else(|| format!("it follows others ({follows})"))
 }
 
 impl ExpressionError {
-    /// The message.
+    /// Returns the message.
     pub fn message(&self) -> String {
         self.problem.to_string()
     }
 
-    /// Allowed forms or advice, if there are any.
+    /// Returns allowed forms or advice, if there are any.
     pub fn help(&self) -> Option<String> {
         let did_you_mean = |name: &str| format!("did you mean `{name}`?");
         match &self.problem {

@@ -1,9 +1,9 @@
-//! The operations and functions of expressions, and the value of a checked expression.
+//! Operations and functions of expressions, and the evaluation of a checked expression.
 
-/// The number that `operations` leave on the stack.
+/// Returns the number that `operations` leave on the stack.
 pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     let mut stack: Vec<f64> = Vec::with_capacity(operations.len());
-    // The parser balances the stack. NaN stands for what cannot be missing.
+    // The parser balances the stack, so this NaN does not occur.
     for operation in operations {
         let result = match *operation {
             Operation::Push(number) => number,
@@ -28,7 +28,7 @@ fn pop(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
 }
 
-/// The two topmost numbers in the order in which they were put there.
+/// Removes and returns the two topmost numbers, the lower one first.
 fn pop_two(stack: &mut Vec<f64>) -> (f64, f64) {
     let b = pop(stack);
     (pop(stack), b)
@@ -55,12 +55,13 @@ fn two(binary: Binary, a: f64, b: f64) -> f64 {
         Binary::NotEqual => compared(a, b, a != b),
         Binary::And if a == 0.0 || b == 0.0 => 0.0,
         Binary::Or if a == 1.0 || b == 1.0 => 1.0,
-        // Where neither side of `and` and `or` decides, it is NaN if one of them is, else the same as both.
+        // If neither side of `and` and `or` decides, the result is NaN if a side is NaN; otherwise both sides are
+        // equal.
         Binary::Multiply | Binary::And | Binary::Or => a * b,
     }
 }
 
-/// Unlike `pow`, which gives 1 for an unknown number to the power of 0.
+/// Returns a to the power of b. Unlike `pow`, NaN to the power of 0 is NaN.
 fn power(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { libm::pow(a, b) }
 }
@@ -72,9 +73,9 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
 /// One operation. Conditions are 1 for true, 0 for false and NaN for unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Operation {
-    /// Puts a number on the stack.
+    /// Pushes a number onto the stack.
     Push(f64),
-    /// Puts one of the values on the stack.
+    /// Pushes one of the values onto the stack.
     Read(usize),
     /// Replaces the topmost number.
     Unary(Unary),
@@ -112,15 +113,15 @@ pub(super) enum Binary {
 /// A function of numbers.
 #[derive(Clone, Copy)]
 pub(super) enum Function {
-    /// Of one number.
+    /// Function of one number.
     One(fn(f64) -> f64),
-    /// Of two numbers.
+    /// Function of two numbers.
     Two(fn(f64, f64) -> f64),
-    /// Of two numbers or more, taken two by two.
+    /// Function of two or more numbers, applied pairwise.
     Many(fn(f64, f64) -> f64),
 }
 
-/// Names with what they stand for. Angles are in radians.
+/// Functions by name. Angles are in radians.
 const FUNCTIONS: [(&str, Function); 24] = [
     ("abs", Function::One(f64::abs)),
     ("acos", Function::One(libm::acos)),
@@ -150,27 +151,27 @@ const FUNCTIONS: [(&str, Function); 24] = [
 
 const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 
-/// The function called `name`.
+/// Returns the function called `name`.
 pub(super) fn find(name: &str) -> Option<Function> {
     FUNCTIONS.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
 }
 
-/// The constant called `name`.
+/// Returns the constant called `name`.
 pub(super) fn constant(name: &str) -> Option<f64> {
     CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }
 
-/// The names of all functions.
+/// Returns the names of all functions.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().map(|(name, _)| *name)
 }
 
-/// The names of all constants.
+/// Returns the names of all constants.
 pub(super) fn constants() -> impl Iterator<Item = &'static str> {
     CONSTANTS.iter().map(|(name, _)| *name)
 }
 
-/// Not a number if either is not, unlike [`f64::min`].
+/// Returns the smaller number. Unlike [`f64::min`], it is NaN if either is NaN.
 fn min(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -181,12 +182,12 @@ fn min(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Not a number if either is not, unlike [`f64::max`].
+/// Returns the larger number. Unlike [`f64::max`], it is NaN if either is NaN.
 fn max(a: f64, b: f64) -> f64 {
     -min(-a, -b)
 }
 
-/// -1, 0 or 1.
+/// Returns -1, 0 or 1.
 fn sign(a: f64) -> f64 {
     if a == 0.0 || a.is_nan() { a } else { a.signum() }
 }

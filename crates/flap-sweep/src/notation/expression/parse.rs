@@ -1,4 +1,4 @@
-//! From text to words, and to operations: operator precedence after Pratt, with each operation put down behind its operands.
+//! Parser of expressions: from text to tokens, and to operations after their operands (Pratt's operator precedence).
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use super::evaluate::{self, Binary, Function, Operation, Unary};
 use super::scope::{Kind, Meaning, Scope};
 use crate::notation::nearest;
 
-/// Parentheses, functions and operators that may stand within each other. More is a mistake or malice, and would take
-/// more than its share of the machine's stack.
+/// Largest nesting of parentheses, functions and operators. Deeper nesting is a mistake or an attack, and would
+/// overflow the stack.
 const MOST_NESTED: usize = 100;
 
-/// The precedence of operators, from loose to tight.
+/// Precedence of operators, from loose to tight.
 mod power {
     pub(super) const ANY: u8 = 0;
     pub(super) const OR: u8 = 1;
@@ -50,9 +50,9 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
     }
 }
 
-/// The operand between two operators.
+/// An operand between two operators.
 struct Operand {
-    /// `None` if it has a mistake already, so that one mistake is not reported twice.
+    /// `None` after a mistake, so that it is not reported twice.
     kind: Option<Kind>,
     span: Range<usize>,
 }
@@ -62,7 +62,7 @@ struct Parser<'a> {
     next: (Token<'a>, Range<usize>),
     scope: &'a dyn Scope,
     operations: Vec<Operation>,
-    /// Mistakes that leave the rest of the text readable.
+    /// Mistakes after which the rest of the text can be checked.
     errors: Vec<ExpressionError>,
     nested: usize,
 }
@@ -77,7 +77,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes the next word.
+    /// Consumes the next token.
     fn advance(&mut self) -> Result<(Token<'a>, Range<usize>), ExpressionError> {
         let next = self.tokens.next()?;
         Ok(std::mem::replace(&mut self.next, next))
@@ -87,7 +87,7 @@ impl<'a> Parser<'a> {
         matches!(self.next.0, Token::Sign(next) if next == sign)
     }
 
-    /// Takes `sign`, which must be next.
+    /// Consumes `sign`, which must be next.
     fn take(&mut self, sign: &str, expected: &'static str) -> Result<Range<usize>, ExpressionError> {
         if self.is_next(sign) {
             return self.advance().map(|(_, span)| span);
@@ -98,7 +98,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// An error at the next word.
+    /// Returns an error at the next token.
     fn expected(&self, what: &'static str) -> ExpressionError {
         ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::Expected(what) }
     }
@@ -107,14 +107,14 @@ impl<'a> Parser<'a> {
         self.errors.push(ExpressionError { span, problem });
     }
 
-    /// Notes if `operand` is not of the kind wanted.
+    /// Records a mistake if `operand` is not of the kind `wanted`.
     fn want(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
             self.note(operand.span.clone(), ExpressionProblem::Mismatch(wanted));
         }
     }
 
-    /// Everything from here on that binds more tightly than `least`, or as tightly.
+    /// Parses everything from here on that binds at least as tightly as `least`.
     fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
         self.nested += 1;
         if self.nested > MOST_NESTED {
@@ -130,7 +130,7 @@ impl<'a> Parser<'a> {
             }
             is_comparison = binds == power::COMPARISON;
             self.advance()?;
-            // What stands on the left of an equal operator goes first, but for powers.
+            // Equal operators associate to the left, except powers.
             let right = self.operand(if binds == power::POWER { binds } else { binds + 1 })?;
             left = self.joined(binary, &left, &right);
         }
@@ -138,7 +138,7 @@ impl<'a> Parser<'a> {
         Ok(left)
     }
 
-    /// The result of an operator between two operands.
+    /// Returns the result of an operator between two operands.
     fn joined(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
         let (wanted, kind) = match binary {
             Binary::And | Binary::Or => (Kind::Condition, Kind::Condition),
@@ -158,7 +158,7 @@ impl<'a> Parser<'a> {
         Operand { kind: Some(kind), span: left.span.start..right.span.end }
     }
 
-    /// A number, a name, something in parentheses, or one of these with an operator before it.
+    /// Parses a number, a name or parentheses, optionally after a unary operator.
     fn prefix(&mut self) -> Result<Operand, ExpressionError> {
         let (token, span) = self.next.clone();
         match token {
@@ -184,7 +184,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// An operator with its operand behind it.
+    /// Parses the operand of a unary operator.
     fn signed(&mut self, unary: Option<Unary>, binds: u8, kind: Kind) -> Result<Operand, ExpressionError> {
         let (_, sign) = self.advance()?;
         let operand = self.operand(binds)?;
@@ -193,7 +193,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
 
-    /// The operand that the name just read stands for.
+    /// Returns the operand that the last name represents.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let constant = || evaluate::constant(name).map(Meaning::Constant);
         let (kind, operation) = match self.scope.meaning(name).or_else(constant) {
@@ -225,7 +225,7 @@ impl<'a> Parser<'a> {
         ExpressionProblem::UnknownName { name: name.to_owned(), nearest }
     }
 
-    /// A choice compared with one of its options, which is all that can be done with it.
+    /// Parses the comparison of a choice with one of its options, which is the only use of a choice.
     fn choice(
         &mut self,
         name: &str,
@@ -257,7 +257,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(Kind::Condition), span })
     }
 
-    /// The function `name` of the arguments that follow in parentheses.
+    /// Parses the arguments in parentheses of the function `name`.
     fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let Some(function) = evaluate::find(name) else {
             let problem = ExpressionProblem::UnknownFunction(name.to_owned());
@@ -272,7 +272,7 @@ impl<'a> Parser<'a> {
             let argument = self.operand(power::ANY)?;
             self.want(Kind::Number, &argument);
             count += 1;
-            // Two by two, as the arguments come.
+            // Applied pairwise, as the arguments are read.
             if let (Function::Many(function), 2..) = (function, count) {
                 self.operations.push(Operation::Apply2(function));
             }
@@ -296,7 +296,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// The operator between two operands that `token` is, and how tightly it binds.
+/// Returns the binary operator of `token`, and its precedence.
 fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
     Some(match token {
         Token::Name("or") => (Binary::Or, power::OR),
@@ -316,27 +316,27 @@ fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
     })
 }
 
-/// One word.
+/// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'t> {
     Number(f64),
-    /// A name, which may have dots: `preset.wing_area`. The words `and`, `or` and `not` are names here.
+    /// A name, which may contain dots: `preset.wing_area`. The words `and`, `or` and `not` are names here.
     Name(&'t str),
-    /// Text in quotes, without them.
+    /// Text in quotes, without the quotes.
     Text(&'t str),
     /// An operator, a parenthesis or a comma.
     Sign(&'static str),
     End,
 }
 
-/// Longer ones before those they begin with.
+/// Signs. Longer signs precede their prefixes.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-/// Operators of other languages, with those to write here.
+/// Operators of other languages, with the operators to use instead.
 const FOREIGN: [(&str, &str); 6] =
     [("**", "^ for powers"), ("&&", "and"), ("||", "or"), ("<>", "!="), ("=", "== to compare"), ("!", "not")];
 
-/// Takes words off the front of a text.
+/// Iterator over the tokens of a text.
 pub(super) struct Tokens<'t> {
     text: &'t str,
     at: usize,
@@ -347,7 +347,7 @@ impl<'t> Tokens<'t> {
         Tokens { text, at: 0 }
     }
 
-    /// The next word with its bytes, [`Token::End`] for ever after the last.
+    /// Returns the next token with its bytes; after the last token always [`Token::End`].
     pub(super) fn next(&mut self) -> Result<(Token<'t>, Range<usize>), ExpressionError> {
         self.at = self.text.len() - self.text[self.at..].trim_start().len();
         let rest = &self.text[self.at..];
@@ -365,13 +365,13 @@ impl<'t> Tokens<'t> {
         Ok((token, span))
     }
 
-    /// Moves an error at the front of the rest to its place in the text.
+    /// Shifts an error at the beginning of the rest to its position in the text.
     fn place(&self, (length, problem): (usize, ExpressionProblem)) -> ExpressionError {
         ExpressionError { span: self.at..self.at + length, problem }
     }
 }
 
-/// A word and its length, or the length of the mistake.
+/// A token and its length, or the length of the mistake.
 type Found<'t> = Result<(Token<'t>, usize), (usize, ExpressionProblem)>;
 
 fn is_name(character: char) -> bool {
@@ -392,7 +392,7 @@ fn number(rest: &str) -> Found<'_> {
             end += 1 + sign + count;
         }
     }
-    // What runs on as if it were part of the number is a slip: `2x`, `1.2.3`, `1_000`.
+    // Characters that continue a number are a mistake: `2x`, `1.2.3`, `1_000`.
     let run = end + rest[end..].find(|c: char| !is_name(c) && c != '.').unwrap_or(rest.len() - end);
     match rest[..end].parse::<f64>() {
         Ok(value) if run == end && value.is_finite() => Ok((Token::Number(value), end)),

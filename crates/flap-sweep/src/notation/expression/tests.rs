@@ -33,7 +33,7 @@ fn value(text: &str) -> f64 {
     expression.value(&VALUES)
 }
 
-/// The mistakes of other expression libraries, then all the rest.
+/// Mistakes of other expression libraries first, then all other cases.
 #[test]
 fn numbers() {
     let scaled = 1.52e-6 * libm::pow(2000.0 / 3333.0, -1.47);
@@ -91,7 +91,7 @@ fn conditions() {
         ("ok and arms == 'axis'", true),
         ("arms != \"axis\"", false),
         ("arms=='printed'", false),
-        // What is unknown decides nothing, but need not.
+        // An unknown side matters only if the other side does not decide.
         ("x < 5 or y > 1", true),
         ("y > 1 and x > 5", false),
     ];
@@ -128,11 +128,11 @@ fn reads_are_the_places_of_the_names() {
     assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
 }
 
-/// The message at a part that is no operator, in the place of one.
+/// Message at a token that is no operator but should be one.
 const OPERATOR: &str =
     "expected an operator; values are in SI units and written without them; products need a `*`";
 
-/// Text, the parts at fault with the whole messages.
+/// Texts with the parts at fault and the whole messages.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases: [(&str, &[(&str, &str)]); 35] = [
@@ -172,7 +172,7 @@ fn mistakes_say_what_and_where() {
         ("x = 2", &[("=", "`=` is not an operator; write == to compare")]),
         ("ok && ok", &[("&&", "`&&` is not an operator; write and")]),
         ("!ok", &[("!", "`!` is not an operator; write not")]),
-        ("x · 2", &[("·", "`·` means nothing in an expression")]),
+        ("x · 2", &[("·", "`·` is not allowed in an expression")]),
         ("1 < x < 5", &[("<", "comparisons cannot be chained; join two comparisons: 1 < x and x < 2")]),
         ("1 + (x < 2)", &[("(x < 2)", "this is a condition, not a number")]),
         (
@@ -192,7 +192,7 @@ fn mistakes_say_what_and_where() {
             "width / 2",
             &[(
                 "width",
-                "`width` has no value of its own; it follows others (half of the length): set `width` under [params] to use it here",
+                "`width` is not set; it follows others (half of the length): set `width` under [params] to use it here",
             )],
         ),
     ];
@@ -212,7 +212,7 @@ fn hostile_nesting_is_refused() {
         let errors = Expression::parse(&piece.repeat(1_000_000), &Names).expect_err(piece);
         assert_eq!(errors[0].problem, ExpressionProblem::TooDeep, "{piece}");
     }
-    // Long is not deep.
+    // A long expression is not a deep one.
     assert_eq!(value(&format!("{}1", "1+".repeat(100_000))), 100_001.0);
 }
 
@@ -242,7 +242,7 @@ proptest! {
         }
     }
 
-    /// Sums, products and powers of random numbers are those of Rust.
+    /// Sums, products and powers of random numbers equal the results of Rust.
     #[test]
     fn arithmetic_is_that_of_rust(a in -1e3..1e3_f64, b in -1e3..1e3_f64, c in 0.1..3.0_f64) {
         prop_assert_eq!(value(&format!("{a} + {b} * {c}")), a + b * c);

@@ -1,17 +1,17 @@
-//! Decimal numbers whose power of ten is shifted in the text, and mistakes in quantities.
+//! Decimal numbers whose exponent is shifted in the text, and mistakes in quantities.
 //!
-//! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit.
-//! Shifting the exponent before the number is parsed rounds once.
+//! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit. With the
+//! exponent shifted in the text, the number is rounded once.
 
 use std::fmt;
 use std::ops::Range;
 
-/// A quantity that cannot be used, with the place of the mistake in its text.
+/// A mistake in a quantity, with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
-    /// Bytes of the text at fault.
+    /// Bytes of the text with the mistake.
     pub span: Range<usize>,
-    /// The mistake.
+    /// Mistake.
     pub problem: UnitProblem,
 }
 
@@ -20,54 +20,54 @@ pub struct UnitError {
 pub enum UnitProblem {
     /// The text does not start with a number.
     NoNumber,
-    /// The number is not one, such as `1e-3e`.
+    /// Text that begins like a number but is none, such as `1e-3e`.
     BadNumber(String),
     /// The number is infinite or not a number.
     NotFinite(String),
-    /// The number, as written, is beyond the largest 64-bit float.
+    /// The number in the text is above the largest 64-bit float.
     TooLarge(String),
-    /// The number, as written, is not zero but too small for a 64-bit float.
+    /// The number in the text is not zero but too small for a 64-bit float.
     TooSmall(String),
-    /// A number without a unit where there must be one.
+    /// The unit is missing.
     NoUnit {
-        /// The SI unit wanted.
+        /// Expected SI unit.
         wanted: String,
-        /// Ways to write it.
+        /// Usual ways to write it.
         usual: Vec<String>,
     },
-    /// There is no such unit.
+    /// The unit is unknown.
     UnknownUnit {
-        /// As written.
+        /// Unit in the text.
         unit: String,
-        /// The unit that may have been meant.
+        /// Most similar known unit.
         nearest: Option<String>,
-        /// Ways to write the unit wanted; empty for a pure number.
+        /// Usual ways to write the expected unit; empty for a pure number.
         usual: Vec<String>,
     },
-    /// The unit is not put together properly.
+    /// The unit is malformed.
     BadUnit(&'static str),
-    /// The unit wanted is not one of flap, and the unit as written is another.
+    /// The expected unit is not a unit of flap, and the unit in the text is a different one.
     NotConverted {
-        /// The unit as written.
+        /// Unit in the text.
         unit: String,
-        /// The unit wanted.
+        /// Expected unit.
         wanted: String,
     },
-    /// The unit measures something else.
+    /// The unit has another dimension.
     Mismatch {
-        /// The unit as written.
+        /// Unit in the text.
         unit: String,
-        /// The quantity that it measures, such as `a time`.
+        /// Quantity of this unit, such as `a time`.
         measures: String,
-        /// The SI unit wanted; empty for a pure number.
+        /// Expected SI unit; empty for a pure number.
         wanted: String,
-        /// Ways to write it; empty for a pure number.
+        /// Usual ways to write it; empty for a pure number.
         usual: Vec<String>,
     },
 }
 
 impl UnitError {
-    /// The message, with `what` as the name of the value.
+    /// Returns the message. `what` is the name of the value.
     pub fn message(&self, what: &str) -> String {
         match &self.problem {
             UnitProblem::NoNumber => format!("{what} must start with a number"),
@@ -77,7 +77,7 @@ impl UnitError {
                 format!("`{text}` is too large for {what} (largest about 1.8e308)")
             }
             UnitProblem::TooSmall(text) => {
-                format!("`{text}` is too small for {what} (smallest but zero about 4.9e-324)")
+                format!("`{text}` is too small for {what} (smallest above zero about 4.9e-324)")
             }
             UnitProblem::NoUnit { .. } => format!("{what} needs a unit"),
             UnitProblem::UnknownUnit { unit, .. } => format!("unknown unit `{unit}`"),
@@ -93,7 +93,7 @@ impl UnitError {
         }
     }
 
-    /// Advice, if there is any.
+    /// Returns advice, if there is any.
     pub fn help(&self) -> Option<String> {
         match &self.problem {
             UnitProblem::NoNumber => {
@@ -132,20 +132,20 @@ impl fmt::Display for UnitError {
 
 impl std::error::Error for UnitError {}
 
-/// A number as written.
+/// A number in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Number<'t> {
-    /// All of it.
+    /// Whole text of the number.
     text: &'t str,
     /// Sign, digits and point.
     mantissa: &'t str,
     exponent: i64,
 }
 
-/// Splits a number off the front of `text`. Returns it with its length in bytes.
+/// Returns the number at the beginning of `text`, and its length in bytes.
 ///
 /// # Errors
-/// If `text` does not start with a number, or runs on as if the number went wrong (`1e-3e`, `1.2.3`, `1,5`).
+/// If `text` does not start with a number, or the number continues wrongly (`1e-3e`, `1.2.3`, `1,5`).
 pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
@@ -186,7 +186,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
-/// An exponent with more digits than an `i64` holds is as good as any other that overflows a float.
+/// Returns the exponent. A value beyond `i64` overflows a float like any other large one.
 fn read_exponent(text: &str) -> i64 {
     const BEYOND: i64 = 1_000_000_000_000;
     let limit = if text.starts_with('-') { -BEYOND } else { BEYOND };
@@ -194,10 +194,10 @@ fn read_exponent(text: &str) -> i64 {
 }
 
 impl Number<'_> {
-    /// The float nearest to this number times ten to the power `shift`.
+    /// Returns the float nearest to this number times ten to the power `shift`.
     ///
     /// # Errors
-    /// If it is too large for a float, or too small without being zero.
+    /// If the result is too large for a float, or too small without being zero.
     pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitProblem> {
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
         let value: f64 = text.parse().map_err(|_| UnitProblem::BadNumber(self.mantissa.to_owned()))?;
@@ -215,7 +215,7 @@ impl Number<'_> {
 mod tests {
     use super::*;
 
-    /// The value and the length of the number at the front of `text`.
+    /// Returns value and length of the number at the beginning of `text`.
     fn value(text: &str) -> (f64, usize) {
         let (number, length) = scan(text).expect(text);
         (number.shifted(0).expect(text), length)

@@ -1,26 +1,29 @@
-//! Numbers in SI units as people write them: with a prefix.
+//! Numbers in SI units with a suitable prefix.
 
 use super::parse_as;
 
-/// Prefixes, and the powers of ten that they stand for.
+/// Prefixes and their powers of ten.
 const PREFIXES: [(&str, i32); 9] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
 
-/// `value` in `si_unit`, to six digits and with the prefix that leaves few of them before the point: `17 mm` for 0.017 m.
-/// [`parse_as`] reads it back.
+/// Returns `value` in `si_unit` with six digits and the prefix that leaves few digits before the point: `17 mm` for
+/// 0.017 m.
+///
+/// [`parse_as`] reads the text.
 pub fn prefixed(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let value = if tens == 0 { value } else { value / 10_f64.powi(tens) };
     format!("{} {unit}", digits(value)).trim_end().to_owned()
 }
 
-/// `value` in `si_unit` with the same prefix and with all its digits: [`parse_as`] gives the very float back.
+/// Returns `value` in `si_unit` with the same prefix and all digits. [`parse_as`] reads it back as exactly the same
+/// float.
 pub fn exact(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let scientific = format!("{value:e}");
     let shifted = scientific.split_once('e').and_then(|(digits, exponent)| {
         let exponent = exponent.parse::<i32>().ok()? - tens;
-        // Shortest digits again: of a decimal number that is not rounded.
+        // The shortest digits of the shifted number, if it is exact.
         format!("{digits}e{exponent}").parse::<f64>().ok()
     });
     let plain = shifted.map(|number| format!("{number} {unit}").trim_end().to_owned());
@@ -28,14 +31,15 @@ pub fn exact(value: f64, si_unit: &str) -> String {
     plain.filter(is_same).unwrap_or_else(|| format!("{value:?} {si_unit}").trim_end().to_owned())
 }
 
-/// The unit with the prefix that leaves few digits of `value` before the point, and the power of ten that it stands for.
+/// Returns the unit with the prefix that leaves few digits of `value` before the point, and the prefix's power of
+/// ten.
 fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" || value == 0.0 || !value.is_finite() {
         return (si_unit.to_owned(), 0);
     }
     let power = power(rest);
-    // Prefixes stand before the gram.
+    // For mass, prefixes apply to the gram.
     let (kilo, symbol) = if symbol == "kg" { (3 * power, "g") } else { (0, symbol) };
     let least = if power == 1 { 1.0 } else { 0.1 };
     let fits =
@@ -44,8 +48,9 @@ fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     (format!("{prefix}{symbol}{rest}"), ten * power - kilo)
 }
 
-/// The number of `value` read in `si_unit` with the prefix that brings it nearest to `usual`: 0.017 for 17 m if 0.0165 m is
-/// usual. `None` if no prefix brings it within a factor of ten.
+/// Returns `value` with the prefix that brings it closest to `usual`: 0.017 for 17 m if 0.0165 m is usual.
+///
+/// `None` if no prefix brings it within a factor of ten.
 pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" {
@@ -58,18 +63,18 @@ pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     (nearest / usual > 0.0 && distance(&nearest) < 1.0).then_some(nearest)
 }
 
-/// The first symbol of a unit, and what follows it.
+/// Returns the first symbol of a unit, and the rest.
 fn split(unit: &str) -> (&str, &str) {
     unit.split_at(unit.find(|letter: char| !letter.is_alphabetic()).unwrap_or(unit.len()))
 }
 
-/// The power of a symbol before `rest`, such as 2 before `^2`.
+/// Returns the power of a symbol before `rest`, such as 2 before `^2`.
 fn power(rest: &str) -> i32 {
     let digits = rest.strip_prefix('^').and_then(|rest| rest.get(..1));
     digits.and_then(|digit| digit.parse().ok()).unwrap_or(1)
 }
 
-/// A number to six digits.
+/// Returns a number with six digits.
 fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {

@@ -53,7 +53,7 @@ fn other_factors_are_applied_once() {
     }
 }
 
-/// Text, unit wanted, the part at fault, the whole message.
+/// Text, expected unit, the part at fault, the whole message.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases = [
@@ -81,7 +81,12 @@ fn mistakes_say_what_and_where() {
         ),
         ("nan V", "V", "nan", "the value cannot be `nan`: values are finite"),
         ("1e400 V", "V", "1e400", "`1e400` is too large for the value (largest about 1.8e308)"),
-        ("1e-330 V", "V", "1e-330", "`1e-330` is too small for the value (smallest but zero about 4.9e-324)"),
+        (
+            "1e-330 V",
+            "V",
+            "1e-330",
+            "`1e-330` is too small for the value (smallest above zero about 4.9e-324)",
+        ),
         (
             "2 N m",
             "N*m",
@@ -95,7 +100,7 @@ fn mistakes_say_what_and_where() {
     }
 }
 
-/// The unit of a model that flap has no entry for is read as it is written there.
+/// A unit of a model that is not a unit of flap is not converted.
 #[test]
 fn units_that_are_not_of_flap_are_not_converted() {
     assert_eq!(parse_as("3000 rpm", "rpm"), Ok(3000.0));
@@ -116,7 +121,7 @@ fn spans_survive_leading_spaces() {
 }
 
 proptest! {
-    /// Any float, written with a prefix, comes back with the same bits as the SI literal.
+    /// Any float with a prefix reads back with the same bits as the SI literal.
     #[test]
     fn prefixes_round_trip(digits in -999_999_999_i64..1_000_000_000, exponent in -20..20_i32, choice in 0..8_usize) {
         let (prefix, power) =
@@ -126,13 +131,13 @@ proptest! {
         prop_assert_eq!(value.to_bits(), literal.to_bits());
     }
 
-    /// The text that Rust prints for a float is read back with the same bits.
+    /// The text that Rust prints for a float reads back with the same bits.
     #[test]
     fn floats_round_trip(value in proptest::num::f64::NORMAL) {
         prop_assert_eq!(parse_as(&format!("{value:?} V"), "V"), Ok(value));
     }
 
-    /// No text panics, and spans always lie within the text.
+    /// No text causes a panic, and spans always lie within the text.
     #[test]
     fn any_text_is_handled(text in "[0-9eE.+-]{0,4} ?[a-zA-Zµ°²⁻%*/^()· 0-9]{0,8}", other in "\\PC{0,12}") {
         for text in [text, other] {

@@ -1,17 +1,17 @@
-//! Unit expressions: `V`, `uN*m/rad`, `mm²`, `kg/(m*s)`; their dimensions, and the table of units.
+//! Unit expressions: `V`, `uN*m/rad`, `mm²`, `kg/(m*s)`; their dimensions; and the table of units.
 
 use std::fmt;
 
 use super::number::{UnitError, UnitProblem};
 
-/// A unit, reduced to how it converts to SI.
+/// A unit: its dimension and its conversion to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub(super) dimension: Dimension,
-    /// Power of ten to SI.
+    /// Power of ten for the conversion to SI.
     pub(super) shift: i32,
-    /// Factors that are not powers of ten, above and below the line: dividing by 60 is exact where
-    /// multiplying by 1/60 is not.
+    /// Factors that are not powers of ten, in the numerator and the denominator. Division by 60 is exact,
+    /// multiplication by 1/60 is not.
     pub(super) above: f64,
     pub(super) below: f64,
 }
@@ -19,7 +19,7 @@ pub(super) struct Unit {
 impl Unit {
     const ONE: Unit = Unit { dimension: Dimension::base(0, 0, 0, 0), shift: 0, above: 1.0, below: 1.0 };
 
-    /// This unit times a symbol to a power.
+    /// Returns this unit times a symbol to a power.
     fn times(mut self, symbol: &Symbol, prefix: i32, power: i32) -> Unit {
         self.dimension = self.dimension.times(symbol.dimension, power);
         self.shift = self.shift.saturating_add((symbol.shift + prefix).saturating_mul(power));
@@ -32,12 +32,12 @@ impl Unit {
     }
 }
 
-/// Reads the unit `text`. Empty text is the unit of pure numbers.
+/// Parses the unit `text`. Empty text is the unit of pure numbers.
 ///
-/// Products and quotients are taken from left to right: `N/m*s` is `(N/m)*s`.
+/// Products and quotients associate to the left: `N/m*s` is `(N/m)*s`.
 ///
 /// # Errors
-/// With spans within `text`.
+/// Mistakes with spans within `text`.
 pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     let mut reader = Reader { text, at: 0 };
     let mut unit = Unit::ONE;
@@ -45,7 +45,7 @@ pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     if reader.rest().is_empty() {
         return Ok(unit);
     }
-    // Sign of the powers inside the parentheses, if inside.
+    // Sign of the powers inside parentheses; `None` outside.
     let mut group: Option<i32> = None;
     let mut sign = 1;
     loop {
@@ -68,7 +68,7 @@ pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     }
 }
 
-/// A place in the text.
+/// A position in the text.
 struct Reader<'t> {
     text: &'t str,
     at: usize,
@@ -91,13 +91,13 @@ impl<'t> Reader<'t> {
         found
     }
 
-    /// An error at the next character.
+    /// Returns an error at the next character.
     fn expected(&self, expected: &'static str) -> UnitError {
         let length = self.rest().chars().next().map_or(0, char::len_utf8);
         UnitError { span: self.at..self.at + length, problem: UnitProblem::BadUnit(expected) }
     }
 
-    /// The sign of the powers that follow: `*` or `/`.
+    /// Returns the sign of the powers after `*` or `/`.
     fn operator(&mut self) -> Result<i32, UnitError> {
         if self.take("/") {
             Ok(-1)
@@ -108,7 +108,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// One symbol with its power, multiplied to `unit`.
+    /// Returns `unit` times the next symbol with its power.
     fn factor(&mut self, unit: Unit, sign: i32) -> Result<Unit, UnitError> {
         if self.take("1") {
             return Ok(unit);
@@ -141,7 +141,7 @@ impl<'t> Reader<'t> {
         Ok(unit.times(symbol, prefix, sign * power))
     }
 
-    /// `^2`, `^-1`, `²`, `⁻¹`, or nothing for 1.
+    /// Parses `^2`, `^-1`, `²`, `⁻¹`, or nothing for 1.
     fn power(&mut self) -> Result<i32, UnitError> {
         const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
         let caret = self.take("^");
@@ -160,7 +160,7 @@ impl<'t> Reader<'t> {
             None if caret || negative => return Err(self.expected("a power from 1 to 9")),
             None => return Ok(1),
         };
-        // One digit is plenty for a unit; a second one is a slip.
+        // Powers have one digit. A second digit is a mistake.
         let another = self.rest().starts_with(|c: char| c.is_ascii_digit() || SUPERSCRIPTS.contains(&c));
         if power == 0 || another {
             return Err(self.expected("a power from 1 to 9"));
@@ -171,8 +171,8 @@ impl<'t> Reader<'t> {
 
 /// Exponents of the SI base units that models need: metre, kilogram, second, ampere.
 ///
-/// An angle is a pure number, so that a torsional stiffness may be given in N*m/rad or N*m. Radians and
-/// hertz are counted none the less: a drive at 100 Hz is not one at 100 rad/s.
+/// An angle is a pure number, so a torsional stiffness may be given in N*m/rad or N*m. Radians and hertz are
+/// nevertheless counted, because 100 Hz and 100 rad/s are different frequencies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Dimension {
     base: [i32; 4],
@@ -181,20 +181,20 @@ pub(super) struct Dimension {
 }
 
 impl Dimension {
-    /// Metres, kilograms, seconds and amperes to these powers.
+    /// Returns the dimension of metres, kilograms, seconds and amperes to these powers.
     pub(super) const fn base(metre: i32, kilogram: i32, second: i32, ampere: i32) -> Dimension {
         Dimension { base: [metre, kilogram, second, ampere], radian: 0, hertz: 0 }
     }
 
-    /// A plane angle.
+    /// Plane angle.
     pub(super) const ANGLE: Dimension = Dimension { base: [0; 4], radian: 1, hertz: 0 };
 
     /// Cycles per second.
     pub(super) const FREQUENCY: Dimension = Dimension { base: [0, 0, -1, 0], radian: 0, hertz: 1 };
 
-    /// The dimension of a product of this quantity with another one to the given power.
+    /// Returns the dimension of a product of this quantity with another one to the given power.
     pub(super) fn times(self, other: Dimension, power: i32) -> Dimension {
-        // Saturating: absurd exponents then merely fail to match.
+        // Saturating: with absurd exponents the dimension does not match.
         let add = |a: i32, b: i32| a.saturating_add(b.saturating_mul(power));
         let mut base = self.base;
         for (sum, exponent) in base.iter_mut().zip(other.base) {
@@ -203,7 +203,7 @@ impl Dimension {
         Dimension { base, radian: add(self.radian, other.radian), hertz: add(self.hertz, other.hertz) }
     }
 
-    /// True if a value of this dimension can stand in place of a `wanted` one.
+    /// Returns true if a value of this dimension is allowed for a `wanted` dimension.
     pub(super) fn fits(self, wanted: Dimension) -> bool {
         let mixes_turns_and_radians =
             (self.hertz != 0 && wanted.radian != 0) || (self.radian != 0 && wanted.hertz != 0);
@@ -211,7 +211,7 @@ impl Dimension {
     }
 }
 
-/// In words where there are any (`a voltage`), otherwise in base units.
+/// Prints the dimension in words if it has a name (`a voltage`), otherwise in base units.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| *dimension == *self) {
@@ -235,7 +235,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Dimensions that have a name. Angles and frequencies come before the plain numbers and rates they are.
+/// Dimensions with a name. Angles and frequencies precede pure numbers and rates.
 const NAMES: &[(Dimension, &str)] = &[
     (Dimension::ANGLE, "an angle"),
     (Dimension { base: [0, 0, -1, 0], radian: 1, hertz: 0 }, "an angular rate"),
@@ -266,23 +266,23 @@ const NAMES: &[(Dimension, &str)] = &[
     (Dimension::base(2, 1, -3, -2), "a resistance"),
 ];
 
-/// A unit with a symbol of its own.
+/// A unit with its own symbol.
 #[derive(Debug)]
 pub(super) struct Symbol {
-    /// As written.
+    /// Symbol.
     pub(super) name: &'static str,
     pub(super) dimension: Dimension,
-    /// Power of ten to SI: exact, applied to the text of the number.
+    /// Power of ten for the conversion to SI, which is exact and applied to the text of the number.
     pub(super) shift: i32,
-    /// The factor to SI that remains after `shift`: 1 for decimal units.
+    /// Factor to SI after `shift`: 1 for decimal units.
     pub(super) factor: f64,
-    /// True if it takes prefixes.
+    /// True if it allows prefixes.
     prefixes: bool,
-    /// The forms people use, the SI one first: for messages.
+    /// Usual forms, the SI form first, for messages.
     usual: &'static [&'static str],
 }
 
-/// Powers of ten before a unit.
+/// Prefixes and their powers of ten.
 const PREFIXES: &[(&str, i32)] = &[
     ("T", 12),
     ("G", 9),
@@ -317,7 +317,7 @@ const OHM: Dimension = Dimension::base(2, 1, -3, -2);
 const OHMS: &[&str] = &["Ohm", "kOhm", "MOhm"];
 const ANGLES: &[&str] = &["rad", "mrad", "deg"];
 
-/// Every unit. No symbol may be another one with a prefix.
+/// All units. No symbol may equal another symbol with a prefix.
 pub(super) const SYMBOLS: &[Symbol] = &[
     prefixed("m", Dimension::base(1, 0, 0, 0), &["m", "mm", "um"]),
     // The SI unit is the kilogram.
@@ -346,7 +346,7 @@ pub(super) const SYMBOLS: &[Symbol] = &[
     Symbol { shift: -2, ..alone("%", Dimension::base(0, 0, 0, 0), 1.0, &["%"]) },
 ];
 
-/// The unit written `name`, with the power of ten of its prefix.
+/// Returns the unit called `name`, and the power of ten of its prefix.
 pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
     if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
         return Some((symbol, 0));
@@ -358,7 +358,7 @@ pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
     })
 }
 
-/// Ways to write a quantity in the SI unit `unit`, itself first. None for a pure number.
+/// Returns usual ways to write a quantity in the SI unit `unit`, which comes first. Empty for a pure number.
 pub(super) fn usual(unit: &str) -> Vec<String> {
     if unit.is_empty() {
         return Vec::new();
@@ -374,7 +374,7 @@ pub(super) fn usual(unit: &str) -> Vec<String> {
     ways
 }
 
-/// Units that the unknown unit `name` may have meant, best guess first.
+/// Returns units that are similar to the unknown unit `name`, the most similar first.
 pub(super) fn suggestions(name: &str) -> Vec<String> {
     let mut names: Vec<String> =
         SYMBOLS.iter().flat_map(|symbol| symbol.usual.iter().map(|usual| (*usual).to_owned())).collect();

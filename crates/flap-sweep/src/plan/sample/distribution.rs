@@ -5,23 +5,23 @@
 /// A distribution of values in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Equally likely values.
+    /// Equally likely listed values.
     Among(Vec<f64>),
-    /// Between two values, all equally likely.
+    /// Uniform distribution between two values.
     Uniform {
         /// Smallest value.
         from: f64,
         /// Largest value.
         to: f64,
     },
-    /// Between two values of the same sign, all equally likely on a logarithmic scale.
+    /// Uniform distribution on a logarithmic scale between two values of the same sign.
     LogUniform {
-        /// The one end.
+        /// One end.
         from: f64,
-        /// The other end.
+        /// Other end.
         to: f64,
     },
-    /// Normal, truncated where the bounds are finite.
+    /// Normal distribution, truncated at finite bounds.
     Normal {
         /// Mean before truncation.
         mean: f64,
@@ -35,7 +35,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// The value below which the share `u` of all values lies; `u` is more than 0 and less than 1.
+    /// Returns the value below which the share `u` of all values lies. `u` must be more than 0 and less than 1.
     pub fn quantile(&self, u: f64) -> f64 {
         match self {
             Distribution::Among(values) => {
@@ -47,7 +47,7 @@ impl Distribution {
             Distribution::LogUniform { from, to } => from * libm::pow(to / from, u),
             Distribution::Normal { mean, sd, from, to } => {
                 let (low, high) = ((from - mean) / sd, (to - mean) / sd);
-                // Probabilities near 1 have few digits: the upper tail is taken as the lower one.
+                // Probabilities close to 1 lose digits, so the upper tail is mirrored.
                 let z = if low > 0.0 {
                     -quantile(between(cumulative(-low), cumulative(-high), u))
                 } else {
@@ -58,7 +58,7 @@ impl Distribution {
         }
     }
 
-    /// False if a truncated normal distribution has no probability between its bounds, to the precision of numbers.
+    /// Returns false if a truncated normal distribution has no probability between its bounds, to rounding.
     pub fn is_possible(&self) -> bool {
         match self {
             Distribution::Normal { mean, sd, from, to } => {
@@ -74,12 +74,12 @@ fn between(from: f64, to: f64, u: f64) -> f64 {
     from + (to - from) * u
 }
 
-/// The share of values below `z`.
+/// Returns the share of values below `z` of the standard normal distribution.
 pub(super) fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// The value below which the share `p` of all values lies, to about 16 digits.
+/// Returns the value below which the share `p` of the standard normal distribution lies, to about 16 digits.
 ///
 /// Wichura, "The percentage points of the normal distribution", Appl. Statist. 37, 477 (1988), algorithm AS 241,
 /// function PPND16.
@@ -95,13 +95,13 @@ pub(crate) fn quantile(p: f64) -> f64 {
     if q < 0.0 { -size } else { size }
 }
 
-/// The quotient of two polynomials, with coefficients from the constant upwards.
+/// Returns the quotient of two polynomials, with coefficients from the constant upwards.
 fn ratio([above, below]: &[[f64; 8]; 2], x: f64) -> f64 {
     let polynomial = |coefficients: &[f64; 8]| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
     polynomial(above) / polynomial(below)
 }
 
-/// Within 0.425 of the median.
+/// Coefficients for `p` within 0.425 of the median.
 const CENTRE: [[f64; 8]; 2] = [
     [
         3.387_132_872_796_366_608,
@@ -125,7 +125,7 @@ const CENTRE: [[f64; 8]; 2] = [
     ],
 ];
 
-/// In the tails, down to shares of about 1e-11.
+/// Coefficients for the tails, down to shares of about 1e-11.
 const NEAR: [[f64; 8]; 2] = [
     [
         1.423_437_110_749_683_577_34,
@@ -149,7 +149,7 @@ const NEAR: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Further out.
+/// Coefficients for the far tails.
 const FAR: [[f64; 8]; 2] = [
     [
         6.657_904_643_501_103_777_2,

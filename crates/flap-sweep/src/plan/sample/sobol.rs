@@ -10,20 +10,21 @@ pub(super) struct Sobol {
 }
 
 impl Sobol {
-    /// Dimension number `dimension`, from 0, scrambled with this key.
+    /// Returns dimension number `dimension`, from 0, scrambled with this key.
     pub(super) fn new(dimension: usize, key: u64) -> Sobol {
-        // The upper half, of bits as good as any.
+        // The upper half; its bits are as random as the lower ones.
         let key = u32::try_from(key >> 32).unwrap_or(0);
         Sobol { directions: directions(dimension), key }
     }
 
-    /// The coordinate of point number `index`, which must be less than 2^32: more than 0 and less than 1.
+    /// Returns the coordinate of point number `index`, which must be less than 2^32: more than 0 and less than 1.
     pub(super) fn coordinate(&self, index: u64) -> f64 {
         (f64::from(scrambled(self.plain(index), self.key)) + 0.5) / (1_u64 << BITS) as f64
     }
 
-    /// The digits of the sequence before they are scrambled. Points come in the order of Antonov and Saleev, in which
-    /// each follows from the one before by one direction number.
+    /// Returns the digits of the sequence before scrambling.
+    ///
+    /// Points have the order of Antonov and Saleev, in which consecutive points differ by one direction number.
     pub(super) fn plain(&self, index: u64) -> u32 {
         let gray = index ^ (index >> 1);
         let chosen = self.directions.iter().enumerate().filter(|(bit, _)| gray >> bit & 1 == 1);
@@ -31,11 +32,12 @@ impl Sobol {
     }
 }
 
-/// The direction numbers of a dimension, as binary fractions: the recurrence of Sobol', Bratley and Fox (1988), Eq. (2).
+/// Returns the direction numbers of a dimension as binary fractions, by the recurrence of Sobol'; Bratley and Fox
+/// (1988), Eq. (2).
 fn directions(dimension: usize) -> [u32; BITS] {
     let mut directions = [0; BITS];
     let Some((polynomial, first)) = dimension.checked_sub(1).and_then(|index| DIRECTIONS.get(index)) else {
-        // The first dimension is the sequence of van der Corput.
+        // The first dimension is the van der Corput sequence.
         return std::array::from_fn(|bit| 1 << (BITS - 1 - bit));
     };
     let degree = first.len();
@@ -52,10 +54,11 @@ fn directions(dimension: usize) -> [u32; BITS] {
     directions
 }
 
-/// Owen's nested uniform scrambling by a hash: each binary digit is flipped or not, as the digits before it decide.
+/// Returns digits with Owen's nested uniform scrambling by a hash: each binary digit is flipped depending on the
+/// digits before it.
 ///
-/// The hash is that of Laine and Karras with the constants of Vegdahl, as in Burley, "Practical Hash-based Owen
-/// Scrambling", JCGT 9(4) (2020). In it a bit depends on lower ones only, hence the reversals.
+/// The hash is by Laine and Karras with Vegdahl's constants, as in Burley, "Practical Hash-based Owen Scrambling",
+/// JCGT 9(4) (2020). In this hash a bit depends on lower bits only, hence the reversals.
 fn scrambled(digits: u32, key: u32) -> u32 {
     let mut x = digits.reverse_bits();
     x ^= x.wrapping_mul(0x3D20_ADEA);
@@ -66,9 +69,10 @@ fn scrambled(digits: u32, key: u32) -> u32 {
     x.reverse_bits()
 }
 
-/// For the second dimension and those that follow: the primitive polynomial over the field of two elements, with its
-/// coefficients as bits from the highest power to the constant, and the first direction numbers m1, m2 and so on, as many
-/// as its degree.
+/// Primitive polynomials and first direction numbers of the second and later dimensions.
+///
+/// A polynomial over the field of two elements is given by its coefficients as bits, from the highest power to the
+/// constant. As many direction numbers m1, m2 and so on follow as its degree.
 #[rustfmt::skip]
 pub(super) const DIRECTIONS: [(u32, &[u32]); 127] = [
     (3, &[1]), (7, &[1, 3]), (11, &[1, 3, 1]), (13, &[1, 1, 1]), (19, &[1, 1, 3, 3]), (25, &[1, 3, 5, 13]),

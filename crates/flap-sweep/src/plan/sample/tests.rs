@@ -31,8 +31,8 @@ fn sobol_points_before_scrambling_are_those_of_scipy() {
     }
 }
 
-/// Of the first 2^k points each of as many equal intervals has one, along every dimension, and so has each of as many
-/// equal boxes over the first two: scrambling keeps what makes the sequence even.
+/// Each of 2^k equal intervals contains one of the first 2^k points, along every dimension. So does each of as many
+/// equal boxes over the first two dimensions. Scrambling preserves this.
 #[test]
 fn scrambled_sobol_points_are_as_even_as_plain_ones() {
     let design = design(Method::Sobol, 1 << 32, 128);
@@ -56,7 +56,7 @@ fn scrambled_sobol_points_are_as_even_as_plain_ones() {
     }
 }
 
-/// The error of a mean falls faster than by chance, which would leave 0.29 / sqrt(4096) = 0.0045.
+/// The error of a mean is smaller than for random points, whose error would be 0.29 / sqrt(4096) = 0.0045.
 #[test]
 fn scrambled_sobol_points_integrate() {
     let design = design(Method::Sobol, 4096, 5);
@@ -83,7 +83,7 @@ fn each_interval_of_a_latin_hypercube_has_one_point() {
     }
 }
 
-/// The place of the points among the intervals is random: all orders of three come up, about equally often.
+/// The order of the points among the intervals is random: all orders of three occur about equally often.
 #[test]
 fn latin_hypercubes_are_shuffled_fairly() {
     let mut counts = std::collections::BTreeMap::new();
@@ -93,11 +93,11 @@ fn latin_hypercubes_are_shuffled_fairly() {
         *counts.entry(order).or_insert(0_i32) += 1;
     }
     assert_eq!(counts.len(), 6);
-    // Four standard deviations.
+    // Limit: four standard deviations.
     assert!(counts.values().all(|count| (count - 1000).abs() < 116), "{counts:?}");
 }
 
-/// Dimensions of a sample do not depend on each other.
+/// Dimensions of a sample are independent.
 #[test]
 fn dimensions_are_independent() {
     for method in [Method::Sobol, Method::LatinHypercube, Method::Random] {
@@ -110,7 +110,7 @@ fn dimensions_are_independent() {
     }
 }
 
-/// The same for ever, whatever is computed before; other seeds give other points.
+/// Samples are reproducible, and other seeds give other points.
 #[test]
 fn samples_are_reproducible() {
     let known = [(Method::Sobol, SOBOL), (Method::LatinHypercube, LATIN_HYPERCUBE), (Method::Random, RANDOM)];
@@ -143,7 +143,7 @@ fn the_ends_are_never_met() {
     }
 }
 
-/// Mean and standard deviation of a large even sample.
+/// Returns mean and standard deviation of a large even sample.
 fn moments(distribution: &Distribution) -> (f64, f64) {
     let count = 100_000;
     let values = (0..count).map(|i| distribution.quantile((f64::from(i) + 0.5) / f64::from(count)));

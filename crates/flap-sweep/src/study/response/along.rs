@@ -1,4 +1,4 @@
-//! The parameter that rises and falls, and the values that it takes.
+//! The parameter that rises and falls, and its values.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
@@ -6,14 +6,14 @@ use flap_core::simulate::Point;
 use crate::plan::axes::Values;
 use crate::plan::{Admission, Along, Plan};
 
-/// The most values that a parameter takes on the way up.
+/// Largest number of values on the upward branch.
 const MOST_VALUES: f64 = 1e6;
 
-/// A parameter that cannot be followed: the mistake, and what to do.
+/// Error of a parameter that cannot be followed, with advice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct AlongError {
-    /// The mistake, in one line.
+    /// Mistake, in one line.
     pub message: String,
     /// Advice; may be empty.
     pub help: &'static str,
@@ -26,11 +26,18 @@ impl AlongError {
 }
 
 impl Along {
-    /// Follows the parameter with this index in steps `[from, to, step]`, or through the values of its axis. Also gives the
-    /// plan without that axis. `tolerance` is a sixteenth of the shortest step if not given.
+    /// Returns the followed parameter with steps `[from, to, step]` or the values of its axis, and the plan without
+    /// this axis.
+    ///
+    /// The default `tolerance` is a sixteenth of the shortest step.
     ///
     /// # Errors
-    /// [`AlongError`] if the parameter is a choice, is varied together with others, or has no axis and no steps, or no values come of them.
+    /// [`AlongError`] in these cases:
+    ///
+    /// - The parameter is a choice.
+    /// - It is varied together with others.
+    /// - It has neither an axis nor steps.
+    /// - There are fewer than two values.
     pub fn new(
         plan: Plan,
         parameter: usize,
@@ -46,7 +53,7 @@ impl Along {
         let (plan, axis) = plan.without_axis(parameter);
         if plan.axes().varied().any(|varied| varied == parameter) {
             let message = format!("`{name}` is varied together with other parameters");
-            return Err(AlongError::new(message, "follow a parameter with an axis of its own, or none"));
+            return Err(AlongError::new(message, "follow a parameter that has its own axis or no axis"));
         }
         let values = match (steps, axis) {
             (Some(steps), _) => self::steps(name, steps)?,
@@ -66,12 +73,12 @@ impl Along {
         }
     }
 
-    /// The parameter, in the table of the plan's model.
+    /// Returns the parameter, from the table of the plan's model.
     pub fn parameter<'p>(&self, plan: &'p Plan) -> &'p Parameter<'p> {
         &plan.parameters()[self.parameter]
     }
 
-    /// One value per parameter of the model, for a design where the followed parameter has come to `value`.
+    /// Returns one value per parameter of the model, for a design with the followed parameter at `value`.
     pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
         let mut values = design.values.clone();
         values[self.parameter] = value;
@@ -79,7 +86,7 @@ impl Along {
         values
     }
 
-    /// The verdict on a design: it is followed if it runs anywhere on its curve.
+    /// Returns the decision on a design: it is followed if any point of its curve is run.
     pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Admission {
         let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
         let first = verdicts.next().unwrap_or(Admission::Runs);
@@ -92,7 +99,7 @@ impl Along {
 }
 
 fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError> {
-    // A last step that is short by rounding alone is a step.
+    // A last step that is short because of rounding counts as a step.
     let whole = ((to - from) / step + 1e-9).floor();
     if !(step > 0.0 && (1.0..MOST_VALUES).contains(&whole)) {
         let message = format!("`{name}` cannot rise from {from} to {to} in steps of {step}");
@@ -105,13 +112,13 @@ fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError>
     Ok((0..count).map(|i| values.get(i)).collect())
 }
 
-/// The values of an axis by rising value.
+/// Returns the values of an axis in ascending order.
 fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, AlongError> {
     let mut values: Vec<f64> = (0..axis.len()).map(|i| axis.get(i)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
     if values.len() < 2 {
-        let message = format!("the axis of `{name}` has one value, so that it cannot rise and fall");
+        let message = format!("the axis of `{name}` has one value, but needs at least two to rise and fall");
         return Err(AlongError::new(message, ""));
     }
     Ok(values)

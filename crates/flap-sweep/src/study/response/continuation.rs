@@ -1,9 +1,10 @@
-//! The unstable orbits between the two motions of a bistable band.
+//! Unstable orbits between the two motions of a bistable band.
 //!
-//! At the end of its band a branch of orbits turns round and comes back, unstable, to turn again at the other end into
-//! the other branch. It is followed by pseudo-arclength continuation (H. B. Keller, 1977): unknown are the state at
-//! the beginning of the period and the parameter at once, and each orbit is looked for on a plane across the secant
-//! through the last two.
+//! At the end of its band, a branch of orbits turns back and becomes unstable. At the other end it turns again and
+//! joins the other branch.
+//!
+//! Pseudo-arclength continuation follows it (H. B. Keller, 1977). The unknowns are the state at the beginning of the
+//! period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
@@ -12,24 +13,28 @@ use nalgebra::{DMatrix, DVector};
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan};
 
-/// First, shortest and longest distance between orbits: 1 is the band's width, and the largest of a state component.
+/// First, shortest and longest distance between orbits. 1 is the width of the band, and the largest magnitude of a
+/// state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
-/// Orbits after which a branch is given up.
+/// Largest number of orbits of a branch.
 const MOST: usize = 2000;
 
-/// Newton iterations after which a step is tried shorter, and up to which it grows.
+/// Number of Newton iterations above which a step is repeated with a shorter length. With fewer iterations, the
+/// length grows.
 const SLOW: usize = 8;
 const QUICK: usize = 3;
 
-/// Change of the parameter, as a share of the band's width, by which the derivative is taken.
+/// Change of the parameter for its derivative, relative to the width of the band.
 const CHANGE: f64 = 1e-3;
 
-/// Tolerances of the integration of periods, as a share of those elsewhere. The ends of periods must change smoothly along
-/// the branch, far below `settle_tol`, or a plane may have no orbit on it.
+/// Tolerances for the integration of periods, relative to the usual tolerances.
+///
+/// The final states must change smoothly along the branch, far below `settle_tol`. Otherwise a plane may contain no
+/// orbit.
 const FINER: f64 = 1e-2;
 
-/// The unstable orbits of all bistable bands of a curve, or some of them if it is interrupted.
+/// Returns the unstable orbits of all bistable bands of a curve, or some of them if it is interrupted.
 pub(super) fn unstable(
     plan: &Plan,
     along: &Along,
@@ -45,11 +50,11 @@ pub(super) fn unstable(
     };
     let mut found = Vec::new();
     let mut units = sizes.clone();
-    // A component that never moves has no size of its own.
+    // A component that is always zero has no size.
     units.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
     for last in 1..curve.up.len() {
         let ends_here = is_bistable(last) && (last + 1 == curve.up.len() || !is_bistable(last + 1));
-        // The branch ends between this value and the next: two of its orbits give the direction.
+        // The branch ends between this value and the next. Two of its orbits define the direction.
         if !ends_here || curve.up[last - 1].row.status != Status::Periodic {
             continue;
         }
@@ -64,7 +69,8 @@ pub(super) fn unstable(
     found
 }
 
-/// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the band.
+/// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the
+/// band.
 struct Branch<'a> {
     plan: &'a Plan,
     backend: Backend,
@@ -86,7 +92,7 @@ struct Orbit {
 }
 
 impl Branch<'_> {
-    /// The orbits after `before` and `last` as long as they are unstable. Empty if the branch does not turn.
+    /// Returns the orbits after `before` and `last` as long as they are unstable. Empty if the branch does not turn.
     fn turn(&self, before: &Step, last: &Step) -> Vec<Step> {
         let mut places = [self.place(before), self.place(last)];
         let mut distance = STEPS[0];
@@ -107,9 +113,9 @@ impl Branch<'_> {
             }
             match row.status {
                 Status::Unstable => found.push(Step { value: self.value(&orbit.place), row }),
-                // Round the other end, and on the other branch.
+                // The continuation has turned at the other end and reached the other branch.
                 _ if !found.is_empty() => return found,
-                // The branch goes on: the band has ended there for another reason.
+                // The branch continues, so the band ended for another reason.
                 _ if self.value(&orbit.place) > last.value + self.width => return found,
                 _ => {}
             }
@@ -131,7 +137,7 @@ impl Branch<'_> {
         place.iter().zip(self.sizes).map(|(y, size)| y * size).collect()
     }
 
-    /// One drive period from a place.
+    /// Returns one drive period from a position on the branch.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.along.values_at(self.plan, self.design, self.value(place));
         let state = self.state(place);
@@ -141,7 +147,8 @@ impl Branch<'_> {
             .period(&PointRun::new(self.backend, &self.solver, &values).until(self.interrupted), &state)
     }
 
-    /// The orbit nearest to `guess` on the plane through it across `direction`, by Newton's iteration.
+    /// Returns the orbit nearest to `guess` on the plane through it perpendicular to `direction`, by Newton's
+    /// iteration.
     fn correct(&self, guess: &DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
         let n = self.sizes.len();
         let mut place = guess.clone();
@@ -178,7 +185,7 @@ impl Branch<'_> {
         let n = self.sizes.len();
         let Orbit { place, period, residual, iterations, rhs_evals } = orbit;
         let floquet_max = period.floquet_max;
-        // A period with its responses counts as many as there are of them and one, and each was measured.
+        // A period with n responses counts as n + 1 periods, and each was also measured.
         let periods = (2 * iterations + 1) * (n + 2);
         Row {
             status: if floquet_max < 1.0 { Status::Periodic } else { Status::Unstable },

@@ -1,4 +1,4 @@
-//! The response of one design, and the comparison of its motions at the same drive.
+//! Response of one design, and the comparison of its motions at the same drive.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
@@ -9,47 +9,49 @@ use crate::table::layout::{Cell, Layout, Place};
 /// A motion on a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// Value of the parameter that rises and falls.
+    /// Value of the followed parameter.
     pub value: f64,
-    /// The motion.
+    /// Row of the motion.
     pub row: Row,
 }
 
-/// The response of one design.
+/// Response of one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// The design.
+    /// Design.
     pub design: Point,
-    /// The motions on the way up, by rising value.
+    /// Motions on the upward branch, in ascending order of the parameter.
     pub up: Vec<Step>,
-    /// The motions on the way down, by rising value too: at the values of `up`.
+    /// Motions on the downward branch at the values of `up`, also in ascending order.
     pub down: Vec<Step>,
-    /// Unstable orbits, if they were looked for: for each bistable band, from the end of the upward branch to that of the
-    /// downward one. Values fall and may turn.
+    /// Unstable orbits, if they were computed. For each bistable band they lead from the end of the upward branch to
+    /// the end of the downward branch. Their values decrease and may turn.
     pub unstable: Vec<Step>,
 }
 
-/// The sizes of the state's components on the ways up and down.
+/// Returns the sizes of the state's components on both branches.
 pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
     sizes(up.iter().chain(down).map(|step| &step.row))
 }
 
 impl Curve {
-    /// The curve of a design that cannot be run.
+    /// Returns the curve of a design that cannot be run.
     pub(super) fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
         let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
         let up: Vec<Step> = along.values.iter().map(step).collect();
         Curve { design, down: up.clone(), up, unstable: Vec::new() }
     }
 
-    /// The reason for which the design has no response, if its parameters are impossible together.
+    /// Returns the reason why the design has no response, if its parameters are impossible together.
     pub fn invalid(&self) -> Option<&str> {
         let first = &self.up.first()?.row;
         if first.status == Status::Invalid { first.reason.as_deref() } else { None }
     }
 
-    /// The motions with their cells under the columns of `layout`: the way up, by rising value, then the way down, by falling
-    /// value, then the unstable orbits.
+    /// Returns the motions with their cells for the columns of `layout`.
+    ///
+    /// The upward branch comes first in ascending order, then the downward branch in descending order, then the
+    /// unstable orbits.
     pub fn rows(&self, layout: &Layout<'_>) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
         let bistable = self.bistable();
         let up = self.up.iter().zip(bistable.clone()).map(|(step, bistable)| ("up", step, bistable));
@@ -61,7 +63,8 @@ impl Curve {
         })
     }
 
-    /// For each value, true if the two ways have different motions there; none if neither is periodic with the drive.
+    /// Returns for each value true if the two branches have different motions; `None` if neither is periodic with the
+    /// drive.
     fn bistable(&self) -> Vec<Option<bool>> {
         let sizes = component_sizes(&self.up, &self.down);
         let pairs = self.up.iter().zip(&self.down);
@@ -75,17 +78,17 @@ impl Curve {
     }
 }
 
-/// Periodic motions are different if a component of the state at the beginning of a period differs by more than this, as a
-/// share of the largest absolute value of the component on the curve.
+/// Largest difference of equal periodic motions: of a state component at the beginning of a period, relative to its
+/// largest magnitude on the curve.
 ///
-/// This is the only definition of bistability: the column `bistable` of the rows has its result, which pictures and the
-/// live page show. It compares states, because a measure may have the same value in two motions.
+/// This is the only definition of bistability. The column `bistable` of the rows contains its result, which pictures
+/// and the live page show. It compares states, because a measure may have the same value in two motions.
 const DIFFERENT: f64 = 1e-2;
 
-/// A response is steep in a step if a component of the state changes by more than this across the step, as the same share.
+/// Relative change of a state component across a step above which the response counts as steep.
 const STEEP: f64 = 0.1;
 
-/// The comparison of two motions at the same drive.
+/// Comparison of two motions at the same drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Comparison {
     /// The same orbit.
@@ -96,7 +99,7 @@ pub(super) enum Comparison {
     Irregular,
 }
 
-/// The sizes of the state's components: the largest absolute value of each in the motions of a curve.
+/// Returns the sizes of the state's components: the largest magnitude of each in the motions of a curve.
 pub(super) fn sizes<'a>(motions: impl Iterator<Item = &'a Row>) -> Vec<f64> {
     let mut sizes: Vec<f64> = Vec::new();
     for row in motions.filter(|row| row.status == Status::Periodic) {
@@ -108,11 +111,11 @@ pub(super) fn sizes<'a>(motions: impl Iterator<Item = &'a Row>) -> Vec<f64> {
     sizes
 }
 
-/// Compares two motions at the same drive, given the sizes of the state's components.
+/// Compares two motions at the same drive. `sizes` are the sizes of the state's components.
 pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
     let are_near = || !differ(up, down, sizes, DIFFERENT);
     match (up.status, down.status) {
-        // Near the end of a branch motions settle slowly: one that is close to an orbit is on its way to it.
+        // Near the end of a branch motions settle slowly. An unsettled motion close to an orbit counts as this orbit.
         (Status::Periodic, Status::Periodic | Status::Unsettled) | (Status::Unsettled, Status::Periodic)
             if are_near() =>
         {
@@ -123,12 +126,12 @@ pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
     }
 }
 
-/// True if the response is steep between two motions, given the sizes of the state's components.
+/// Returns true if the response is steep between two motions. `sizes` are the sizes of the state's components.
 pub(super) fn is_steep(low: &Row, high: &Row, sizes: &[f64]) -> bool {
     differ(low, high, sizes, STEEP)
 }
 
-/// True if a component of the states differs by more than a share of its size.
+/// Returns true if a component of the states differs by more than a share of its size.
 fn differ(one: &Row, other: &Row, sizes: &[f64], share: f64) -> bool {
     let mut pairs = one.state.iter().zip(&other.state).zip(sizes);
     pairs.any(|((one, other), size)| (one - other).abs() > share * size)

@@ -1,8 +1,10 @@
-//! The way up and the way down a curve.
+//! The upward and the downward branch of a curve.
 //!
-//! Both go step by step at the same time. Two kinds of steps are then halved, each half from its neighbour on its own way,
-//! until they are short: steps where both ways have the same motion at one end only, and steps in which the response is
-//! steep, since a narrow band of hysteresis may be inside.
+//! Both branches advance step by step at the same time. Two kinds of steps are then halved until they are short, each
+//! half from its neighbour on its own branch:
+//!
+//! - steps with equal motions of both branches at one end only
+//! - steps in which the response is steep, because they may contain a narrow band of hysteresis
 
 use flap_core::simulate::{Point, Row, Status};
 
@@ -10,20 +12,20 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes, is_steep};
 use crate::plan::{Along, Plan};
 use crate::resonance::sequence::PointSequence;
 
-/// A curve that is being followed.
+/// A curve in progress.
 pub(super) struct Follow<'a> {
     plan: &'a Plan,
     along: &'a Along,
     design: Point,
-    /// Motions on the way up and on the way down, in the order in which they were run.
+    /// Motions on the upward and the downward branch, in the order in which they were run.
     up: Vec<Step>,
     down: Vec<Step>,
     stage: Stage,
 }
 
-/// The stage of the work.
+/// Stage of the work.
 enum Stage {
-    /// Going up and down.
+    /// Advancing along both branches.
     Steps,
     /// Halving steps.
     Halves(Vec<Interval>),
@@ -34,10 +36,11 @@ enum Stage {
 /// A step between neighbouring values.
 #[derive(Clone, Debug)]
 struct Interval {
-    /// The ends of the step, with the motion of the way up at the lower one, and that of the way down at the upper one.
+    /// Ends of the step, with the motion of the upward branch at the lower end and of the downward branch at the
+    /// upper end.
     low: Step,
     high: Step,
-    /// True for each end at which both ways have the same motion.
+    /// True for each end at which both branches have the same motion.
     same: [bool; 2],
 }
 
@@ -53,7 +56,7 @@ impl<'a> Follow<'a> {
         Curve { design: self.design, up: self.up, down: self.down, unstable: Vec::new() }
     }
 
-    /// The point at `value`, begun where the motion of `from` has ended.
+    /// Returns the point at `value`, which begins at the final state of `from`.
     fn probe(&self, value: f64, from: Option<&Step>) -> Point {
         let values = self.along.values_at(self.plan, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {
@@ -65,14 +68,14 @@ impl<'a> Follow<'a> {
         Point { begin: begin.filter(|state| !state.is_empty()), ..Point::at_rest(0, values) }
     }
 
-    /// The values of the next step up and down; `None` after the last.
+    /// Returns the values of the next step up and down; `None` after the last.
     fn next_values(&self) -> Option<[f64; 2]> {
         let values = &self.along.values;
         let done = self.up.len();
         Some([*values.get(done)?, values[values.len() - 1 - done]])
     }
 
-    /// The steps between the values, without those next to motions that are not periodic with the drive.
+    /// Returns the steps between the values, without steps next to motions that are not periodic with the drive.
     fn intervals(&self) -> Vec<Interval> {
         let sizes = component_sizes(&self.up, &self.down);
         let places: Vec<(&Step, &Step, Comparison)> = (self.up.iter().zip(self.down.iter().rev()))
@@ -87,7 +90,7 @@ impl<'a> Follow<'a> {
         pairs.map(interval).collect()
     }
 
-    /// The stage for those of `intervals` that are to be halved; the last one if there are none.
+    /// Returns the stage that halves the `intervals` that need it; the last stage if there are none.
     fn halve(&self, mut intervals: Vec<Interval>) -> Stage {
         let sizes = component_sizes(&self.up, &self.down);
         intervals
@@ -101,7 +104,7 @@ impl Interval {
         0.5 * (self.low.value + self.high.value)
     }
 
-    /// True if the step contains an end of a bistable band, or may contain a band.
+    /// Returns true if the step contains an end of a bistable band, or may contain a band.
     fn is_open(&self, sizes: &[f64]) -> bool {
         match self.same {
             [true, true] => is_steep(&self.low.row, &self.high.row, sizes),
@@ -111,11 +114,11 @@ impl Interval {
 
     fn is_longer_than(&self, tolerance: f64) -> bool {
         let (low, middle, high) = (self.low.value, self.middle(), self.high.value);
-        // No finer than doubles can tell apart.
+        // Limited by the resolution of doubles.
         low < middle && middle < high && high - low > tolerance
     }
 
-    /// Both halves, given the motions in the middle.
+    /// Returns both halves, given the motions in the middle.
     fn halves(self, up: &Step, down: &Step, sizes: &[f64]) -> [Interval; 2] {
         let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
         let [below, above] = self.same;

@@ -1,14 +1,15 @@
-//! Responses: the motions of a design as one parameter, usually the drive frequency, rises and falls.
+//! Responses: the motions of a design while one parameter, usually the drive frequency, rises and falls.
 //!
-//! Every point starts from the settled motion of its neighbour, so that the response stays on a branch of orbits up to the
-//! branch's end. At values where the way up and the way down differ, the design has two motions at the same drive.
+//! Every point starts from the settled motion of its neighbour, so the response stays on a branch of orbits up to the
+//! branch's end. At values where the upward and the downward branch differ, the design has two motions at the same
+//! drive.
 //!
-//! - `along`: the values that the parameter takes
-//! - `curve`: the response of one design, its rows, and the comparison of its motions at the same drive
+//! - `along`: values of the parameter
+//! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive
 //! - `follow`: one curve, up and down, with the ends of its bistable bands
-//! - `continuation`: the unstable orbits that join the branches of a bistable band
-//! - `verdict`: the verdict on a curve, in a line
-//! - `run`: the curves of all designs of a plan, in order
+//! - `continuation`: unstable orbits that connect the branches of a bistable band
+//! - `verdict`: one-line summary of a curve
+//! - `run`: curves of all designs of a plan, in order
 
 mod along;
 mod continuation;

@@ -1,4 +1,4 @@
-//! The runner of responses: a curve for each design of a plan.
+//! Runner of responses: a curve for each design of a plan.
 
 use std::sync::Arc;
 
@@ -12,11 +12,13 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Fewest and most curves per thread that are run ahead of the last one pulled: enough to keep lanes full, few enough for
-/// memory.
+/// Smallest and largest number of curves per thread ahead of the last one returned.
+///
+/// They are enough to keep lanes full, and few enough for memory.
 const AHEAD: [usize; 2] = [16, 128];
 
-/// The responses of the designs of a plan: of its selected points that its conditions do not exclude everywhere on their curves.
+/// Responses of the designs of a plan: of its selected points, except points that are excluded at all values of the
+/// parameter.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
     plan: &'a Plan,
@@ -24,12 +26,12 @@ pub struct Responses<'a> {
 }
 
 impl<'a> Responses<'a> {
-    /// The responses of a plan that follows a parameter; `None` of any other.
+    /// Returns the responses of a plan that follows a parameter; `None` for any other plan.
     pub fn of(plan: &'a Plan) -> Option<Responses<'a>> {
         plan.followed().map(|along| Responses { plan, along })
     }
 
-    /// The curves of the designs from the one at position `first` among the selected ones on, in order.
+    /// Returns the curves of the designs beginning at position `first` among the selected points, in order.
     pub fn curves(self, options: &RunOptions, first: u64) -> Run<Outcome<Curve>> {
         let window = self.window(options);
         let (plan, backend) = (Arc::new(self.plan.clone()), options.instructions);
@@ -40,13 +42,13 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Most curves that are run ahead of the last one written.
+    /// Returns the largest number of curves ahead of the last one written.
     fn window(self, options: &RunOptions) -> usize {
         let [least, most] = AHEAD.map(|curves| curves * options.threads.get());
         (options.window / (2 * self.along.values.len())).clamp(least, most)
     }
 
-    /// The response of one design, on scalars. Gives the same bits as [`Responses::curves`].
+    /// Returns the response of one design, computed on scalars with the same bits as [`Responses::curves`].
     pub fn curve(self, design: Point) -> Curve {
         let backend = Backend::best();
         let mut follow = Follow::new(self.plan, self.along, design);
@@ -54,8 +56,9 @@ impl<'a> Responses<'a> {
         self.complete(follow.finish(), backend, &never)
     }
 
-    /// Adds the unstable orbits to a curve, if they are wanted, and the plan's own measures to all of its rows. Interrupted,
-    /// it leaves orbits out.
+    /// Adds the unstable orbits to a curve, if requested, and the plan's own measures to all of its rows.
+    ///
+    /// If it is interrupted, orbits are left out.
     fn complete(self, mut curve: Curve, backend: Backend, interrupted: Interrupt<'_>) -> Curve {
         let Responses { plan, along } = self;
         if along.unstable {
@@ -70,10 +73,10 @@ impl<'a> Responses<'a> {
 }
 
 impl RowWriter<'_> {
-    /// Writes the rows of the next design's curve, or counts the design if it is excluded.
+    /// Writes the rows of the next design's curve, or counts an excluded design.
     ///
     /// # Errors
-    /// [`RunError::Sink`] if they cannot be written.
+    /// [`RunError::Sink`] if the rows cannot be written.
     pub fn write_curve(&mut self, outcome: &Outcome<Curve>) -> Result<(), RunError> {
         match outcome {
             Outcome::Ran(curve) => {
@@ -85,7 +88,7 @@ impl RowWriter<'_> {
     }
 }
 
-/// Designs on their way from the queue to their curves.
+/// Designs in progress, from the queue to their curves.
 struct Designs<'a, 'w, 'q> {
     responses: Responses<'a>,
     backend: Backend,
@@ -123,7 +126,7 @@ impl<'a> SequenceSource for Designs<'a, '_, '_> {
             return;
         }
         let curve = self.responses.complete(curve, self.backend, &|| self.worker.is_cancelled());
-        // Interrupted, it may lack orbits.
+        // After an interruption, the curve may lack orbits.
         if !self.worker.is_cancelled() {
             let position = self.responses.plan.selection().position(curve.design.index);
             self.worker.done(position, Outcome::Ran(curve));
@@ -135,7 +138,7 @@ impl<'a> SequenceSource for Designs<'a, '_, '_> {
     }
 }
 
-/// The number of measures of a row, where a periodic one has so many.
+/// Returns the expected number of measures of a row. A periodic one has `measures`.
 fn expected(row: &Row, measures: usize) -> usize {
     if row.status == Status::Periodic { measures } else { 0 }
 }

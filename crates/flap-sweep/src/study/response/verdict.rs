@@ -1,4 +1,4 @@
-//! The verdict on a curve, in a line.
+//! One-line summary of a curve.
 
 use std::fmt;
 
@@ -9,52 +9,53 @@ use super::curve::{Comparison, Curve, compare, component_sizes};
 use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 
-/// The verdict on a curve.
+/// Summary of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// First and last value of the parameter.
     pub range: [f64; 2],
-    /// Its unit.
+    /// Unit of the parameter.
     pub unit: &'static str,
-    /// The longest step between neighbouring values: a band of hysteresis that fits into it may be missed.
+    /// Longest step between neighbouring values. A narrower band of hysteresis may be missed.
     pub step: f64,
-    /// The longest step in which the response may be steep: the state changes by more than a tenth across it.
+    /// Longest step across which the state changes by more than a tenth.
     pub steep_step: f64,
-    /// Largest difference of the stroke (deg, peak to peak) between the two ways where they have the same motion.
+    /// Largest difference of the stroke (deg, peak to peak) between the branches where they have the same motion.
     pub difference: f64,
-    /// The values at which they have not, or at which motions are not periodic with the drive, by rising value.
+    /// Bands without a single orbit, in ascending order of the parameter.
     pub bands: Vec<Band>,
-    /// The reason for which the design has no response.
+    /// Reason why the design has no response.
     pub invalid: Option<String>,
 }
 
-/// Values next to each other at which a curve is not a single orbit.
+/// Neighbouring values at which the curve is not a single orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
-    /// First and last of them.
+    /// First and last value.
     pub range: [f64; 2],
-    /// The kind of motions there.
+    /// Kind of the motions.
     pub kind: BandKind,
 }
 
-/// The kind of motions at values where a curve is not a single orbit.
+/// Kind of motions at values where a curve is not a single orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BandKind {
-    /// Two motions: on the way up, and on the way down.
+    /// Two motions: one on the upward and one on the downward branch.
     Bistable {
-        /// Largest difference of the stroke between them (deg, peak to peak); `None` if everywhere one of them is not
+        /// Largest difference of their strokes (deg, peak to peak); `None` if at every value one of them is not
         /// periodic with the drive.
         jump: Option<f64>,
     },
     /// Motions that are not periodic with the drive.
     Irregular {
-        /// The motions, each kind once: status, and length in drive periods.
+        /// Each kind of motion once: status, and length in drive periods.
         what: Vec<(Status, u32)>,
     },
 }
 
 impl Verdict {
-    /// The verdict on a curve along `parameter`, given the index of the stroke's amplitude (deg) among the measures.
+    /// Returns the summary of a curve along `parameter`. `stroke` is the index of the stroke's amplitude (deg) in the
+    /// measures.
     pub fn new(curve: &Curve, along: &Along, parameter: &Parameter<'_>, stroke: usize) -> Verdict {
         let steps = curve.up.windows(2).map(|two| two[1].value - two[0].value);
         let step = steps.fold(0.0, f64::max);
@@ -95,7 +96,7 @@ impl Verdict {
         verdict
     }
 
-    /// The bands in which there are two motions.
+    /// Returns the bands with two motions.
     pub fn bistable(&self) -> impl Iterator<Item = &Band> {
         self.bands.iter().filter(|band| matches!(band.kind, BandKind::Bistable { .. }))
     }
@@ -112,7 +113,7 @@ impl BandKind {
         std::mem::discriminant(self) == std::mem::discriminant(next)
     }
 
-    /// Adds what is known of the next value of a band.
+    /// Adds the next value of a band.
     fn add(&mut self, next: BandKind) {
         match (self, next) {
             (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => {
@@ -153,11 +154,11 @@ impl fmt::Display for Verdict {
                     write!(f, "bistable {place}, jump of {} deg", digits(*jump))?;
                 }
                 BandKind::Bistable { jump: None } => {
-                    write!(f, "bistable {place}, one motion not of one drive period")?;
+                    write!(f, "bistable {place}, one branch does not repeat every drive period")?;
                 }
                 BandKind::Irregular { what } => {
                     let what: Vec<String> = what.iter().map(|&kind| describe(kind)).collect();
-                    write!(f, "not of one drive period {place} ({})", what.join(", "))?;
+                    write!(f, "does not repeat every drive period {place} ({})", what.join(", "))?;
                 }
             }
         }
@@ -172,7 +173,7 @@ fn describe((status, period): (Status, u32)) -> String {
     }
 }
 
-/// `from 121.5 to 136 Hz`, or `at 14 mm`.
+/// Returns `from 121.5 to 136 Hz`, or `at 14 mm`.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale([from, to], unit);
     let [from, to] = [from, to].map(|value| six_digits(value * factor));
@@ -180,7 +181,7 @@ fn span([from, to]: [f64; 2], unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// `0.5 Hz`, with the prefix of the range.
+/// Returns `0.5 Hz`, with the prefix of the range.
 fn length(value: f64, range: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale(range, unit);
     format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()
@@ -194,7 +195,7 @@ fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Two significant digits of a small number, two decimals of others.
+/// Returns two significant digits of a small number, two decimals of others.
 fn digits(x: f64) -> String {
     if x != 0.0 && x.abs() < 0.1 { format!("{x:.1e}") } else { format!("{x:.2}") }
 }

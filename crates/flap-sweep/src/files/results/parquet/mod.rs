@@ -23,28 +23,28 @@ mod read;
 
 pub(super) use read::{ParquetReader, sum_up};
 
-/// Rows in one row group: a few megabytes in memory, and long enough to be read fast.
+/// Number of rows in one row group: a few megabytes in memory, and long enough for fast reading.
 const GROUP_ROWS: usize = 1 << 15;
 
-/// Writes rows in row groups; an empty cell is null.
+/// Writer of rows in row groups. An empty cell is null.
 pub(crate) struct ParquetRows {
     writer: SerializedFileWriter<Hashed>,
     columns: Vec<Cells>,
     rows: usize,
     text: TextDigest,
-    /// The row as text; kept for its memory.
+    /// The row as text; kept to reuse its memory.
     line: String,
 }
 
 impl ParquetRows {
-    /// Begins an empty file.
+    /// Creates an empty file.
     pub(crate) fn new(file: File, provenance: &Provenance) -> io::Result<ParquetRows> {
         let columns = &provenance.columns;
         let fields = columns.iter().map(|column| field(column).map(Arc::new)).collect::<Result<_, _>>();
         let schema = Type::group_type_builder("flap").with_fields(fields.map_err(io_error)?).build();
         let entries = provenance.entries.iter();
         let metadata = entries.map(|(key, text)| KeyValue::new(key.clone(), text.clone())).collect();
-        // Digits seldom repeat, words always do.
+        // Dictionaries help with words, which repeat, but not with digits.
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::ZSTD(ZstdLevel::default()))
             .set_dictionary_enabled(false)
@@ -77,7 +77,7 @@ impl ParquetRows {
         if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
 
-    /// Completes the file, makes it durable, and gives its checksums.
+    /// Completes the file, makes it durable, and returns its checksums.
     pub(crate) fn finish(mut self) -> io::Result<Checksums> {
         if self.rows > 0 {
             self.write_group()?;
@@ -99,11 +99,11 @@ impl ParquetRows {
     }
 }
 
-/// The cells of one column in the row group that is being filled.
+/// Cells of one column in the current row group.
 struct Cells {
     column: Column,
     values: Values,
-    /// One per row: 1 for a value, 0 for null.
+    /// One entry per row: 1 for a value, 0 for null.
     levels: Vec<i16>,
 }
 
@@ -114,7 +114,7 @@ enum Values {
     Text(Vec<ByteArray>),
 }
 
-/// The column in the schema of a file.
+/// Returns the column's entry in the schema of a file.
 fn field(column: &Column) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.kind {
         CellKind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
@@ -129,7 +129,7 @@ fn field(column: &Column) -> Result<Type, ParquetError> {
 }
 
 impl Cells {
-    /// No cells of `column`.
+    /// Returns an empty column.
     fn new(column: &Column) -> Cells {
         let values = match column.kind {
             CellKind::Whole => Values::Whole(Vec::new()),
@@ -140,14 +140,14 @@ impl Cells {
         Cells { column: column.clone(), values, levels: Vec::new() }
     }
 
-    /// Adds a cell; an empty one is null.
+    /// Adds a cell. An empty cell is null.
     fn push(&mut self, cell: &str) -> io::Result<()> {
         self.levels.push(i16::from(!cell.is_empty()));
         if cell.is_empty() {
             return Ok(());
         }
         match (Cell::parse(self.column.kind, cell), &mut self.values) {
-            // Parquet keeps the bits of an unsigned number in a signed one.
+            // Parquet stores the bits of an unsigned number in a signed one.
             (Some(Cell::Whole(value)), Values::Whole(values)) => values.push(value.cast_signed()),
             (Some(Cell::Number(value)), Values::Number(values)) => values.push(value),
             (Some(Cell::Flag(Some(value))), Values::Flag(values)) => values.push(value),
@@ -160,7 +160,7 @@ impl Cells {
         Ok(())
     }
 
-    /// Writes the cells as the next column, and forgets them.
+    /// Writes the cells as the next column, and clears them.
     fn write(&mut self, mut writer: SerializedColumnWriter<'_>) -> io::Result<()> {
         fn write<T: DataType>(
             writer: &mut SerializedColumnWriter<'_>,
@@ -183,7 +183,7 @@ impl Cells {
     }
 }
 
-/// The error of the operating system, or [`io::ErrorKind::InvalidData`] with the mistake in the file.
+/// Returns the error of the operating system, or [`io::ErrorKind::InvalidData`] with the mistake in the file.
 fn io_error(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(cause) => match cause.downcast::<io::Error>() {

@@ -1,4 +1,4 @@
-//! Rows out of a Parquet file, which may be damaged or made by another program.
+//! Reads rows from a Parquet file, which may be damaged or come from another program.
 
 use std::cell::Cell;
 use std::fs::File;
@@ -20,12 +20,12 @@ use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
 use crate::table::lines;
 
-/// Reads rows back as the text they were written from. Files of other programs are read if their cells are numbers, flags
-/// and text.
+/// Reads rows as the text from which they were written. Files of other programs are accepted if their cells are
+/// numbers, booleans and text.
 pub(crate) struct ParquetReader {
-    /// The column names.
+    /// Column names.
     pub(crate) names: Vec<String>,
-    /// The metadata, as keys with their texts.
+    /// Metadata, as keys with their texts.
     pub(crate) entries: Vec<(String, String)>,
     rows: RowIter<'static>,
 }
@@ -70,7 +70,7 @@ impl ParquetReader {
     }
 }
 
-/// Refuses files that need a decompression library which flap does without.
+/// Rejects files whose decompression library is not part of flap.
 fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
     let columns = metadata.row_groups().iter().flat_map(RowGroupMetaData::columns);
     let other = columns.map(ColumnChunkMetaData::compression).find(|compression| {
@@ -86,7 +86,8 @@ fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 
-/// The digest of the rows in a file as text; with an error if that ends where the file cannot be decoded.
+/// Returns the digest of the rows in a file as text, and an error if the digest ends where the file cannot be
+/// decoded.
 pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = ParquetReader::new(file).and_then(|mut reader| {
@@ -107,8 +108,9 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `decode` on a file that may be damaged. A panic becomes an error and is not printed. After one, the reader that `decode`
-/// used must not be used again.
+/// Runs `decode` on a file that may be damaged. A panic becomes an error and is not printed.
+///
+/// After a panic, the reader that `decode` used must not be used again.
 fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {
@@ -130,13 +132,14 @@ fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     })
 }
 
-/// Largest size of a decompressed page: 256 MiB. Other programs write pages of about 1 MiB, and those of flap are smaller.
+/// Largest size of a decompressed page: 256 MiB. Pages of other programs have about 1 MiB, flap's are smaller.
 const LARGEST_PAGE: u64 = 256 << 20;
 
-/// First byte of a field that is a whole number and follows the one before, in Thrift's compact protocol.
+/// First byte of a field that is a whole number and follows the previous field, in Thrift's compact protocol.
 const NEXT_NUMBER: u8 = 0x15;
 
-/// A file whose pages are refused if they declare too many bytes: a few compressed bytes can stand for any number of others.
+/// A file that rejects pages of too many declared bytes, because a few compressed bytes can expand to any number of
+/// bytes.
 struct Limited(File);
 
 impl Length for Limited {
@@ -148,7 +151,8 @@ impl Length for Limited {
 impl ChunkReader for Limited {
     type T = BufReader<File>;
 
-    // The parquet crate calls this at the header of a page, or at the end of the file, which does not look like a header.
+    // The parquet crate calls this at the header of a page, or at the end of the file, which does not look like a
+    // header.
     fn get_read(&self, start: u64) -> Result<BufReader<File>, ParquetError> {
         let mut source = self.0.get_read(start)?;
         match declared(source.fill_buf()?) {
@@ -166,8 +170,9 @@ impl ChunkReader for Limited {
     }
 }
 
-/// The size of a page when it is decompressed: the second field of its header. `None` if the bytes are no header; the parquet
-/// crate then reports the mistake.
+/// Returns the size of a decompressed page, which is the second field of its header.
+///
+/// `None` if the bytes are no header. The parquet crate then reports the mistake.
 fn declared(header: &[u8]) -> Option<u64> {
     let (_, rest) = number(header)?;
     let (size, _) = number(rest)?;
@@ -175,7 +180,7 @@ fn declared(header: &[u8]) -> Option<u64> {
     (size & 1 == 0).then_some(size >> 1)
 }
 
-/// A field that is a whole number, and the bytes behind it.
+/// Returns a whole number and the bytes after it.
 fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (&kind, bytes) = bytes.split_first()?;
     let length = bytes.iter().take(5).position(|byte| byte & 0x80 == 0)? + 1;
