@@ -1,8 +1,8 @@
 //! Joins the modules of each page's code into one script.
 //!
-//! A page is one file that works without network and from a folder, where browsers load no modules. Each module becomes
-//! a function of its own in the script, after the modules that it imports, and its imports become variables. The Content
-//! Security Policy of the pages allows inline scripts and no others, so this needs no change of it.
+//! A page is one file that works without a network and from a folder, where browsers cannot load modules.
+//! In the script, each module becomes a function after the modules that it imports, and its imports become variables.
+//! The Content Security Policy of the pages allows only inline scripts, so it needs no change.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -53,8 +53,9 @@ impl Joined {
     }
 }
 
-/// A module without its types, which are in comments `/** … */`, and without comments that have lines of their own. The text
-/// begins with an empty line, so that each import follows a line break.
+/// Returns a module without types, which are in comments `/** … */`, and without comments that have their own lines.
+///
+/// The text begins with an empty line, so that every import follows a line break.
 fn without_comments(source: &str) -> String {
     let mut parts = source.split("/**");
     let mut code = parts.next().unwrap_or_default().to_owned();
@@ -66,7 +67,7 @@ fn without_comments(source: &str) -> String {
     lines.fold(String::from("\n"), |kept, line| kept + line + "\n")
 }
 
-/// The imports of a module, as names in braces and a path, and the rest of its text.
+/// Returns the imports of a module, as names in braces and a path, and the rest of its text.
 fn split(source: &str) -> (Vec<(&str, &str)>, String) {
     let (mut imports, mut body) = (Vec::new(), String::new());
     let mut rest = source;
@@ -81,7 +82,7 @@ fn split(source: &str) -> (Vec<(&str, &str)>, String) {
     (imports, body)
 }
 
-/// The name that a line exports.
+/// Returns the name that a line exports.
 fn exported(line: &str) -> Option<&str> {
     let line = line.strip_prefix("export ")?;
     let kinds = ["const ", "class ", "function ", "async function "];
@@ -91,7 +92,7 @@ fn exported(line: &str) -> Option<&str> {
     declared.split(|letter: char| !(letter.is_alphanumeric() || letter == '_')).next()
 }
 
-/// The path of the module that `module` imports by a relative path.
+/// Returns the path of the module that `module` imports by a relative path.
 fn resolved(module: &str, path: &str) -> String {
     let mut parts: Vec<&str> = module.split('/').collect();
     parts.pop();

@@ -214,7 +214,7 @@ def test_the_picture_ends_at_the_last_of_many_fast_steps(page):
 def test_a_measure_and_axes_are_chosen(page):
     page.choose("measure", "stroke_amplitude_deg")
     assert page.chart("chart.scene.y.label") == "Stroke, amplitude"
-    assert page.text("#gradient-title").startswith("What moves stroke, amplitude")
+    assert page.text("#gradient-title").startswith("Effects on stroke, amplitude")
     page.choose("x", "hinge_stiffness")
     assert page.rows()[0][2] == "hinge_stiffness"
     page.type("#x-from", "1")
@@ -357,7 +357,7 @@ def test_up_and_down_of_a_bistable_design(other, tmp_path):
     bands = page.chart("chart.scene.bands")
     assert bands == [{"from": pytest.approx(min(frequencies)), "to": pytest.approx(max(frequencies))}]
     assert 123 < bands[0]["from"] < bands[0]["to"] < 129
-    assert page.text("#tip").startswith("Two motions between ")
+    assert page.text("#tip").startswith("Bistable between ")
     # A measure with the same values on both ways.
     page.choose("measure", "field_max_v_per_um")
     assert page.chart("chart.scene.bands") == bands

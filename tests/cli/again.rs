@@ -4,8 +4,7 @@ use std::fs;
 
 use crate::support::{Folder, frequencies, quick};
 
-const COMPLETE: &str =
-    "is complete: nothing is left to run; the same command with --restart runs its points again\n";
+const COMPLETE: &str = "is complete: nothing is left to run; use --restart to run its points again\n";
 
 #[test]
 fn a_second_sweep_of_the_same_grid_runs_nothing() {
@@ -44,8 +43,8 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
         ended.stderr,
         "error: grid.csv exists already, with other rows: the grid file differs; the solver settings differ\n\
          help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
-         help: an edited grid is another sweep: give its rows another file with --out FILE\n\
-         help: --out FILE writes to another file, --restart replaces it\n"
+         help: an edited grid is another sweep: write its rows to another file with --out FILE\n\
+         help: use --out FILE to write to another file, or --restart to replace it\n"
     );
     fs::write(folder.path("grid.toml"), quick(3)).unwrap();
     folder
@@ -67,7 +66,7 @@ fn damaged_rows_do_not_count_as_complete() {
     folder
         .ends(3, "sweep grid.toml")
         .says("grid.csv is damaged")
-        .says("the same command with --restart computes the rows again");
+        .says("run the same command with --restart to compute the rows again");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 
@@ -82,8 +81,8 @@ fn a_grid_is_named_once() {
         .says("the argument '[GRID]' cannot be used with '--grid <GRID>'")
         .says("Usage: flap sweep");
     folder.ends(2, "sweep").says("<GRID>");
-    folder.ends(2, "sweep a.meta.toml").says("help: name their file: --out FILE");
-    folder.ends(2, "sweep a.meta.toml --out b.csv --shard 1/2").says("--shard needs a grid file");
+    folder.ends(2, "sweep a.meta.toml").says("help: name their file with --out FILE");
+    folder.ends(2, "sweep a.meta.toml --out b.csv --shard 1/2").says("--shard requires a grid file");
 }
 
 #[test]
@@ -104,8 +103,8 @@ fn a_grid_may_come_from_stdin() {
         (nameless.code, nameless.stderr.as_str()),
         (
             2,
-            "error: a grid from stdin needs a name for its results\n\
-             help: name their file: --out FILE, or `path` in [output] of the grid\n"
+            "error: a grid from stdin requires a name for its results\n\
+             help: name their file with --out FILE, or with `path` in [output] of the grid\n"
         )
     );
 
@@ -116,7 +115,7 @@ fn a_grid_may_come_from_stdin() {
     assert!(reading(&["sweep", "-", "--out", "rows.csv"]).stderr.contains("nothing is left to run"));
     assert_eq!(
         folder.flap("results resume rows.csv").stderr,
-        "rows.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
+        "rows.csv is complete: nothing is left to run; use --restart to run its points again\n"
     );
     folder.ends(0, "results convert rows.csv rows.parquet");
     let with_path = grid.clone() + "[output]\npath = \"here.csv\"\n";

@@ -20,13 +20,13 @@ drive_frequency = { from = 60, to = 200, n = 15 }
     let lines: Vec<Vec<&str>> = lines.map(Iterator::collect).collect();
     let has =
         |line: &[&str]| assert!(lines.iter().any(|found| found == line), "{line:?} in\n{}", ended.stdout);
-    has(&["OTHER THAN THE PRESET", "HERE", "PRESET", "RATIO"]);
+    has(&["DIFFERS FROM THE PRESET", "HERE", "PRESET", "RATIO"]);
     has(&["added_mass", "lagrangian", "paper"]);
     ended.prints("2 uN*m/rad");
     ended.prints("60 Hz to 200 Hz");
 
     let ended = Folder::with_grid("preset = \"ozaki2018-large\"\n").flap("check grid.toml");
-    assert!(!ended.stdout.contains("OTHER THAN"), "{}", ended.stdout);
+    assert!(!ended.stdout.contains("DIFFERS FROM"), "{}", ended.stdout);
 }
 
 /// Millimetres that became metres.
@@ -112,7 +112,7 @@ fn values_of_devices_are_doubted_like_those_of_grids() {
 fn check_says_when_every_point_is_invalid() {
     let grid = "preset = \"ozaki2018-large\"\n[derived]\nwing_length = \"-0.01\"\n[axes]\ndrive_frequency = [60, 70]\n";
     let ended = Folder::with_grid(grid).ends(0, "check grid.toml");
-    let told = "all points that were tried are invalid, such as point 0: ";
+    let told = "every point that was tried is invalid, for example point 0: ";
     assert!(
         ended.stdout.contains(told) && ended.stdout.contains("`wing_length` is computed as -0.01"),
         "{}",

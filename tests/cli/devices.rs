@@ -145,7 +145,7 @@ fn commands_take_a_device_for_a_preset() {
     folder.ends(0, "respond mybee.toml --from 110 --to 130 --step 5 --out curves.csv");
     folder.ends(0, "check mybee.toml").prints("hinge_stiffness");
     let listed = folder.ends(0, "models mybee.toml");
-    listed.prints("mybee.toml: begins with jafferis2016\n");
+    listed.prints("mybee.toml: based on jafferis2016\n");
     listed.prints("hinge_stiffness           2 uN*m/rad ± 100 nN*m/rad");
     listed.prints("drive_voltage_pp          160 V");
     // Numbers as they are for other programs.

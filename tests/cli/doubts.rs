@@ -7,7 +7,7 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     let grid =
         "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n[solver]\naccuracy = 1e-14\n";
     let folder = Folder::with_grid(grid);
-    let said = "2 rows miss the accuracy of [solver], see their error_estimate. This command runs them again: \
+    let said = "2 rows miss the accuracy of [solver] (see the column error_estimate). To run them again: \
                 flap results rerun rows.csv --inaccurate --rtol 1e-10 --out rows.accurate.csv\n";
     folder.ends(0, "sweep --grid grid.toml --out rows.csv").says(said);
     assert!(folder.read("rows.csv.meta.toml").contains("[summary.warnings]\ninaccurate = 2\n"));
@@ -29,13 +29,13 @@ fn rows_without_their_estimate_cannot_be_chosen_by_it() {
         "preset = \"ozaki2018-large\"\n[solver]\naccuracy = 1e-14\n[output]\ncolumns = [\"lift_mean_mn\"]\n";
     let folder = Folder::with_grid(grid);
     folder.ends(0, "sweep grid.toml --out rows.csv").says(
-        "1 row misses the accuracy of [solver]: lower rtol there, or name `error_estimate` in `columns`\n",
+        "1 row misses the accuracy of [solver]: lower rtol there, or add `error_estimate` to `columns`\n",
     );
     assert_eq!(folder.read("rows.csv").lines().next(), Some("point,status,lift_mean_mn"));
     folder.refuses(
         "results rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv",
         "error: rows.csv: the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]\n\
-         help: name it there and sweep again, or choose points with --status\n",
+         help: add the column there and sweep again, or choose points with --status\n",
     );
     // Everything else reads such rows.
     folder.ends(0, "results rerun rows.csv --status periodic --out again.csv");

@@ -172,7 +172,7 @@ fn unusable_files_are_named_with_line_and_column() {
         "time_s,stroke_deg\n0,0\n1,1\n2,0\n3,1\n",
         "no column pitch_rad or pitch_deg",
     );
-    refused("run ozaki2018-small --once --trajectory -", "", "--once needs --waveform or --stroke");
+    refused("run ozaki2018-small --once --trajectory -", "", "--once requires --waveform or --stroke");
 }
 
 /// A chirp that would last for years is refused before it begins, with its numbers and the rate that is allowed.

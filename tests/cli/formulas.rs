@@ -77,7 +77,7 @@ fn one_point_shows_its_own_measures() {
     ended.prints("\nlift_per_power ");
     assert!(ended.stdout.lines().any(|line| line.starts_with("strong ") && line.contains(" true ")));
     let excluded = folder.ends(0, "run grid.toml --point 4");
-    assert_eq!(excluded.stderr, "a sweep leaves this point out, because it does not satisfy low\n");
+    assert_eq!(excluded.stderr, "a sweep excludes this point, because it does not satisfy low\n");
 }
 
 #[test]
@@ -129,7 +129,7 @@ other = "drive_frequency > 102"
     // Too many to count.
     let many = grid.replace("n = 5", "n = 4_000_000_000");
     let ended = Folder::with_grid(&many).flap("check grid.toml");
-    let counted = "\nof 1000000 points spread over the grid, which is too large to check each, ";
+    let counted = "\nthe grid is too large to check every point; of 1000000 points spread over it, ";
     let (_, rest) = ended.stdout.split_once(counted).unwrap();
     let excluded: f64 = rest.split(' ').next().unwrap().parse().unwrap();
     assert!((excluded / 1e6 - 0.4).abs() < 1e-3, "{excluded}");

@@ -271,9 +271,7 @@ fn complete_results_are_only_read() {
             assert_eq!((code, calls), (Some(0), Vec::new()), "{stderr}");
             assert_eq!(
                 stderr,
-                format!(
-                    "{out} is complete: nothing is left to run; the same command with --restart runs its points again\n"
-                )
+                format!("{out} is complete: nothing is left to run; use --restart to run its points again\n")
             );
         }
         assert!(files(&folder) == before);

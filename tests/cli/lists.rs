@@ -10,11 +10,11 @@ use crate::support::{Folder, frequencies};
 /// The meanings of the statuses of rows, in the order of `Status::ALL`.
 const STATUSES: [&str; 7] = [
     "settled on an orbit of one drive period; the row has measures",
-    "an unstable orbit: motions near it move away; only in the branches that `flap respond --unstable` continues",
-    "settled on an orbit of 2 to 8 drive periods, one of which differs from the next: no measures",
+    "an unstable orbit: motions near it move away from it; only `flap respond --unstable` writes such rows",
+    "settled on an orbit of 2 to 8 drive periods, in which successive periods differ; the row has no measures",
     "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
     "the state became infinite or not a number: check the parameters against their units",
-    "more than max_steps integration steps in one drive period: check the parameters against their units, or raise max_steps under [solver]",
+    "more than max_steps integration steps in one drive period: check the parameters against their units, or raise max_steps in [solver]",
     "the parameters are impossible together, or a derived one is out of its range; `flap run GRID --point N` prints the reason",
 ];
 
@@ -42,9 +42,9 @@ AXIS  PARAMETER         FROM   TO     COUNT  UNIT
 first point, 0: drive_voltage_pp = 100 V, drive_frequency = 60 Hz
 last point, 29: drive_voltage_pp = 150 V, drive_frequency = 200 Hz
 
-OTHER THAN THE PRESET  HERE             PRESET  RATIO
-drive_voltage_pp       100 V to 150 V   100 V   1 to 1.5
-drive_frequency        60 Hz to 200 Hz  109 Hz  0.55 to 1.83
+DIFFERS FROM THE PRESET  HERE             PRESET  RATIO
+drive_voltage_pp         100 V to 150 V   100 V   1 to 1.5
+drive_frequency          60 Hz to 200 Hz  109 Hz  0.55 to 1.83
 
 rtol = 1e-6, atol = 1e-8, settle_tol = 1e-6, max_cycles = 1000, max_steps = 20000, accuracy = 0.001, newton = true, progressive = true, symmetry = true
 
@@ -191,7 +191,7 @@ fn long_lists_have_symbols_and_allowed_values() {
 #[test]
 fn lists_mark_fits_to_one_vehicle() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\npressure_min = 0.2\n");
-    let below = "\n* A fit to one vehicle: measure or fit it for another.\n";
+    let below = "\n* This value was fitted to one vehicle. Measure or fit it for other vehicles.\n";
     let line = |text: &str, name: &str| {
         let found = text.lines().find(|line| line.starts_with(&format!("{name} ")));
         found.unwrap_or_else(|| panic!("{name} is missing in\n{text}")).to_owned()
@@ -309,7 +309,7 @@ fn names_are_explained_in_one_model() {
     );
     let other = folder.ends(2, "models transmission_ratio --model four-bar");
     other.says("the model four-bar has no `transmission_ratio`");
-    other.says("other models have it: `flap models transmission_ratio`");
+    other.says("other models have this name: `flap models transmission_ratio`");
     folder.ends(2, "models cycles --model four-baar").says("did you mean `four-bar`?");
 }
 
@@ -475,6 +475,6 @@ fn no_color_turns_colours_off() {
 fn parameters_of_a_file_have_its_values() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\nwing_area = \"50 mm^2\"\n");
     let ended = folder.ends(0, "models grid.toml");
-    ended.prints("grid.toml: begins with jafferis2016").prints("50 mm^2");
+    ended.prints("grid.toml: based on jafferis2016").prints("50 mm^2");
     folder.refuses("models nothing.toml", "nothing.toml: there is no such file");
 }

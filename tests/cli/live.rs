@@ -345,6 +345,6 @@ fn mistakes_of_the_command_line() {
     let port = live.port.to_string();
     let ended = folder.flap_with(&["live", "ozaki2018-small", "--no-open", "--port", &port]);
     assert_eq!(ended.code, 2);
-    ended.says("cannot listen on port").says("name another port");
+    ended.says("cannot listen on port").says("choose another port");
     folder.refuses("live nosuch", "there is no preset and no file `nosuch`");
 }

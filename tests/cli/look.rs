@@ -149,7 +149,7 @@ fn conditions_choose_rows() {
     for (condition, message, help) in [
         ("drive_frequency=95 V", "`V` is a voltage, but drive_frequency is in Hz\n", "help: use Hz"),
         ("drive_frequency>95V", "`V` is a voltage, but drive_frequency is in Hz\n", "help: use Hz"),
-        ("cycles>1.2.3", "`1.2.3` is not a number\n", "help: a number stands beside a column"),
+        ("cycles>1.2.3", "`1.2.3` is not a number\n", "help: compare a number with a column"),
         (
             "drive_frequency",
             "this is a number, not a condition\n",
@@ -322,7 +322,7 @@ fn a_file_without_numbers_is_told() {
     fs::write(folder.path("semicolons.csv"), "a;b\n1;2\n").unwrap();
     folder.ends(2, "describe semicolons.csv").says(
         "error: semicolons.csv has no column of numbers\n\
-         help: cells are separated by commas, and the first line has `;`: is that the separator?\n",
+         help: cells must be separated by commas; the first line contains `;`, which may be the separator\n",
     );
 }
 

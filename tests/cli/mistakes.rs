@@ -65,7 +65,7 @@ fn results_are_not_overwritten_unasked() {
     let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
-        "error: grid.csv exists already\nhelp: --out FILE writes to another file, --restart replaces it\n"
+        "error: grid.csv exists already\nhelp: use --out FILE to write to another file, or --restart to replace it\n"
     );
     assert_eq!(folder.read("grid.csv"), "precious\n");
     assert_eq!(folder.flap("sweep --grid grid.toml --restart").code, 0);
@@ -117,6 +117,44 @@ fn files_that_are_not_grid_files() {
 }
 
 #[test]
+fn results_that_do_not_exist() {
+    let folder = Folder::new();
+    for command in [
+        "describe no.csv",
+        "top no.csv --by cycles",
+        "plot no.csv",
+        "results resume no.csv",
+        "results rerun no.csv --inaccurate --out again.csv",
+        "results convert no.csv no.parquet",
+        "results merge all.csv no.csv",
+        "test track no.csv",
+    ] {
+        let ended = folder.ends(2, command);
+        assert!(
+            ended.stderr.starts_with("error: no.csv: there is no such file\n"),
+            "{command}: {}",
+            ended.stderr
+        );
+    }
+    folder
+        .ends(2, "sweep no.csv.meta.toml --out again.csv")
+        .says("error: no.csv.meta.toml: there is no such file\n");
+}
+
+#[test]
+fn a_command_without_its_group_gets_a_hint() {
+    let folder = Folder::new();
+    for (command, hint) in [
+        ("merge all.csv one.csv", "use `flap results merge`"),
+        ("chirp ozaki2018-small", "use `flap test chirp`"),
+        ("wing outline.csv", "use `flap device wing`"),
+        ("schema", "use `flap generate schema`"),
+    ] {
+        folder.ends(2, command).says("unrecognized subcommand").says(hint);
+    }
+}
+
+#[test]
 fn wrong_command_lines() {
     let folder = Folder::with_grid(&frequencies(2));
     for arguments in [
@@ -155,7 +193,7 @@ fn misspelt_names_are_recognised() {
     for (arguments, hint) in [
         ("models ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
         ("models direct_drive", "help: did you mean `direct-drive`?\n"),
-        ("models zebra", "help: `flap models MODEL` lists parameters and columns\n"),
+        ("models zebra", "help: `flap models MODEL` lists the parameters and columns of a model\n"),
         ("run ozaki2018-larg", "help: did you mean `ozaki2018-large`?\n"),
         ("run ozaki2018-large --set drive_freqency=100", "help: did you mean `drive_frequency`?\n"),
     ] {
@@ -207,11 +245,11 @@ fn grids_and_sidecars_are_not_results() {
         let out = if name == "results convert" { "o.csv" } else { "" };
         folder.refuses(
             &format!("{name} grid.toml {out} {options}"),
-            "error: grid.toml is a grid file, not a file of results\nhelp: `flap sweep grid.toml` computes its results\n",
+            "error: grid.toml is a grid file, not a file of results\nhelp: `flap sweep grid.toml` writes its results\n",
         );
         folder.refuses(
             &format!("{name} rows.csv.meta.toml {out} {options}"),
-            "error: rows.csv.meta.toml is the sidecar of results, not results\nhelp: name the results: rows.csv\n",
+            "error: rows.csv.meta.toml is the sidecar of results, not a file of results\nhelp: use the file of results: rows.csv\n",
         );
     }
 }
@@ -244,7 +282,7 @@ fn unsettled_points_come_with_a_command() {
     let folder = Folder::with_grid(&grid);
     let command = "results rerun grid.csv --status unsettled --max-cycles 40 --out grid.unsettled.csv";
     folder.ends(0, "sweep grid.toml").says(&format!(
-        "2 points did not settle within 4 drive periods. This command runs them longer: flap {command}. If"
+        "2 points did not settle within 4 drive periods. To run them longer: flap {command}. If"
     ));
     // A rerun that changes nothing does not recommend itself.
     let ended = folder.ends(0, "results rerun grid.csv --status unsettled --max-cycles 4 --out same.csv");
@@ -252,15 +290,14 @@ fn unsettled_points_come_with_a_command() {
     ended.says("a motion that stays unsettled is quasi-periodic or chaotic\n");
     assert!(!ended.stderr.contains("flap results rerun"), "{}", ended.stderr);
     folder.ends(0, command).says("2 periodic in ").says("2 rows in grid.unsettled.csv\n");
-    folder.ends(0, "sweep grid.toml --out -").says("A larger max_cycles in [solver] runs them longer");
+    folder.ends(0, "sweep grid.toml --out -").says("To run them longer, raise max_cycles in [solver]");
 
     let command = "run grid.toml --point 1 --set 'drive_voltage_pp=80 V' --max-cycles 40";
     let ended = folder.ends_with(0, &["run", "grid.toml", "--point", "1", "--set", "drive_voltage_pp=80 V"]);
     ended.says(&format!(
-        "the point did not settle within 4 drive periods. This command runs it longer: flap {command}. If"
+        "the point did not settle within 4 drive periods. To run it longer: flap {command}. If"
     ));
     let one = Folder::with_grid(&(frequencies(1) + "[solver]\nmax_cycles = 1\n"));
-    one.ends(0, "sweep grid.toml")
-        .says("1 point did not settle within 1 drive period. This command runs it longer");
+    one.ends(0, "sweep grid.toml").says("1 point did not settle within 1 drive period. To run it longer");
     one.ends(0, "results convert grid.csv o.csv").says("1 row in o.csv\n");
 }

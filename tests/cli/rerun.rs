@@ -110,7 +110,7 @@ fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
     folder.ends(0, "results rerun rows.csv --status unsettled --max-cycles 2 --out rerun.csv");
     assert_eq!(
         folder.flap("results resume rerun.csv").stderr,
-        "rerun.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
+        "rerun.csv is complete: nothing is left to run; use --restart to run its points again\n"
     );
 
     fs::write(folder.path("designs/points.csv"), points.replace("30", "31")).unwrap();

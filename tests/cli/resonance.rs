@@ -77,7 +77,7 @@ fn what_hides_a_peak_is_told() {
     assert!(!ended.stdout.contains("driven_1"), "{}", ended.stdout);
 
     let ended = folder.ends(0, "test resonance ozaki2018-large --from 100 --to 120 --max-cycles 3");
-    ended.says("11 of 11 drive frequencies did not become periodic");
+    ended.says("11 of 11 drive frequencies have no periodic motion");
     ended.says("100.0 to 120.0 Hz unsettled (11)");
 }
 

@@ -253,7 +253,7 @@ fn each_design_is_run_at_its_own_resonance() {
     let folder = Folder::with_grid(AT_RESONANCE);
     let check = folder.flap("check grid.toml");
     assert!(
-        check.stdout.contains("that of the largest lift, from 80 Hz to 140 Hz, within 0.05 Hz"),
+        check.stdout.contains("at the largest lift, searched from 80 Hz to 140 Hz, within 0.05 Hz"),
         "{}",
         check.stdout
     );
@@ -282,5 +282,9 @@ fn each_design_is_run_at_its_own_resonance() {
     }
     let refused = folder.flap("respond grid.toml --along drive_voltage_pp --from 50 --to 60 --step 1");
     assert_eq!(refused.code, 2);
-    assert!(refused.stderr.contains("asks for designs at their own resonance"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("sets drive_frequency to the resonance of each design"),
+        "{}",
+        refused.stderr
+    );
 }

@@ -249,7 +249,7 @@ fn results_removed_meanwhile_are_noticed() {
 
         folder
             .ends(0, &format!("results resume {out}"))
-            .says(&format!(" missing from {out}, and computed again\n"));
+            .says(&format!(" missing from {out} and will be computed again\n"));
         assert_same(&folder, ending);
     }
 }
@@ -285,10 +285,10 @@ fn a_changed_grid_is_not_resumed() {
     fs::write(folder.path("grid.toml"), grid).unwrap();
     let ended = folder.ends(2, "sweep --grid grid.toml");
     let told = "error: grid.csv cannot be resumed: the grid file differs; the solver settings differ\n\
-                help: `flap results resume grid.csv` continues it with the grid that began it\n\
+                help: `flap results resume grid.csv` continues it with its original grid\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
-                help: an edited grid is another sweep: give its rows another file with --out FILE\n\
-                help: --restart drops its rows and starts over\n";
+                help: an edited grid is another sweep: write its rows to another file with --out FILE\n\
+                help: use --restart to delete its rows and start over\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
 
@@ -298,7 +298,7 @@ fn a_changed_grid_is_not_resumed() {
     ended.says(
         "error: part.csv exists already, with other rows: the rows cover shard 1/1000000, not all points\n",
     );
-    ended.says("help: --out FILE writes to another file, --restart replaces it\n");
+    ended.says("help: use --out FILE to write to another file, or --restart to replace it\n");
 }
 
 #[test]
@@ -321,8 +321,8 @@ fn rows_edited_meanwhile_are_not_resumed() {
 #[test]
 fn there_may_be_nothing_to_resume() {
     let folder = Folder::with_grid(&quick(10));
-    folder.ends(2, "results resume grid.csv").says("error: grid.csv does not exist\n");
-    folder.ends(2, "results convert grid.csv grid.parquet").says("error: grid.csv does not exist\n");
+    folder.ends(2, "results resume grid.csv").says("error: grid.csv: there is no such file\n");
+    folder.ends(2, "results convert grid.csv grid.parquet").says("error: grid.csv: there is no such file\n");
 
     // A job script may always use the same line.
     folder.ends(0, "sweep --grid grid.toml");
@@ -330,7 +330,7 @@ fn there_may_be_nothing_to_resume() {
     let ended = folder.ends(1, "sweep --grid grid.toml --strict");
     assert_eq!(
         ended.stderr,
-        "grid.csv is complete: nothing is left to run; the same command with --restart runs its points again\n"
+        "grid.csv is complete: nothing is left to run; use --restart to run its points again\n"
     );
     assert_eq!(folder.read("grid.csv"), rows);
 

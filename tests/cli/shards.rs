@@ -115,7 +115,7 @@ fn shards_that_do_not_belong_together_are_refused() {
         let ended = folder.ends(2, &format!("results merge merged.csv {shards}"));
         assert_eq!(ended.stderr, message, "{shards}");
     }
-    folder.ends(2, "results merge merged.csv missing.csv").says("missing.csv does not exist");
+    folder.ends(2, "results merge merged.csv missing.csv").says("missing.csv: there is no such file");
     assert!(!folder.path("merged.csv").exists());
 }
 
@@ -187,13 +187,13 @@ fn shards_of_several_builds_are_merged_if_asked() {
         format!(
             "error: the shards were computed by several builds of flap, whose rows may differ: grid.1of3.csv by build {build} of \
              flap {flap}, grid.2of3.csv by build zfed of flap {flap}\n\
-             help: sweep the shards again with one build, or merge them as they are with --mixed-builds\n"
+             help: sweep all shards with the same build, or use --mixed-builds to merge them as they are\n"
         )
     );
     assert!(!folder.path("merged.parquet").exists());
     folder
         .ends(0, &format!("{merge} --mixed-builds"))
-        .says(&format!("the rows are by build {build}, zfed of flap {flap}, as their sidecar says\n"));
+        .says(&format!("the sidecar records build {build}, zfed of flap {flap} for these rows\n"));
     assert_eq!(build_of("merged.parquet"), format!("{build}, zfed"));
     folder.ends(0, "results verify merged.parquet");
     folder.ends(0, "results convert merged.parquet merged.csv");
@@ -207,7 +207,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
         folder.rewrite_sidecar(shard, |sidecar| sidecar.identity.build = "zfed".to_owned());
     }
     let ended = folder.ends(0, &format!("{merge} --force"));
-    ended.says(&format!("the rows are by build zfed of flap {flap}, as their sidecar says\n"));
+    ended.says(&format!("the sidecar records build zfed of flap {flap} for these rows\n"));
     assert_eq!(build_of("merged.parquet"), "zfed");
 }
 

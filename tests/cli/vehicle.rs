@@ -302,7 +302,7 @@ fn a_wing_keeps_its_design_when_the_grid_changes() {
     fs::write(folder.path("both.toml"), format!("{both}{set}")).unwrap();
     for command in ["check both.toml", "sweep both.toml"] {
         let ended = folder.ends(0, command);
-        ended.says("both.toml: `hinge_stiffness` reaches no wing: each has a `hinge_stiffness` of its own");
+        ended.says("both.toml: `hinge_stiffness` has no effect: every wing sets its own `hinge_stiffness`");
         assert!(!ended.stderr.contains("drive_voltage_pp"), "{}", ended.stderr);
     }
 }
@@ -331,10 +331,10 @@ fn what_a_vehicle_cannot_do_is_told() {
         ("test impulse grid.toml", "`flap test impulse`"),
         ("respond grid.toml --from 90 --to 100 --step 5", "`flap respond`"),
         ("test resonance grid.toml", "`flap test resonance`"),
-        ("device new grid.toml", "a device, which `flap device new` writes,"),
+        ("device new grid.toml", "`flap device new`"),
     ] {
         let ended = folder.ends(2, command);
-        ended.says(&format!("grid.toml is a vehicle of 2 wings: {taker} takes one wing"));
+        ended.says(&format!("grid.toml is a vehicle of 2 wings, but {taker} requires one wing"));
         ended.says("help: remove [vehicle] from the file");
         assert_eq!(ended.stdout, "");
     }

@@ -71,7 +71,7 @@ fn the_outline_of_a_preset_gives_its_rows() {
     fs::write(folder.path("own.csv"), outline(24.0, |x| [0.25 * chord(x), 0.75 * chord(x)])).unwrap();
     let arguments = ["device", "wing", "own.csv", "--preset", "arabagi2013-75hz", "--offset", "4 mm"];
     let ended = folder.ends_with(0, &arguments);
-    ended.says("stay those of the preset");
+    ended.says("of the wing are the preset's");
     assert!(ended.stdout.contains("chord_table = \"on\""), "{}", ended.stdout);
     fs::write(folder.path("wing.toml"), &ended.stdout).unwrap();
     let measure = |what: &str, name: &str| {
@@ -95,7 +95,7 @@ fn a_table_of_chords_that_loses_area_is_told() {
     // Areas in mm²: the table falls over 3 mm, the outline over 0.1 mm.
     let (table, outline) = (5.0 * 28.5, 5.0 * 29.95);
     let told = format!(
-        "have {:.1} % less area than the outline: multiply each by {:.4} to have its area",
+        "have {:.1} % less area than the outline: multiply each chord by {:.4} to match its area",
         100.0 * (1.0 - table / outline),
         outline / table
     );
@@ -120,10 +120,13 @@ fn outline_of_a_rectangle() -> String {
 fn a_root_that_moves_to_the_stroke_axis_is_told() {
     let folder = Folder::new();
     fs::write(folder.path("wing.csv"), outline_of_a_rectangle()).unwrap();
-    let begin = "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but that of";
+    let begin = "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but in";
     for (preset, end) in [
-        ("arabagi2013-75hz", "is at 4 mm: --offset '4 mm' keeps that"),
-        ("ozaki2018-large", "is at half of actuator_length, 10.5 mm: --offset '10.5 mm' keeps that"),
+        ("arabagi2013-75hz", "it is at 4 mm: --offset '4 mm' keeps that offset"),
+        (
+            "ozaki2018-large",
+            "it is at half of actuator_length, 10.5 mm: --offset '10.5 mm' keeps that offset",
+        ),
     ] {
         let arguments = ["device", "wing", "wing.csv", "--preset", preset];
         folder.ends_with(0, &arguments).says(&format!("{begin} {preset} {end}"));
@@ -182,7 +185,7 @@ fn mistakes_are_told_with_their_place() {
     fs::write(folder.path("wing.csv"), outline(15.0, |_| [0.0, 5.0])).unwrap();
     folder
         .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--thickness", "2 um"])
-        .says("go together");
+        .says("are required together");
     folder
         .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
         .says("the mass must be more than zero");
@@ -200,7 +203,7 @@ fn wings_without_finite_parameters_are_refused() {
     for preset in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
         let ended =
             folder.ends_with(2, &["device", "wing", "huge.csv", "--preset", preset, "--mass", "1 mg"]);
-        ended.says("of this wing is ").says(", and must be ").says("is 1e299 Gm long and reaches 1e299 Gm");
+        ended.says("of this wing is ").says(", but must be ").says("is 1e299 Gm long and reaches 1e299 Gm");
         assert_eq!(ended.stdout, "");
         for options in [["--offset", "1e300 m"], ["--mass", "1e308 kg"]] {
             let arguments = [&["device", "wing", "wing.csv", "--preset", preset][..], &options].concat();

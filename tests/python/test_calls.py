@@ -52,7 +52,7 @@ def test_a_point_of_a_grid_is_run():
     rows = flapwing.sweep(THREE)
     for point in (1, -2):
         assert flapwing.run(THREE, point=point)["lift_mean_mn"] == rows["lift_mean_mn"][1]
-    with pytest.raises(ValueError, match="the grid has 3 points, and this is about one\ngive point=0 to point=2"):
+    with pytest.raises(ValueError, match="the grid has 3 points, but this call takes one\ngive point=0 to point=2"):
         flapwing.run(THREE)
     with pytest.raises(IndexError, match="there is no point 3: the grid has 3"):
         flapwing.trajectory(THREE, point=3)
@@ -86,7 +86,7 @@ def test_a_model_runs_with_all_its_parameters():
         if p.is_number or p.options and isinstance(p.value, str)
     }
     assert is_same(flapwing.run("direct-drive", **values), flapwing.run(PRESET))
-    with pytest.raises(ValueError, match="model `direct-drive` has no values of its own: give drive_voltage_pp, "):
+    with pytest.raises(ValueError, match="model `direct-drive` has no default values: also give drive_voltage_pp, "):
         flapwing.run("direct-drive")
 
 
@@ -186,7 +186,7 @@ def test_measures_are_chosen():
         told = "no measure `lift_mean`, did you mean `lift_mean_mn`\\?\nmeasures: stroke_amplitude_deg, .* and [0-9]+ more measures$"
         with pytest.raises(ValueError, match=told):
             call(["lift_mean"])
-        with pytest.raises(ValueError, match="names lift_mean_mn twice\nkeep one"):
+        with pytest.raises(ValueError, match="has lift_mean_mn twice\nkeep one"):
             call(["lift_mean_mn", "lift_mean_mn"])
         with pytest.raises(TypeError, match="`measures` is str\nit must be a list of names such as"):
             call("lift_mean_mn")

@@ -277,6 +277,6 @@ def test_workers_of_another_build_are_refused(client, monkeypatch):
 
     monkeypatch.setattr(_dask._flapwing, "identity", lambda: {"build": "0", "arithmetic": "0"})
     with pytest.raises(
-        RuntimeError, match="a worker's build of flapwing is .*, and here it is 0\ninstall the same build"
+        RuntimeError, match="a worker's build of flapwing is .*, but here it is 0\ninstall the same build"
     ):
         flapwing.run("ozaki2018-large", client=client)

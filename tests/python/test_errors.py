@@ -121,8 +121,8 @@ def test_wrong_type(arguments, says):
 
 def test_preset_of_the_wrong_type():
     assert refused(TypeError, 3).splitlines() == [
-        "a design is not int",
-        "it is the name of a preset, a path, the text of a grid file, a dictionary or a Grid",
+        "a design cannot be int",
+        "it must be the name of a preset, a path, the text of a grid file, a dictionary or a Grid",
     ]
 
 

@@ -78,7 +78,7 @@ def test_a_parameter_is_a_column_or_a_keyword():
 )
 def test_nulls_are_refused(values):
     with pytest.raises(
-        ValueError, match="`drive_frequency` has 1 null of 3 values, and a point needs all of them\nleave"
+        ValueError, match="`drive_frequency` has 1 null of 3 values, but a point needs all of them\nleave"
     ):
         flapwing.evaluate(PRESET, {"drive_frequency": values})
     time = np.array([0.0, 0.004, 0.01])
@@ -158,7 +158,7 @@ def test_each_design_at_its_own_resonance():
 
 
 def test_a_model_needs_all_its_parameters():
-    with pytest.raises(ValueError, match="model `direct-drive` has no values of its own: give drive_voltage_pp, "):
+    with pytest.raises(ValueError, match="model `direct-drive` has no default values: also give drive_voltage_pp, "):
         flapwing.evaluate("direct-drive", {"drive_frequency": [100.0]})
     values = {
         name: p.value
@@ -205,7 +205,7 @@ def test_what_is_refused(design, columns, error, says):
 
 
 def test_keywords_do_not_compete_with_the_grid():
-    with pytest.raises(ValueError, match="`wing_length` is set here, and the grid varies or derives it"):
+    with pytest.raises(ValueError, match="`wing_length` is set here, but the grid varies or derives it"):
         flapwing.evaluate(
             {"preset": PRESET, "derived": {"wing_length": "0.03"}}, {"drive_frequency": [1]}, wing_length=1
         )

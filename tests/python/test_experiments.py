@@ -102,7 +102,7 @@ def test_a_waveform_is_followed_once(flap, tmp_path):
     same(flapwing.trajectory(PRESET, waveform=path, once=True), tmp_path / "motion.csv")
     with pytest.raises(ValueError, match="ends with the value that it begins with"):
         flapwing.trajectory(PRESET, waveform=path)
-    with pytest.raises(ValueError, match="once is about a waveform or a stroke\ngive one"):
+    with pytest.raises(ValueError, match="once requires a waveform or a stroke\ngive one"):
         flapwing.trajectory(PRESET, once=True)
 
 
@@ -116,7 +116,7 @@ def test_a_stroke_is_prescribed(flap, tmp_path):
     assert flapwing.run(ARABAGI, stroke=(time, np.radians(stroke)))["stroke_pp_deg"] == pytest.approx(25, rel=1e-3)
     with pytest.raises(ValueError, match="stroke of the model bimorph cannot be prescribed\nmodels with"):
         flapwing.run("jafferis2016", stroke=path)
-    with pytest.raises(ValueError, match="waveform and stroke both drive the wing\nkeep one"):
+    with pytest.raises(ValueError, match="waveform and stroke cannot be used together\nkeep one"):
         flapwing.run(ARABAGI, stroke=path, waveform=path)
 
 
@@ -214,7 +214,7 @@ def test_tables_that_are_no_state_are_refused():
         flapwing.run(PRESET, initial_state=motion)
     with pytest.raises(ValueError, match="`initial_state` lacks the columns stroke_rad, .*\na trajectory"):
         flapwing.run(PRESET, initial_state=motion[["time_s"]][-1:])
-    with pytest.raises(ValueError, match="from_rest and initial_state both say where the motion begins\nkeep one"):
+    with pytest.raises(ValueError, match="from_rest and initial_state both set the beginning of the motion\nkeep one"):
         flapwing.trajectory(PRESET, initial_state=motion[-1:], from_rest=True)
 
 

@@ -25,9 +25,12 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=[60, 62, np.nan, 59]),
-            "set 1, column `stroke_pp_deg`, row 3 is nan, and readings are finite numbers\nremove the row",
+            "set 1, column `stroke_pp_deg`, row 3 is nan, but readings must be finite numbers\nremove the row",
         ),
-        (changed(stroke_pp_deg=[60, 62, None, 59]), "set 1, column `stroke_pp_deg`, row 3 is None, which is no number"),
+        (
+            changed(stroke_pp_deg=[60, 62, None, 59]),
+            "set 1, column `stroke_pp_deg`, row 3 is None, which is not a number",
+        ),
         (changed(stroke_pp_deg=["60 deg", "62 mm", "61 deg", "59 deg"]), "set 1, column `stroke_pp_deg`, row 2: "),
         (changed(drive_frequency=["90 Hz", "100 V", "110 Hz", "120 Hz"]), "set 1, column `drive_frequency`, row 2: "),
         (
@@ -36,13 +39,13 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=[60, 60, 60, 60]),
-            "set 1: all 4 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+            "set 1: all 4 readings of `stroke_pp_deg` are 60, so they contain no information\nremove the column",
         ),
         (changed(frequency_hz=[1, 2, 3, 4]), "set 1 has `drive_frequency` twice, once as `frequency_hz`\nkeep one"),
         (changed(stroke_pp_deg=[60, 62]), "columns differ in length: `drive_frequency` has 4, `stroke_pp_deg` has 2\n"),
         (
             {name: values[:1] for name, values in DATA.items()},
-            "2 free parameters and only 1 reading: hinge_stiffness, drag_coefficient_max\na fit needs more readings than parameters",
+            "2 free parameters but only 1 reading: hinge_stiffness, drag_coefficient_max\na fit requires more readings than parameters",
         ),
         ({name: values[:2] for name, values in DATA.items()}, "2 free parameters and only 2 readings"),
         (
@@ -68,15 +71,15 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=["60", "", "61", "59"]),
-            "set 1, column `stroke_pp_deg`, row 2: the cell is empty, and a reading needs a number\nremove the row",
+            "set 1, column `stroke_pp_deg`, row 2: the cell is empty, but a reading needs a number\nremove the row",
         ),
         (
             changed(stroke_pp_deg=["60", "n/a", "61", "59"]),
-            "set 1, column `stroke_pp_deg`, row 2: 'n/a' is no number\nwrite a number, or text with a unit; or remove",
+            "set 1, column `stroke_pp_deg`, row 2: 'n/a' is not a number\nwrite a number, or text with a unit; or remove",
         ),
         (
             changed(drive_frequency=[90.0, np.nan, 110.0, 120.0]),
-            "set 1, column `drive_frequency`, row 2 is nan, and readings are finite numbers\nremove the row",
+            "set 1, column `drive_frequency`, row 2 is nan, but readings must be finite numbers\nremove the row",
         ),
         (
             changed(drive_frequency=[90.0, 100.0, -100.0, 120.0]),
@@ -94,14 +97,17 @@ def changed(**columns):
             changed(actuator_stiffness=["constant", "stiff", "constant", "constant"]),
             "set 1, column `actuator_stiffness`, row 2: `actuator_stiffness` has no option `stiff`",
         ),
-        (changed(stroke_pp_deg=[60, np.inf, 61, 59]), "set 1, column `stroke_pp_deg`, row 2 is inf, and readings are"),
+        (
+            changed(stroke_pp_deg=[60, np.inf, 61, 59]),
+            "set 1, column `stroke_pp_deg`, row 2 is inf, but readings must be",
+        ),
         (
             {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [60.0, 60.0]},
-            "set 1: all 2 readings of `stroke_pp_deg` are 60, and tell nothing about parameters\nremove the column",
+            "set 1: all 2 readings of `stroke_pp_deg` are 60, so they contain no information\nremove the column",
         ),
         (
             {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [0.0, 0.0]},
-            "set 1: all 2 readings of `stroke_pp_deg` are 0, and tell nothing about parameters\nremove the column",
+            "set 1: all 2 readings of `stroke_pp_deg` are 0, so they contain no information\nremove the column",
         ),
         (
             changed(stroke_pp_deg_sigma=[1, -1, 1, 1]),
@@ -113,13 +119,13 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg_sigma=[1, np.nan, 1, 1]),
-            "set 1, column `stroke_pp_deg_sigma`, row 2 is nan, and readings are finite numbers\n",
+            "set 1, column `stroke_pp_deg_sigma`, row 2 is nan, but readings must be finite numbers\n",
         ),
         (
             flapwing.Readings(DATA, sigma={"lift_mean_mn": 0.1}, name="Monday"),
-            "`sigma` of Monday names `lift_mean_mn`, of which there are no readings\nchoose among stroke_pp_deg",
+            "`sigma` of Monday has `lift_mean_mn`, but there are no readings of it\nchoose among stroke_pp_deg",
         ),
-        (flapwing.Readings(DATA, sigma=0), "`sigma` is 0 for stroke_pp_deg\nstandard errors are more than zero"),
+        (flapwing.Readings(DATA, sigma=0), "`sigma` is 0 for stroke_pp_deg\nstandard errors must be finite"),
         (flapwing.Readings(DATA, drive_voltage="160 V"), "did you mean `drive_voltage_pp`?"),
         (flapwing.Readings(DATA, drive_voltage_pp="160 mm"), "`mm` is a length, but `drive_voltage_pp` is in V"),
     ],
@@ -139,33 +145,33 @@ def test_data_that_are_refused(data, says):
         (
             ["actuator_stiffness"],
             ValueError,
-            "`actuator_stiffness` is a choice, and cannot be fitted\nfit once for each of its options",
+            "`actuator_stiffness` is a choice, which cannot be fitted\nfit once for each of its options",
         ),
         (
             ["drive_frequency"],
             ValueError,
-            "`drive_frequency` is free, and set 1 has it as a parameter of its operating points\nkeep one",
+            "`drive_frequency` is free, but set 1 has it as a parameter of its operating points\nkeep one",
         ),
         (
             ["actuator_mass"],
             ValueError,
-            "`actuator_mass` is zero in the design, so its bounds are not known\ngive free=",
+            "`actuator_mass` is zero in the design, so it has no default bounds\ngive free=",
         ),
         (
             {"drag_coefficient_max": (5.0, 3.0)},
             ValueError,
-            "free['drag_coefficient_max']: the lower bound 5 is not less than the upper one 3\nexchange them",
+            "free['drag_coefficient_max']: the lower bound 5 is not less than the upper bound 3\nexchange them",
         ),
         ({"hinge_stiffness": ("1 mm", "2 mm")}, ValueError, "free['hinge_stiffness']: "),
         (
             {"drag_coefficient_max": (3.0, 3.0)},
             ValueError,
-            "the lower bound 3 is not less than the upper one 3\ngive a range, or set the parameter by a keyword: fit(",
+            "the lower bound 3 is not less than the upper bound 3\ngive a range, or set the parameter by a keyword: fit(",
         ),
         (
             {"hinge_stiffness": flapwing.FreeParameter(low="9 uN*m/rad")},
             ValueError,
-            "the lower bound 9e-06 N*m/rad is not less than the upper one 4.4916e-06 N*m/rad (by default)\ngive both",
+            "the lower bound 9e-06 N*m/rad is not less than the upper bound 4.4916e-06 N*m/rad (by default)\ngive both",
         ),
         ({"hinge_stiffness": (np.nan, 2e-6)}, ValueError, "free['hinge_stiffness']: `hinge_stiffness` cannot be nan"),
         (
@@ -176,9 +182,9 @@ def test_data_that_are_refused(data, says):
         (
             {"drag_coefficient_max": flapwing.FreeParameter(2.0, 3.0, prior=(4.0, "3 %"))},
             ValueError,
-            "free['drag_coefficient_max']: the prior 4 is outside of the bounds 2 to 3\ngive bounds that hold it",
+            "free['drag_coefficient_max']: the prior 4 is outside of the bounds 2 to 3\ngive bounds that contain it",
         ),
-        (["hinge_stiffness", "hinge_stiffness"], ValueError, "`free` names `hinge_stiffness` twice\nremove one"),
+        (["hinge_stiffness", "hinge_stiffness"], ValueError, "`free` has `hinge_stiffness` twice\nremove one"),
         ([3], TypeError, "`free` has an entry that is int\nit must have names"),
         (
             {"drag_coefficient_max": 3.0},
@@ -209,19 +215,23 @@ def test_free_parameters_that_are_refused(free, error, says):
         ({"loss": "square"}, ValueError, "`loss` is 'square'\nit must be one of linear"),
         ({"starts": 0}, ValueError, "`starts` is 0\nit must be a whole number, 1 or more"),
         ({"seed": -1}, ValueError, "`seed` is -1\n"),
-        ({"sigma": -1.0}, ValueError, "`sigma` is -1.0 for stroke_pp_deg\nstandard errors are more than zero"),
+        ({"sigma": -1.0}, ValueError, "`sigma` is -1.0 for stroke_pp_deg\nstandard errors must be finite"),
         ({"sigma": "3 mm"}, ValueError, "`sigma`"),
-        ({"sigma": 0.0}, ValueError, "`sigma` is 0.0 for stroke_pp_deg\nstandard errors are more than zero and finite"),
-        ({"sigma": np.nan}, ValueError, "`sigma` is nan for stroke_pp_deg\nstandard errors are more than zero"),
-        ({"sigma": [1, 1, 1, 1]}, TypeError, "errors of single readings are a column stroke_pp_deg_sigma"),
+        (
+            {"sigma": 0.0},
+            ValueError,
+            "`sigma` is 0.0 for stroke_pp_deg\nstandard errors must be finite and more than zero",
+        ),
+        ({"sigma": np.nan}, ValueError, "`sigma` is nan for stroke_pp_deg\nstandard errors must be finite"),
+        ({"sigma": [1, 1, 1, 1]}, TypeError, "for errors of single readings, add a column stroke_pp_deg_sigma"),
         (
             {"sigma": {"stroke": 1.0}},
             ValueError,
-            "`sigma` names `stroke`, of which there are no readings\nchoose among stroke_pp_deg",
+            "`sigma` has `stroke`, but there are no readings of it\nchoose among stroke_pp_deg",
         ),
         ({"sigma": "x %"}, ValueError, "`sigma` is 'x %'\nit must be"),
         ({"hold_out": 1.5}, ValueError, "`hold_out` is 1.5\nit must be a share"),
-        ({"hold_out": "nowhere"}, ValueError, "`hold_out` names 'nowhere', and the data sets are set 1\n"),
+        ({"hold_out": "nowhere"}, ValueError, "`hold_out` has 'nowhere', but the data sets are set 1\n"),
         (
             {"hold_out": {"drive_frequency": ("1 mm", "2 mm")}},
             ValueError,
@@ -236,7 +246,7 @@ def test_free_parameters_that_are_refused(free, error, says):
         (
             {"hold_out": {"drive_shape": (1, 2)}},
             ValueError,
-            "`hold_out` names `drive_shape`, which is no parameter with",
+            "`hold_out` has `drive_shape`, which is not a parameter with",
         ),
         ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
         (
@@ -267,12 +277,12 @@ def test_former_names_work_with_a_warning():
 
 def test_designs_that_are_refused():
     grid = {"preset": PRESET, "axes": {"drive_frequency": [100, 110]}}
-    with pytest.raises(ValueError, match="the design has 2 points, and a fit is about one\nleave out its axes"):
+    with pytest.raises(ValueError, match="the design has 2 points, but a fit takes one\nleave out its axes"):
         flapwing.fit(grid, DATA, ["drag_coefficient_max"])
     with pytest.raises(ValueError, match="did you mean `jafferis2016`"):
         flapwing.fit("jafferis2017", DATA, ["drag_coefficient_max"])
     derived = {"preset": PRESET, "derived": {"drag_coefficient_max": "3 * drag_coefficient_min"}}
-    with pytest.raises(ValueError, match="`drag_coefficient_max` is a column, and the grid varies or derives it"):
+    with pytest.raises(ValueError, match="`drag_coefficient_max` is a column, but the grid varies or derives it"):
         flapwing.fit(derived, DATA, ["drag_coefficient_max"])
 
 
@@ -292,14 +302,14 @@ def test_impossible_designs_are_refused_with_the_reason(preset, keywords, says):
         flapwing.fit(preset, DATA, ["hinge_stiffness"], sigma="1 deg", starts=1, **keywords)
     assert says in str(caught.value)
     assert str(caught.value).endswith(
-        "\nchange these parameters of the design, or give bounds in which they go together"
+        "\nchange these parameters of the design, or give bounds in which they are possible together"
     )
 
 
 def test_readings_that_are_refused(tmp_path):
     with pytest.raises(ValueError, match="`branch` is 'left'\nit must be"):
         flapwing.Readings(DATA, branch="left")
-    with pytest.raises(ValueError, match="set 1 is on the way up along `drive_frequency`, and has no column of it"):
+    with pytest.raises(ValueError, match="set 1 is on the branch up along `drive_frequency`, but has no column of it"):
         flapwing.fit(PRESET, flapwing.Readings({"stroke_pp_deg": [1.0, 2.0]}, branch="up"), ["drag_coefficient_max"])
     with pytest.raises(ValueError, match="set 1 has `drive_frequency` as a column and as an argument"):
         flapwing.fit(PRESET, flapwing.Readings(DATA, drive_frequency=3.0), ["drag_coefficient_max"])
@@ -330,7 +340,7 @@ def test_readings_that_are_refused(tmp_path):
     with pytest.raises(ValueError, match="has two columns called `stroke_pp_deg`\nrename or remove one"):
         flapwing.Readings(path)
     path.write_bytes("frequency_hz,stroke_pp (°)\n100,60\n".encode("latin-1"))
-    with pytest.raises(ValueError, match="is no text in UTF-8\nsave it as CSV in UTF-8"):
+    with pytest.raises(ValueError, match="is not UTF-8 text\nsave it as CSV in UTF-8"):
         flapwing.Readings(path)
 
 
@@ -342,7 +352,7 @@ def test_what_results_refuse():
     }
     found = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="3 %", starts=1, profile=False)
     for call, says in [
-        (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, of which the data have 2 values\nadd a column"),
+        (lambda: found.predict({"drive_frequency": [100]}, "stroke_pp_deg"), "points lacks `drive_voltage_pp`, which has 2 values in the data\nadd a column"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pq_deg"), "there is no measure `stroke_pq_deg`, did you mean `stroke_pp_deg`?\nflapwing.measures('bimorph') lists"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "power"), "there is no measure `power`, did you mean `power_mean_mw`?"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120, "drag_coefficient_max": 3}, "stroke_pp_deg"), "points has `drag_coefficient_max`, which was fitted\nleave it out"),
@@ -361,7 +371,7 @@ def test_what_results_refuse():
 def test_scipy_is_needed_and_told(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "scipy", None)
     monkeypatch.setitem(__import__("sys").modules, "scipy.optimize", None)
-    with pytest.raises(ImportError, match="flapwing.fit needs SciPy: pip install scipy"):
+    with pytest.raises(ImportError, match="flapwing.fit requires SciPy: pip install scipy"):
         flapwing.fit(PRESET, DATA, ["drag_coefficient_max"])
 
 

@@ -40,10 +40,10 @@ def test_the_report_tells_all(found):
     ("p", "says"),
     [
         (0.06, "p = 0.06: the model agrees with the data"),
-        (0.04, "p = 0.04: doubtful, a right model is as far off once in 25 times"),
-        (0.002, "p = 0.002: doubtful, a right model is as far off once in 500 times"),
-        (0.0005, "p = 0.0005: POOR, the model lacks something"),
-        (0.995, "p = 0.9950: the standard errors given are too large"),
+        (0.04, "p = 0.04: doubtful, a correct model has such a value once in 25 fits"),
+        (0.002, "p = 0.002: doubtful, a correct model has such a value once in 500 fits"),
+        (0.0005, "p = 0.0005: POOR, the model lacks an effect"),
+        (0.995, "p = 0.9950: the given standard errors are too large"),
     ],
 )
 def test_the_report_says_how_far_the_model_agrees(found, p, says):
@@ -128,7 +128,7 @@ def test_progress_is_told_and_can_end_a_fit():
 def test_a_fit_is_a_device(found, tmp_path):
     """The file has the estimates, their errors and correlations: builds drawn from it have them too."""
     found.write_device(tmp_path / "mybee.toml")
-    with pytest.raises(FileExistsError, match="is there already\ngive another path, or overwrite=True"):
+    with pytest.raises(FileExistsError, match="already exists\ngive another path, or overwrite=True"):
         found.write_device(tmp_path / "mybee.toml")
     found.write_device(tmp_path / "mybee.toml", overwrite=True)
     grid = tmp_path / "grid.toml"
@@ -185,7 +185,9 @@ def test_a_device_says_what_is_not_known(tmp_path):
     sets = [flapwing.Readings(readings(seed=seed), name=name) for seed, name in enumerate(["one", "two"])]
     free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "vehicle_mass": None}
     result = flapwing.fit(PRESET, sets, free, sigma="3 %", starts=1, profile=False, drag_coefficient_max=4.0, rtol=1e-6)
-    with pytest.raises(ValueError, match="data sets have a `hinge_stiffness` each\ngive data_set=, one of one, two"):
+    with pytest.raises(
+        ValueError, match="each data set has its own `hinge_stiffness`\ngive data_set=, one of one, two"
+    ):
         result.write_device(tmp_path / "bee.toml")
     result.write_device(tmp_path / "bee.toml", data_set="two")
     text = (tmp_path / "bee.toml").read_text(encoding="utf-8")

@@ -105,7 +105,7 @@ def test_missing_derivatives_have_a_reason():
     [
         ({"gradient": ["hinge_stiffnes"]}, ValueError, "did you mean `hinge_stiffness`?"),
         ({"gradient": ["lift_sign"]}, ValueError, "`lift_sign` is a choice, so there is no derivative with respect to it"),
-        ({"gradient": BY + BY[:1]}, ValueError, "`gradient` names hinge_stiffness twice"),
+        ({"gradient": BY + BY[:1]}, ValueError, "`gradient` has hinge_stiffness twice"),
         ({"gradient": "hinge_stiffness"}, TypeError, "`gradient` is str\nit must be a list of names"),
         ({"gradient": []}, ValueError, "`gradient` is empty"),
         ({"initial_state": {"stroke_rad": [0.0]}}, ValueError, "`initial_state` lacks the columns "),
@@ -126,7 +126,7 @@ def test_derivatives_by_what_formulas_decide_are_refused():
     }
     with pytest.raises(ValueError, match="is derived from other parameters\nname those: derivatives by them include"):
         flapwing.evaluate(grid, COLUMNS, gradient=["hinge_stiffness"])
-    with pytest.raises(ValueError, match="`high` is true or false, and has no derivatives\nleave it out of `measures`"):
+    with pytest.raises(ValueError, match="`high` is true or false, and has no derivatives\nremove it from `measures`"):
         flapwing.evaluate(grid, COLUMNS, gradient=["drive_frequency"], measures=["high"])
     grid = {"preset": PRESET, "params": {"drive_frequency": "resonance"}, "resonance": {"from": 95, "to": 120}}
     with pytest.raises(ValueError, match="give drive_frequency a number"):

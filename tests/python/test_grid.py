@@ -140,11 +140,11 @@ def test_what_is_no_grid_is_refused(tmp_path):
         flapwing.Grid(tmp_path / "missing.toml")
     with pytest.raises(IsADirectoryError):
         flapwing.Grid(tmp_path)
-    with pytest.raises(TypeError, match="a design is not int\nit is the name of a preset, a path"):
+    with pytest.raises(TypeError, match="a design cannot be int\nit must be the name of a preset, a path"):
         flapwing.Grid(3)
     with pytest.raises(TypeError, match="`axes.drive_frequency` of a grid is NoneType\nit must be a number"):
         flapwing.Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [None]}})
-    with pytest.raises(TypeError, match="keys of a grid are text"):
+    with pytest.raises(TypeError, match="keys of a grid must be text"):
         flapwing.Grid({3: "ozaki2018-large"})
     bad = tmp_path / "latin.toml"
     bad.write_bytes(b"preset = 'caf\xe9'")

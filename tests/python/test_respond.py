@@ -54,7 +54,7 @@ def test_designs_of_a_grid_have_a_curve_each():
     ("arguments", "keywords", "says"),
     [
         ((), {}, "the values of `drive_frequency` are not given"),
-        ((), {"start": 100, "stop": 120}, "start, stop and step go together"),
+        ((), {"start": 100, "stop": 120}, "start, stop and step are required together"),
         ((), {"start": 100, "stop": 90, "step": 1}, "cannot rise from 100 to 90 in steps of 1"),
         (("lift_sign",), {"start": 1, "stop": 2, "step": 1}, "is a choice"),
         (("drive_frequenc",), {}, "did you mean `drive_frequency`?"),

@@ -68,7 +68,7 @@ def test_files_are_those_of_the_command_byte_for_byte(flap, grid, tmp_path, name
     assert [list(dim) for dim in table.axes] == [list(dim) for dim in in_memory.axes]
     assert table.meta["grid"] == in_memory.meta["grid"] == GRID
     # Rows of another grid are not overwritten unasked; those of the same grid are there already.
-    with pytest.raises(FileExistsError, match="the grid file differs; line .*: name another file, or .*restart=True"):
+    with pytest.raises(FileExistsError, match="the grid file differs; line .*: choose another file, or .*restart=True"):
         flapwing.sweep(GRID + "\n", out=tmp_path / name)
     assert len(flapwing.sweep(grid, out=tmp_path / name)) == len(table)
     flapwing.sweep(grid, out=tmp_path / name, restart=True)

@@ -130,7 +130,7 @@ def test_derivatives_at_almost_nothing_are_those_at_zero():
 
 def test_values_that_reach_no_wing_are_warned_of():
     wings = [flapwing.Wing("left", preset="jafferis2016"), flapwing.Wing("right", mirrored=True, preset="jafferis2016")]
-    with pytest.warns(UserWarning, match="`hinge_stiffness` reaches no wing"):
+    with pytest.warns(UserWarning, match="`hinge_stiffness` has no effect"):
         flapwing.sweep({**flapwing.Vehicle("jafferis2016", wings), "params": {"hinge_stiffness": 1.2e-6}})
 
 
@@ -180,7 +180,7 @@ def test_keywords_go_over_the_grid_of_a_vehicle(tmp_path):
     ("arguments", "error", "says"),
     [
         ((3, []), TypeError, "`design` is int\nit must be the name of a preset, the path of a device"),
-        (("jafferis2016", []), ValueError, "`wings` is empty\na vehicle has one wing or more"),
+        (("jafferis2016", []), ValueError, "`wings` is empty\na vehicle has at least one wing"),
         (("jafferis2016", "left"), TypeError, "`wings` is str\nit must be a list of wings"),
         (("jafferis2016", ["left"]), TypeError, r"`wings\[0\]` is str\nit must be a flapwing.Wing"),
         (("jafferis2016", [{"mirrored": True}]), flapwing.GridError, "the wing has no `name`"),
@@ -188,7 +188,7 @@ def test_keywords_go_over_the_grid_of_a_vehicle(tmp_path):
         (("jafferis201", [{"name": "left"}]), flapwing.GridError, "there is no preset `jafferis201`"),
         (("no/such.toml", [{"name": "left"}]), flapwing.GridError, "no/such.toml"),
         (("jafferis2016", [{"name": "left"}] * 2), flapwing.GridError, "two wings are called `left`"),
-        (({"preset": "jafferis2016", "vehicle": {}}, [{"name": "left"}]), ValueError, "has a vehicle already"),
+        (({"preset": "jafferis2016", "vehicle": {}}, [{"name": "left"}]), ValueError, "already has a vehicle"),
         (
             ("jafferis2016", [flapwing.Wing("left", params={"hinge_stifness": 1e-6})]),
             flapwing.GridError,
@@ -226,7 +226,7 @@ def test_mistakes_of_wings_are_told(options, error, says):
 
 
 def test_a_vehicle_has_no_single_motion():
-    says = "the design is a vehicle of 2 wings, and this takes one wing"
+    says = "the design is a vehicle of 2 wings, but this call requires one wing"
     for call in (flapwing.trajectory, flapwing.resonance, flapwing.chirp, flapwing.impulse):
         with pytest.raises(ValueError, match=says):
             call(pair())

@@ -29,7 +29,7 @@ test("texts that are no numbers have a problem in words", () => {
   const cases = [
     ["1,400", "Hz", /may be 1400 or 1\.4/],
     ["-1,400.5", "Hz", /may be -1400\.5/],
-    ["5 cats", "Hz", /“cats” is not a unit for this: write Hz/],
+    ["5 cats", "Hz", /“cats” is not a unit of this quantity: use Hz/],
     ["5 Hz", "", /this number has no unit/],
     ["much", "Hz", /does not begin with a number/],
     ["1.2.3", "Hz", /is not a number/],

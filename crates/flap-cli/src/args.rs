@@ -22,6 +22,7 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::sync::{LazyLock, OnceLock};
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 pub(crate) use device::{DeviceCommand, NewArgs, WingArgs};
 pub(crate) use filter::Filter;
@@ -41,18 +42,20 @@ pub(crate) use sweep::{CheckArgs, SweepArgs};
 pub(crate) use test::{ChirpArgs, ImpulseArgs, LiftArgs, ResonanceArgs, TestCommand, TrackArgs};
 pub(crate) use vehicle::VehicleArgs;
 
-/// Sweeps of insect-scale flapping-wing designs: a grid file goes in, one row per design point comes out.
+/// Simulate and sweep insect-scale flapping-wing robots.
+///
+/// A grid file describes a sweep. flap runs every design point of the grid and writes one row of results per point.
 #[derive(Parser)]
 #[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
-    /// Print neither progress nor notes: stderr gets warnings and errors alone
+    /// Print only warnings and errors to stderr, without progress and notes
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
-/// The version and the build identity, which differs between builds whose rows may differ.
+/// Returns the version and the build identity. Builds with the same identity write the same rows.
 fn long_version() -> &'static str {
     static TEXT: LazyLock<String> = LazyLock::new(|| {
         let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
@@ -67,11 +70,11 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Run one design point and print its measures
     Run(RunArgs),
-    /// Follow designs up and down in frequency or another parameter, and find hysteresis
+    /// Follow designs up and down along the drive frequency or another parameter, and find hysteresis
     Respond(RespondArgs),
-    /// Compute the force and torque of a vehicle, what each drive does to them, and trims
+    /// Compute the force and torque of a vehicle, the effect of each input on them, and trims
     Vehicle(VehicleArgs),
-    /// Open a page in the browser on which curves follow the parameters that you drag
+    /// Open a page in the browser with sliders for the parameters and curves that follow them
     #[cfg(feature = "live")]
     Live(LiveArgs),
     /// Check a grid file and summarize the sweep that it describes
@@ -80,19 +83,19 @@ pub(crate) enum Command {
     Top(TopArgs),
     /// Summarize results: statuses, percentiles, and the best value of each axis
     Describe(DescribeArgs),
-    /// Draw results as a picture, or as a page to explore in a browser
+    /// Draw results as a picture, or write a page to explore them in a browser
     #[cfg(feature = "plots")]
     Plot(PlotArgs),
     /// Resume, rerun, merge, convert or verify results
     #[command(subcommand)]
     Results(ResultsCommand),
-    /// Compute experiments on one wing: chirps, impulses, resonances, filmed motions
+    /// Simulate experiments on one wing: chirps, impulses, resonances, filmed motions
     #[command(subcommand)]
     Test(TestCommand),
-    /// Make a device file, which describes your own robot
+    /// Write a device file, which describes your own robot
     #[command(subcommand)]
     Device(DeviceCommand),
-    /// List models and presets, or explain models, presets, parameters, columns and statuses
+    /// List models and presets, or explain parameters, columns, settings and statuses
     Models(ModelsArgs),
     /// Generate shell completions, manual pages, or the JSON schema of grid files
     #[command(subcommand)]
@@ -108,35 +111,47 @@ const GROUPS: [(&str, &[&str]); 4] = [
 ];
 
 const EXIT_CODES: &str = "\
-Results go to stdout, everything else to stderr.
+Results are printed to stdout, everything else to stderr.
 
 Exit codes:
   0    done
-  1    with --strict: done, but not every point is periodic; `results verify`: not every file has checksums
-  2    the command line or the grid file must be corrected
+  1    with --strict: some points are not periodic; `results verify`: some files have no checksums
+  2    the command line or an input file must be corrected, or an input file does not exist
   3    reading or writing failed, or results are damaged
-  130  interrupted; the same command continues a sweep
-  101  a mistake in flap itself";
+  130  interrupted; run the same command again to continue a sweep
+  101  an internal error in flap";
 
 static LINE: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Sets the command line. Later calls change nothing.
+/// Sets the words of the command line. Later calls have no effect.
 pub(crate) fn set_line(line: Vec<OsString>) {
     LINE.get_or_init(|| line);
 }
 
-/// The words of the command line, the name of the program first.
+/// Returns the words of the command line, beginning with the name of the program.
 pub(crate) fn line() -> &'static [OsString] {
     LINE.get().map_or(&[], Vec::as_slice)
 }
 
-/// The arguments of the command line. A command line with mistakes ends the process.
+/// Parses the command line. If it has mistakes, prints them and ends the process.
 pub(crate) fn parse() -> Args {
-    let matches = command().get_matches_from(line());
+    let matches = command().try_get_matches_from(line()).unwrap_or_else(|error| with_hint(error).exit());
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 
-/// The command line, with groups of commands, and an example at the top of each command's help.
+/// Adds a hint to the error for an unknown command whose name is a command of a group, such as `merge` of `flap results`.
+fn with_hint(mut error: clap::Error) -> clap::Error {
+    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return error };
+    let command = Args::command();
+    let mut groups = command.get_subcommands().filter(|group| group.find_subcommand(name).is_some());
+    if let Some(group) = groups.next() {
+        let hint = format!("use `flap {} {name}`", group.get_name());
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint.into()]));
+    }
+    error
+}
+
+/// Builds the command line, with groups of commands and an example at the top of each command's help.
 pub(crate) fn command() -> clap::Command {
     let mut command = Args::command();
     // Adds the command `help`, which the groups list.
@@ -148,7 +163,7 @@ pub(crate) fn command() -> clap::Command {
     Args::command().help_template(template).mut_subcommands(with_example)
 }
 
-/// The groups of commands, with the first lines of their help.
+/// Returns the groups of commands with the first line of each command's help.
 fn groups(command: &clap::Command) -> String {
     let mut text = String::new();
     for (title, names) in GROUPS {
@@ -163,7 +178,7 @@ fn groups(command: &clap::Command) -> String {
     text
 }
 
-/// The command with the first of its examples above its usage.
+/// Adds the first example of a command above its usage line, and does the same for its subcommands.
 fn with_example(command: clap::Command) -> clap::Command {
     let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
     let lines = help.lines().skip_while(|line| !line.starts_with("Example"));

@@ -1,6 +1,6 @@
-//! Completion in a shell: the shell runs the command with the words so far, which prints candidates for the last one.
+//! Completion in a shell: the shell runs the command with the words so far, and the command prints candidates for the last word.
 //!
-//! The names of models that a program brings, and of columns of a file in the working directory, are known only then.
+//! A script cannot contain these candidates: they include added models and the columns of files in the working directory.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -23,10 +23,10 @@ use crate::args;
 use crate::models;
 use crate::statuses;
 
-/// The environment variable with which a shell asks for candidates.
+/// The environment variable with which a shell requests candidates.
 pub(crate) const VARIABLE: &str = "COMPLETE";
 
-/// Prints candidates and ends the process, if a shell asks for them.
+/// If a shell requests candidates, prints them and ends the process.
 pub(crate) fn answer() {
     let completion = CompleteEnv::with_factory(command).var(VARIABLE);
     match completion.try_complete(args::line(), env::current_dir().ok().as_deref()) {
@@ -36,7 +36,7 @@ pub(crate) fn answer() {
     }
 }
 
-/// The command line, whose arguments know their candidates by the names of their values.
+/// Returns the command line. Each argument gets its candidates by the name of its value.
 fn command() -> Command {
     with_candidates(args::command())
 }
@@ -45,7 +45,7 @@ fn with_candidates(command: Command) -> Command {
     command.mut_args(completed).mut_subcommands(with_candidates)
 }
 
-/// The argument, with its candidates.
+/// Returns the argument with its candidates.
 fn completed(arg: Arg) -> Arg {
     let value = arg.get_value_names().and_then(|names| names.first()).map(ToString::to_string);
     match value.as_deref().unwrap_or_default() {
@@ -62,7 +62,7 @@ fn completed(arg: Arg) -> Arg {
     }
 }
 
-/// A name with the first line of its meaning.
+/// Returns a candidate: a name with the first line of its meaning.
 fn candidate(name: &str, meaning: &str) -> CompletionCandidate {
     CompletionCandidate::new(name).help(meaning.lines().next().map(|line| line.to_owned().into()))
 }
@@ -77,7 +77,7 @@ fn models_and_presets() -> Vec<CompletionCandidate> {
     models.chain(presets()).collect()
 }
 
-/// All that `flap models` lists and explains.
+/// Returns all names that `flap models` lists and explains, and files.
 fn names_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
     let mut found = begun(word, models_and_presets().into_iter().chain(names()).collect());
     found.extend(PathCompleter::any().complete(word));
@@ -94,12 +94,12 @@ fn statuses() -> Vec<CompletionCandidate> {
     Status::ALL.iter().map(|status| candidate(status.name(), statuses::meaning(*status))).collect()
 }
 
-/// The parameters of the models that the command line is about.
+/// Returns the parameters of the models that the command line mentions.
 fn parameters() -> Vec<CompletionCandidate> {
     each_parameter(|parameter| vec![candidate(parameter.name, parameter.doc)])
 }
 
-/// Parameters before an equals sign; behind it, the options of a choice.
+/// Returns parameters before an equals sign; after it, the options of a choice.
 fn assignments(word: &OsStr) -> Vec<CompletionCandidate> {
     let is_named = word.to_string_lossy().contains('=');
     let candidates = each_parameter(|parameter| match parameter.kind {
@@ -116,7 +116,7 @@ fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -
     distinct(robots.iter().flat_map(|robot| robot.parameters()).flat_map(candidates))
 }
 
-/// The columns of the results on the command line; without those, the columns that rows of the models can have.
+/// Returns the columns of the results on the command line; if there are none, all columns of rows of the models.
 fn columns() -> Vec<CompletionCandidate> {
     if let Some(names) = words().find_map(|word| columns_of(&word)) {
         return names.iter().map(|name| candidate(name, "")).collect();
@@ -132,20 +132,20 @@ fn conditions() -> Vec<CompletionCandidate> {
     columns.map(|column| candidate(&format!("{}=", column.get_value().display()), "")).collect()
 }
 
-/// All that `flap models` explains.
+/// Returns all names that `flap models` explains.
 fn names() -> Vec<CompletionCandidate> {
     let settings = SolverSettings::TABLE.iter().map(|setting| candidate(setting.name, setting.doc));
     distinct(parameters().into_iter().chain(columns()).chain(settings).chain(statuses()))
 }
 
-/// The candidates that begin like the word.
+/// Returns the candidates that begin with the word.
 fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
     let word = word.to_string_lossy();
     candidates.retain(|candidate| candidate.get_value().to_string_lossy().starts_with(&*word));
     candidates
 }
 
-/// The candidates without those whose name an earlier one has.
+/// Returns the candidates without later ones of the same name.
 fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
     let mut kept: Vec<CompletionCandidate> = Vec::new();
     for candidate in candidates {
@@ -156,13 +156,13 @@ fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<Comple
     kept
 }
 
-/// The words of the command line that is completed, behind the name of the command.
+/// Returns the words of the command line that is completed, after the name of the command.
 fn words() -> impl Iterator<Item = String> {
     let words = args::line().iter().map(|word| word.to_string_lossy().into_owned());
     words.skip_while(|word| word != "--").skip(2)
 }
 
-/// The model of the preset, model or grid on the command line; without one, all models.
+/// Returns the model of the preset, model or grid on the command line; if there is none, all models.
 fn mentioned_models() -> Vec<Robot> {
     let mentioned = words().find_map(|word| {
         let named = models::preset(&word).map(|(model, _)| model).or_else(|| models::by_name(&word));
@@ -177,7 +177,7 @@ fn robot_of_grid(word: &str) -> Option<Robot> {
     is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.robot().clone())).flatten()
 }
 
-/// The columns of results, if the word names some. A shell waits for them, so only the header is read.
+/// Returns the columns of results, if the word is the name of such a file. Only the header is read, because the shell waits.
 fn columns_of(word: &str) -> Option<Vec<String>> {
     let path = Path::new(word);
     let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");

@@ -1,4 +1,4 @@
-//! The two streams: results go to stdout, everything else to stderr.
+//! Output: results go to stdout, everything else to stderr.
 
 use std::collections::BTreeSet;
 use std::env;
@@ -10,18 +10,19 @@ use anstyle::{AnsiColor, Style};
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From now on, stderr gets warnings and errors alone: neither notes nor progress.
+/// From this call on, prints only warnings and errors to stderr, without notes and progress.
 pub(crate) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// True if the user wants neither notes nor progress.
+/// Returns true if notes and progress are switched off.
 pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// The number of characters in a line of stdout: that of the terminal, else that of the variable COLUMNS. `None` without both, as
-/// in a pipe, where lines have any length.
+/// Returns the number of characters in a line of stdout: the width of the terminal, else the variable COLUMNS.
+///
+/// `None` without both, for example in a pipe, where lines may have any length.
 pub(crate) fn width() -> Option<usize> {
     let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)
@@ -34,13 +35,13 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Warns the user of a damage or of a probable mistake. The work goes on.
+/// Prints a warning about damage or a probable mistake. The command continues.
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
     complain(&format!("{style}warning{style:#}: {text}"));
 }
 
-/// Warns the user as [`warn`] does, but of the same thing only once.
+/// Prints a warning as [`warn`] does, but the same text only once.
 pub(crate) fn warn_once(text: &str) {
     static WARNED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let is_new = WARNED.lock().is_ok_and(|mut warned| warned.insert(text.to_owned()));
@@ -49,7 +50,7 @@ pub(crate) fn warn_once(text: &str) {
     }
 }
 
-/// A long line of help in lines that fit the terminal, those from the second on below the first word.
+/// Breaks a long help line into lines that fit the terminal. Later lines are indented to the first word.
 pub(crate) fn help_lines(text: &str) -> String {
     const MARGIN: &str = "      ";
     let terminal = terminal_size::terminal_size_of(io::stderr()).map(|(width, _)| usize::from(width.0));
@@ -57,7 +58,7 @@ pub(crate) fn help_lines(text: &str) -> String {
     textwrap::wrap(text, width).join(&format!("\n{MARGIN}"))
 }
 
-/// A word of a command to be copied into a shell: in quotes if it has characters that shells interpret.
+/// Returns a word for copying into a shell: in quotes if it has characters that shells interpret.
 pub(crate) fn shell_word(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-/+=:,".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -67,7 +68,7 @@ pub(crate) fn shell_word(word: &str) -> String {
     }
 }
 
-/// Prints a note to stderr, unless the user wants none. If stderr is closed, the line is lost.
+/// Prints a note to stderr, unless notes are switched off. If stderr is closed, the line is lost.
 pub(crate) fn say(text: &str) {
     if !is_quiet() {
         complain(text);

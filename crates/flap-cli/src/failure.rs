@@ -43,52 +43,57 @@ pub(crate) enum Exit {
     Interrupted = 130,
 }
 
-/// The reason why a command could not do its work.
+/// The reason why a command failed.
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// The command line or the grid file must be corrected: a message and help lines.
     Usage(String, Vec<String>),
     /// The grid file has mistakes.
     Grid(Mistakes),
-    /// The operating system refused, or results are damaged: a message and help lines.
+    /// The operating system returned an error, or results are damaged: a message and help lines.
     System(String, Vec<String>),
-    /// A mistake in flap itself.
+    /// An internal error in flap.
     Bug(String),
-    /// The reader of stdout closed it, as `head` does. Nothing is wrong.
+    /// The reader of stdout closed it, as `head` does. This is not an error.
     ClosedPipe,
 }
 
 impl Failure {
-    /// A mistake of the user, with this message.
+    /// Returns the failure for a mistake of the user.
     pub(crate) fn usage(message: impl Into<String>) -> Failure {
         Failure::Usage(message.into(), Vec::new())
     }
 
-    /// A file that the operating system refuses to write.
+    /// Returns the failure for an input file that does not exist.
+    pub(crate) fn missing(path: &Path) -> Failure {
+        Failure::usage(format!("{}: {}", path.display(), InputError::Missing))
+    }
+
+    /// Returns the failure for a file that cannot be written.
     pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
-    /// Results that differ from what was written.
+    /// Returns the failure for results that have changed since they were written.
     pub(crate) fn damaged(message: String) -> Failure {
-        Failure::System(message, Vec::new()).help("replace it by an undamaged copy")
+        Failure::System(message, Vec::new()).help("replace the file by an undamaged copy")
     }
 
-    /// The failure of a grid file or a sidecar where results are read; `None` for other names.
+    /// Returns the failure if `path` is a grid file or a sidecar instead of results; `None` for other names.
     pub(crate) fn not_results(path: &Path) -> Option<Failure> {
         let name = path.to_string_lossy();
         if let Some(results) = name.strip_suffix(".meta.toml") {
-            let message = format!("{name} is the sidecar of results, not results");
-            return Some(Failure::usage(message).help(format!("name the results: {results}")));
+            let message = format!("{name} is the sidecar of results, not a file of results");
+            return Some(Failure::usage(message).help(format!("use the file of results: {results}")));
         }
         if !name.ends_with(".toml") {
             return None;
         }
         let message = format!("{name} is a grid file, not a file of results");
-        Some(Failure::usage(message).help(format!("`flap sweep {name}` computes its results")))
+        Some(Failure::usage(message).help(format!("`flap sweep {name}` writes its results")))
     }
 
-    /// The failure of a job with results at `out`.
+    /// Returns the failure of a job with results at `out`.
     pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
@@ -98,14 +103,14 @@ impl Failure {
             JobError::Create(error) => error.into(),
             JobError::Exists { ref changed, .. } => {
                 edited(Failure::usage(error.to_string()), changed.as_ref())
-                    .help("--out FILE writes to another file, --restart replaces it")
+                    .help("use --out FILE to write to another file, or --restart to replace it")
             }
             JobError::Resume { error: error @ ResumeError::Changed { .. }, changed, continues } => {
                 unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
             }
             JobError::Resume { error, .. } => error.into(),
             JobError::Open(OpenError::Damaged { .. }) => Failure::damaged(error.to_string())
-                .help("the same command with --restart computes the rows again"),
+                .help("run the same command with --restart to compute the rows again"),
             JobError::Open(error) => error.into(),
             JobError::Write { path, source, .. } => Failure::cannot_write(&path, &source),
             JobError::Run { error, .. } => error.into(),
@@ -125,7 +130,7 @@ impl Failure {
         self
     }
 
-    /// Adds the one of `names` that may have been meant by `name`, or else the line `otherwise`.
+    /// Adds a question with the name among `names` that is closest to `name`; if none is close, the line `otherwise`.
     pub(crate) fn nearest<'n>(
         self,
         name: &str,
@@ -138,7 +143,7 @@ impl Failure {
         }
     }
 
-    /// Prints the failure to stderr and gives the exit code.
+    /// Prints the failure to stderr and returns the exit code.
     pub(crate) fn report(self) -> Exit {
         match self {
             Failure::Usage(message, help) => {
@@ -154,7 +159,7 @@ impl Failure {
                 Exit::System
             }
             Failure::Bug(message) => {
-                complain(&message, &["this is a mistake in flap: please report it".to_owned()]);
+                complain(&message, &["this is an error in flap: please report it".to_owned()]);
                 Exit::Bug
             }
             Failure::ClosedPipe => Exit::Done,
@@ -162,29 +167,31 @@ impl Failure {
     }
 }
 
-/// Adds the first line of the grid that was edited, if one was.
+/// Adds the first line of the grid that was edited, if there is one.
 fn edited(failure: Failure, changed: Option<&String>) -> Failure {
     let Some(line) = changed else { return failure };
     failure
         .help(line.clone())
-        .help("an edited grid is another sweep: give its rows another file with --out FILE")
+        .help("an edited grid is another sweep: write its rows to another file with --out FILE")
 }
 
-/// Adds the ways on from unfinished results at `out`, the one that loses rows last. With `continues`, `flap results resume` is one.
+/// Adds help lines for unfinished results at `out`; the line about losing rows comes last.
+///
+/// If `continues` is true, `flap results resume` is one of the options.
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
-    let grid = if changed.is_some() { " with the grid that began it" } else { "" };
+    let grid = if changed.is_some() { " with its original grid" } else { "" };
     let failure = if continues {
         failure.help(format!("`flap results resume {}` continues it{grid}", out.display()))
     } else {
         failure
     };
-    edited(failure, changed).help("--restart drops its rows and starts over")
+    edited(failure, changed).help("use --restart to delete its rows and start over")
 }
 
-/// The help line for new results that are to replace earlier ones; `None` if there are no earlier ones.
+/// Returns the help line if earlier results will be replaced by new ones; `None` if there are no earlier results.
 pub(crate) fn still_kept(out: &Path) -> Option<String> {
     let is_kept = job::unfinished(out).is_some() && out.exists();
-    is_kept.then(|| format!("{} keeps the earlier results until then", out.display()))
+    is_kept.then(|| format!("until then, {} keeps the earlier results", out.display()))
 }
 
 fn complain(message: &str, help: &[String]) {
@@ -197,7 +204,7 @@ fn complain(message: &str, help: &[String]) {
     console::complain(&shortened(&text));
 }
 
-/// A failed write to stdout.
+/// Converts a failed write to stdout.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         match error.kind() {
@@ -207,7 +214,7 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Errors that a user can mend, and whose own words say how.
+/// Errors that the user can correct and whose messages contain the remedy.
 macro_rules! usage {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {
@@ -248,10 +255,10 @@ impl From<CreateError> for Failure {
     fn from(error: CreateError) -> Failure {
         match error {
             CreateError::Exists { .. } => {
-                Failure::usage(error.to_string()).help("use --force to overwrite it, or name another file")
+                Failure::usage(error.to_string()).help("use --force to overwrite it, or choose another file")
             }
             CreateError::Unfinished(ref path) => Failure::usage(error.to_string()).help(format!(
-                "`flap results resume {}` continues it, --restart starts over",
+                "`flap results resume {}` continues it; --restart starts over",
                 path.display()
             )),
             CreateError::InTheWay { .. } => Failure::usage(error.to_string())
@@ -268,6 +275,9 @@ impl From<OpenError> for Failure {
         match error {
             OpenError::Format(error) => error.into(),
             OpenError::Sidecar(error) => error.into(),
+            OpenError::Read { path, source } if source.kind() == io::ErrorKind::NotFound => {
+                Failure::missing(&path)
+            }
             OpenError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
             OpenError::Damaged { ref path, ref damage } => {
                 let failure = Failure::damaged(error.to_string());
@@ -284,7 +294,7 @@ impl From<OpenError> for Failure {
 
 impl From<Overlap> for Failure {
     fn from(error: Overlap) -> Failure {
-        Failure::usage(error.to_string()).help("inputs are never overwritten: name another file")
+        Failure::usage(error.to_string()).help("inputs are never overwritten: choose another file")
     }
 }
 
@@ -295,7 +305,7 @@ impl From<ResumeError> for Failure {
             ResumeError::Create(error) => error.into(),
             ResumeError::Format(error) => error.into(),
             ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
-                Failure::usage(message).help("use --restart to start over, or name another file")
+                Failure::usage(message).help("use --restart to start over, or choose another file")
             }
         }
     }
@@ -306,8 +316,9 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
-            MergeError::Builds(_) => Failure::usage(message)
-                .help("sweep the shards again with one build, or merge them as they are with --mixed-builds"),
+            MergeError::Builds(_) => Failure::usage(message).help(
+                "sweep all shards with the same build, or use --mixed-builds to merge them as they are",
+            ),
             MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }
@@ -318,10 +329,11 @@ impl From<sidecar::SidecarError> for Failure {
     fn from(error: sidecar::SidecarError) -> Failure {
         match &error {
             sidecar::SidecarError::Damaged { .. } => Failure::damaged(error.to_string()),
-            sidecar::SidecarError::Io { source, .. } if source.kind() != io::ErrorKind::NotFound => {
-                Failure::System(error.to_string(), Vec::new())
+            sidecar::SidecarError::Io { path, source } if source.kind() == io::ErrorKind::NotFound => {
+                Failure::missing(path)
             }
-            _ => Failure::usage(error.to_string()),
+            sidecar::SidecarError::Io { .. } => Failure::System(error.to_string(), Vec::new()),
+            sidecar::SidecarError::Format { .. } => Failure::usage(error.to_string()),
         }
     }
 }

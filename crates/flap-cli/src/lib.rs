@@ -1,10 +1,10 @@
-//! The `flap` command, for programs that bring models of their own.
+//! The `flap` command as a library, for programs that add their own models.
 //!
 //! ```no_run
 //! use flap_core::simulate::{self, Simulator};
 //!
 //! fn main() -> std::process::ExitCode {
-//!     // Models of your own stand beside those of the papers.
+//!     // Your models are added to the models of the papers.
 //!     let own: &[&'static dyn Simulator] = &[];
 //!     flap_cli::run([simulate::all(), own].concat())
 //! }
@@ -35,17 +35,16 @@ use args::Command;
 use failure::{Exit, Failure};
 use flap_core::simulate::Simulator;
 
-/// Runs the command line of this process with these models.
+/// Runs the command line of this process with these models, and returns its exit code.
 ///
-/// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the models.
+/// If the command line has mistakes, the process ends. Only the first call in a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     ExitCode::from(run_line(env::args_os().collect(), models))
 }
 
-/// Runs a command line, whose first word is the name of the program, with these models.
+/// Runs a command line with these models, and returns its exit code. The first word is the name of the program.
 ///
-/// Returns its exit code; a command line with mistakes ends the process. Only the first call of a process sets the line and
-/// the models.
+/// If the command line has mistakes, the process ends. Only the first call in a process sets the line and the models.
 pub fn run_line(line: Vec<OsString>, models: Vec<&'static dyn Simulator>) -> u8 {
     models::set(models);
     args::set_line(line);

@@ -1,4 +1,4 @@
-//! The models that this command knows.
+//! The models of this process.
 
 use std::sync::OnceLock;
 
@@ -7,27 +7,27 @@ use flap_core::simulate::{self, Simulator};
 
 static MODELS: OnceLock<Vec<&'static dyn Simulator>> = OnceLock::new();
 
-/// Sets the models. Later calls change nothing.
+/// Sets the models. Later calls have no effect.
 pub(crate) fn set(models: Vec<&'static dyn Simulator>) {
     MODELS.get_or_init(|| models);
 }
 
-/// All models, in the order of `flap models`.
+/// Returns all models, in the order of `flap models`.
 pub(crate) fn all() -> &'static [&'static dyn Simulator] {
     MODELS.get().map_or(simulate::all(), Vec::as_slice)
 }
 
-/// The model called `name`.
+/// Returns the model `name`.
 pub(crate) fn by_name(name: &str) -> Option<&'static dyn Simulator> {
     simulate::find(all(), name)
 }
 
-/// The preset called `name`, with its model.
+/// Returns the preset `name` with its model.
 pub(crate) fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
     simulate::find_preset(all(), name)
 }
 
-/// The names of all presets.
+/// Returns the names of all presets.
 pub(crate) fn presets() -> impl Iterator<Item = &'static str> {
     all().iter().flat_map(|model| model.presets()).map(|preset| preset.name)
 }

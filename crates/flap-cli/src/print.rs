@@ -1,4 +1,4 @@
-//! Tables in the format that the user chose: for people, as comma-separated values, or as JSON.
+//! Prints tables in the format that the user chose: as text, as comma-separated values, or as JSON.
 
 use std::io::{self, Write};
 
@@ -48,7 +48,7 @@ pub(crate) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Fa
     Ok(())
 }
 
-/// The rows as comma-separated values below their names.
+/// Returns the rows as comma-separated values below their names.
 fn csv(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failure> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let names = names.iter().map(AsRef::as_ref);
@@ -59,7 +59,7 @@ fn csv(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failur
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// The rows as a list of JSON objects.
+/// Returns the rows as a list of JSON objects.
 fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failure> {
     let object = |row: &Vec<String>| {
         let mut bytes = Vec::new();
@@ -72,7 +72,7 @@ fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Fa
     Ok(format!("[\n{}\n]\n", objects.join(",\n")))
 }
 
-/// A cell as JSON: null if it is empty or infinite.
+/// Returns a cell as JSON: null if it is empty or infinite.
 fn json(cell: &str) -> Value {
     match cell {
         "" => Value::Null,

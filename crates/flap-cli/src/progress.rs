@@ -1,4 +1,4 @@
-//! The progress of a sweep on stderr: a bar if that is a terminal, else a line every minute.
+//! The progress of a sweep on stderr: a bar in a terminal, otherwise one line per minute.
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
@@ -12,7 +12,7 @@ use crate::{console, duration};
 /// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
-    /// Progress as lines, without a bar.
+    /// Progress as lines, if there is no bar.
     log: Option<Log>,
     /// The units of the run, such as "points".
     units: &'static str,
@@ -21,7 +21,7 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// The progress of a run that counts `units`, such as "points". Nothing if the user wants no progress.
+    /// Returns the progress of a run that counts `units`, such as "points"; it prints nothing if progress is switched off.
     pub(crate) fn new(units: &'static str) -> Bar {
         let template =
             format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
@@ -35,12 +35,12 @@ impl Bar {
         Bar { drawn, log, units, moved: false, stopping: false }
     }
 
-    /// Moves the bar. When the sweep begins to stop, prints that once.
+    /// Moves the bar. When the sweep begins to stop, prints a note once.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.drawn.set_length(progress.points);
         self.drawn.set_position(progress.finished);
         if !self.moved {
-            // Points of earlier sessions took no time in this one.
+            // Points of earlier sessions were not computed in this one.
             self.moved = true;
             self.drawn.reset_eta();
         }
@@ -58,7 +58,7 @@ impl Bar {
         }
     }
 
-    /// Writes something while the bar is hidden.
+    /// Runs `write` while the bar is hidden.
     pub(crate) fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         self.drawn.suspend(write)
     }
@@ -69,13 +69,13 @@ impl Bar {
     }
 }
 
-/// The time between two lines.
+/// Time between two lines.
 const PAUSE: Duration = Duration::from_secs(60);
 
 /// The progress as lines.
 struct Log {
     last: Instant,
-    /// Time and finished units at the beginning. Units of earlier sessions took no time in this one.
+    /// Time and number of finished units at the beginning. Units of earlier sessions were not computed in this one.
     begin: Option<(Instant, u64)>,
 }
 
@@ -84,7 +84,7 @@ impl Log {
         Log { last: now, begin: None }
     }
 
-    /// The line that is due now, if one is.
+    /// Returns a line if it is time to print one.
     fn line(&mut self, progress: Progress, units: &str, now: Instant) -> Option<String> {
         let Progress { finished, points } = progress;
         let (begun, before) = *self.begin.get_or_insert((now, finished));
@@ -104,7 +104,7 @@ impl Log {
 }
 
 fn write_rate(state: &ProgressState, text: &mut dyn Write) {
-    // A write into memory does not fail.
+    // Writing to memory does not fail.
     let _ = write!(text, "{:.0}", state.per_sec());
 }
 

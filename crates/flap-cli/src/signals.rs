@@ -1,4 +1,4 @@
-//! Signals that end a sweep.
+//! Signals that stop a sweep.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -8,10 +8,10 @@ use signal_hook::flag;
 
 use crate::failure::Exit;
 
-/// A flag that the first SIGINT or SIGTERM raises; the second ends the process at once.
+/// Returns a flag that the first SIGINT or SIGTERM sets; the second ends the process at once.
 ///
-/// A signal that the process ignores from its start stays ignored: shells start background jobs so, to protect them from
-/// Ctrl-C at the terminal.
+/// A signal that the process ignores from its start stays ignored. Shells start background jobs in this way, which
+/// protects the jobs from Ctrl-C at the terminal.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
@@ -26,8 +26,9 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
     stop
 }
 
-/// Makes a file that would grow beyond the limit of the process (`ulimit -f`) an error of writing, which can be reported,
-/// instead of a signal that ends the process.
+/// Turns a write beyond the file size limit of the process (`ulimit -f`) into an error, which can be reported.
+///
+/// By default, a signal ends the process.
 pub(crate) fn refuse_large_files() {
     #[cfg(unix)]
     let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());

@@ -11,12 +11,12 @@ use flap_sweep::notation::units::prefixed;
 
 use crate::console;
 
-/// The number with six digits, for people to read.
+/// Returns the number with six digits.
 pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
 }
 
-/// A parameter with its value and unit to six digits, such as `hinge_stiffness = 1.52 uN*m/rad`.
+/// Returns a parameter with its value and unit to six digits, such as `hinge_stiffness = 1.52 uN*m/rad`.
 pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
     let value = match parameter.kind {
         Kind::Choice(_) => text::value(parameter, value),
@@ -25,27 +25,28 @@ pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
     format!("{} = {value}", parameter.name)
 }
 
-/// Rows of cells, aligned on the left. A row may have fewer cells than others. Words of more than some hundred characters are
-/// shortened: files may have names of any length.
+/// Rows of cells, aligned on the left. A row may have fewer cells than other rows.
+///
+/// Words of more than about a hundred characters are shortened, because names in files may have any length.
 #[derive(Default)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
     /// Titles of groups, each with the number of rows above it.
     titles: Vec<(usize, String)>,
-    /// Number of the first columns that every part of a wide table has; 1 if it is 0.
+    /// Number of first columns that every part of a wide table repeats; 0 counts as 1.
     keys: usize,
 }
 
-/// The least width of a column whose cells are wrapped.
+/// Smallest width of a column whose cells are wrapped.
 const LEAST: usize = 20;
 
 impl Table {
-    /// A table with a first row of headings.
+    /// Returns a table with a first row of headings.
     pub(crate) fn with_headings(headings: &[&str]) -> Table {
         Table::with_names(headings.iter().map(|heading| heading.to_uppercase()).collect())
     }
 
-    /// A table with headings and these rows.
+    /// Returns a table with headings and these rows.
     pub(crate) fn of(headings: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Table {
         let mut table = Table::with_headings(headings);
         for row in rows {
@@ -54,14 +55,14 @@ impl Table {
         table
     }
 
-    /// A table with a first row of names of columns, as they are written.
+    /// Returns a table with a first row of column names, which are printed as they are.
     pub(crate) fn with_names(names: Vec<String>) -> Table {
         let mut table = Table::default();
         table.row(names);
         table
     }
 
-    /// The same, of which every part has this number of the first columns if it is too wide.
+    /// Sets the number of first columns that every part repeats if the table is too wide.
     pub(crate) fn with_keys(self, keys: usize) -> Table {
         Table { keys, ..self }
     }
@@ -80,9 +81,10 @@ impl Table {
         self.titles.push((self.rows.len(), title.to_owned()));
     }
 
-    /// The text, with two blanks between columns: one line per row or, with a `width`, in lines of so many characters. Then the
-    /// cells of the last column are wrapped. If there is no room for that, the columns stand in several tables, one below the
-    /// other, each with the first column or with those of [`Table::with_keys`].
+    /// Returns the text, with two blanks between columns: one line per row or, with a `width`, lines of at most `width` characters.
+    ///
+    /// In the second case, the cells of the last column are wrapped. If the columns do not fit even then, they are split into several
+    /// tables, one below the other. Each has the first column, or the columns of [`Table::with_keys`].
     pub(crate) fn text_within(&self, width: Option<usize>) -> String {
         let widths = self.widths();
         let parts = width.map_or_else(Vec::new, |width| parts(&widths, self.keys.max(1), width));
@@ -100,7 +102,7 @@ impl Table {
         }
     }
 
-    /// The widths of the columns.
+    /// Returns the widths of the columns.
     fn widths(&self) -> Vec<usize> {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let width_of =
@@ -110,7 +112,7 @@ impl Table {
             .collect()
     }
 
-    /// The table with the first columns and these.
+    /// Returns the table with the first columns and these columns.
     fn part(&self, columns: Range<usize>) -> Table {
         let cells = |row: &Vec<String>| {
             let rest = row.iter().skip(columns.start).take(columns.len());
@@ -119,7 +121,7 @@ impl Table {
         Table { rows: self.rows.iter().map(cells).collect(), titles: self.titles.clone(), keys: self.keys }
     }
 
-    /// The whole table, with the cells of its last column in lines.
+    /// Returns the whole table, with the cells of its last column wrapped.
     fn whole_within(&self, widths: &[usize], width: Option<usize>) -> String {
         let columns = widths.len();
         let indent: usize = widths.iter().take(columns.saturating_sub(1)).map(|width| width + 2).sum();
@@ -130,7 +132,7 @@ impl Table {
                 let bold = Style::new().bold();
                 let _ = writeln!(text, "\n{bold}{title}{bold:#}");
             }
-            // The width in a format has 16 bits.
+            // Widths in format strings have only 16 bits, so the padding is added here.
             let padded = row.iter().zip(widths).map(|(cell, &width)| {
                 cell.to_owned() + &" ".repeat(width.saturating_sub(cell.chars().count()))
             });
@@ -145,7 +147,7 @@ impl Table {
     }
 }
 
-/// The columns behind the first `keys`, in as many tables as fit into `width`. A last column may be wrapped to [`LEAST`].
+/// Splits the columns after the first `keys` into tables that fit into `width`. The last column may be wrapped to [`LEAST`].
 fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let first: usize = widths.iter().take(keys).map(|width| width + 2).sum();
@@ -163,7 +165,7 @@ fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     parts
 }
 
-/// The text in lines that fit the terminal, each but the first behind `indent` blanks.
+/// Returns the text in lines that fit the terminal; all lines after the first are indented by `indent` blanks.
 pub(crate) fn wrapped(text: &str, indent: usize) -> String {
     let blanks = " ".repeat(indent);
     console::width().map_or_else(

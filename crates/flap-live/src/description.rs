@@ -1,4 +1,4 @@
-//! Parameters, measures and the first view of a design, as data of the page.
+//! Parameters, measures and the first view of a design, as data for the page.
 
 use std::f64::consts::PI;
 
@@ -12,11 +12,11 @@ use serde_json::Value;
 
 use crate::opened::Opened;
 
-/// The parameters of the first view, in models that have them.
+/// The parameter along x in the first view, if the model has it.
 const DRIVE_FREQUENCY: &str = "drive_frequency";
 const DRIVE_VOLTAGE: &str = "drive_voltage_pp";
 
-/// Most lines of the first view.
+/// Largest number of lines in the first view.
 const MOST_LINES: usize = 8;
 
 /// The data of the page.
@@ -42,13 +42,13 @@ struct ParameterText<'a> {
     symbol: &'a str,
     doc: &'a str,
     allowed: String,
-    /// The unit in which values are shown, as it is printed.
+    /// The unit in which values are shown.
     unit: String,
-    /// Values shown are SI values times this.
+    /// Factor from SI values to shown values.
     factor: f64,
     kind: &'static str,
     options: Option<&'a [&'a str]>,
-    /// In SI units, or the name of an option.
+    /// The value in SI units, or the name of an option.
     value: Value,
     published: Value,
     low: f64,
@@ -66,7 +66,7 @@ struct MeasureText {
     label: String,
     unit: String,
     doc: String,
-    /// 1 for a benefit, -1 for a cost, 0 for neither.
+    /// 1 if larger values are better, -1 if smaller values are better, 0 for neither.
     better: i8,
 }
 
@@ -93,7 +93,7 @@ struct Lines<'a> {
     values: Vec<f64>,
 }
 
-/// The abilities of the model.
+/// The features that the model supports.
 #[derive(Serialize)]
 struct Can {
     motion: bool,
@@ -102,7 +102,7 @@ struct Can {
 }
 
 impl<'a> Description<'a> {
-    /// The description of the design that was opened.
+    /// Returns the description of the opened design.
     pub(crate) fn of(opened: &'a Opened) -> Description<'a> {
         let plan = opened.plan();
         let simulator = plan.simulator();
@@ -179,7 +179,7 @@ fn kind(parameter: &Parameter) -> &'static str {
     }
 }
 
-/// A value as the page has it: in SI units, the name of an option, or null.
+/// Returns a value for the page: a number in SI units, the name of an option, or null.
 fn shown(parameter: &Parameter, value: f64) -> Value {
     match text::option(parameter, value) {
         Some(option) => option.into(),
@@ -187,13 +187,13 @@ fn shown(parameter: &Parameter, value: f64) -> Value {
     }
 }
 
-/// The range of a slider: a neighbourhood of the value, within what is allowed.
+/// The range of a slider: a neighbourhood of the value, within the allowed range.
 struct Slider {
     low: f64,
     high: f64,
-    /// True if shares are even along the slider, not differences.
+    /// True for a logarithmic slider.
     log: bool,
-    /// The size of values, by which the unit is chosen.
+    /// The typical size of values, by which the unit is chosen.
     typical: f64,
 }
 
@@ -221,7 +221,7 @@ impl Slider {
     }
 }
 
-/// A size of values in this unit that makes a difference, for parameters that are zero or not set.
+/// Returns a typical size of values in this unit, for parameters that are zero or not set.
 fn usual(unit: &str) -> f64 {
     match unit {
         "rad" => PI / 4.0,
@@ -237,7 +237,7 @@ fn usual(unit: &str) -> f64 {
     }
 }
 
-/// The columns with numbers that describe motions, then those about their stability and error.
+/// Returns the columns with numbers that describe motions, then the columns about stability and error.
 fn measures(plan: &Plan) -> Vec<MeasureText> {
     let varied: Vec<&str> = plan.differing().map(|index| plan.parameters()[index].name).collect();
     let columns = Layout::of(plan).columns().into_iter();
@@ -263,7 +263,7 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
         .collect()
 }
 
-/// The first view: the axes of a grid, or the drive frequency for some voltages.
+/// Returns the first view: the axes of a grid, or the drive frequency for several voltages.
 fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a> {
     let parameters = plan.parameters();
     let is_number = |index: usize| !matches!(parameters[index].kind, Kind::Choice(_));
@@ -296,7 +296,7 @@ fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a
     }
 }
 
-/// The different values of a parameter among the points of a plan, rising. A long list of points is thinned.
+/// Returns the different values of a parameter among the points of a plan, rising. A long list of points is thinned.
 fn values_of(plan: &Plan, index: usize) -> Vec<f64> {
     const MOST_POINTS: u64 = 4096;
     let stride = usize::try_from(plan.len().div_ceil(MOST_POINTS)).unwrap_or(1).max(1);
@@ -308,7 +308,7 @@ fn values_of(plan: &Plan, index: usize) -> Vec<f64> {
     values
 }
 
-/// At most [`MOST_LINES`] of some values, the first and the last among them.
+/// Returns at most [`MOST_LINES`] of some values, including the first and the last.
 fn thinned(values: &[f64]) -> Vec<f64> {
     if values.len() <= MOST_LINES {
         return values.to_vec();

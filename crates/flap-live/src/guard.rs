@@ -1,4 +1,4 @@
-//! Tokens, and the hosts and origins that may ask.
+//! Checks requests: their token, host and origin.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -6,17 +6,18 @@ use std::hint::black_box;
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
 
-/// The header that requests of the page have.
+/// The header of the page's requests that contains the token.
 const TOKEN_HEADER: &str = "x-flap-token";
 
-/// The check of every request: only the page itself may ask, so that no other page of the browser and no other user of the
-/// machine reads or computes anything.
+/// The check of every request. It accepts only requests of the page itself.
+///
+/// Other pages of the browser and other users of the machine cannot read or compute anything.
 pub(crate) struct Guard {
     token: String,
     hosts: [String; 2],
 }
 
-/// The reason why a request is refused.
+/// The reason why a request is rejected.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Rejection {
     /// The token is missing or wrong.
@@ -26,10 +27,10 @@ pub(crate) enum Rejection {
 }
 
 impl Guard {
-    /// The guard of a server at this port, with a random token of 128 bits.
+    /// Returns the guard of a server at this port, with a random token of 128 bits.
     ///
     /// # Errors
-    /// If the operating system gives no random numbers.
+    /// If the operating system returns no random numbers.
     pub(crate) fn new(port: u16) -> Result<Guard, getrandom::Error> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes)?;
@@ -40,17 +41,17 @@ impl Guard {
         Ok(Guard { token, hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")] })
     }
 
-    /// The address of the page.
+    /// Returns the address of the page.
     pub(crate) fn address(&self) -> String {
         format!("http://{}/?token={}", self.hosts[0], self.token)
     }
 
-    /// Checks host, origin and token. The token is in a header, or in the query of the address where `in_address`.
+    /// Checks host, origin and token. The token is in a header or, if `in_address` is true, in the query of the address.
     pub(crate) fn check(&self, uri: &Uri, headers: &HeaderMap, in_address: bool) -> Result<(), Rejection> {
         let is_own = |host: &[u8]| self.hosts.iter().any(|known| known.as_bytes() == host);
         let mut hosts = headers.get_all(HOST).iter();
         let has_own_host = hosts.next().is_some_and(|host| is_own(host.as_bytes())) && hosts.next().is_none();
-        // An address in the first line of a request stands above its host header.
+        // An address in the first line of a request takes precedence over its host header.
         let has_own_address = uri.authority().is_none_or(|host| is_own(host.as_str().as_bytes()));
         let mut origins = headers.get_all(ORIGIN).iter();
         let has_own_origin =
@@ -72,7 +73,7 @@ impl Guard {
     }
 }
 
-/// Compares secrets of equal length in a time that does not depend on where they differ.
+/// Compares secrets of equal length in a time that does not depend on the position of the first difference.
 fn is_same(given: &str, secret: &str) -> bool {
     let differences = given.bytes().zip(secret.bytes()).fold(0, |found, (a, b)| black_box(found | (a ^ b)));
     given.len() == secret.len() && differences == 0

@@ -1,10 +1,10 @@
-//! Newer requests cancel older ones of their kind.
+//! Cancels requests when newer requests of the same kind arrive.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Most pairs of page and kind that are remembered: pages that were closed say nothing, so the oldest are forgotten.
+/// Largest number of pairs of page and kind that are stored. Closed pages send no message, so the oldest pairs are dropped.
 const MOST: usize = 256;
 
 /// The newest request of each kind of each page.
@@ -21,8 +21,9 @@ struct Newest {
 }
 
 impl Latest {
-    /// Begins request `number`: cancels the older one, and gives the flag that a newer one will raise. `None` if a newer
-    /// one has come already.
+    /// Starts request `number`: cancels the older request, and returns the flag that a newer request will set.
+    ///
+    /// `None` if a newer request has already arrived.
     pub(crate) fn begin(&self, page: &str, kind: &'static str, number: u64) -> Option<Arc<AtomicBool>> {
         let mut newest = self.lock();
         if let Some(place) = newest.iter().position(|known| known.page == page && known.kind == kind) {
@@ -50,7 +51,7 @@ impl Latest {
         }
     }
 
-    /// Nothing panics while it holds the lock, so a poisoned one is as good.
+    /// No code panics while it holds the lock, so a poisoned lock is still usable.
     fn lock(&self) -> MutexGuard<'_, VecDeque<Newest>> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,17 +1,17 @@
 #![doc = include_str!("../README.md")]
 //!
-//! # Rooms
+//! # Modules
 //!
-//! Each room uses only those above it:
+//! Each module uses only the modules above it:
 //!
 //! - [`page`]: pages for a browser, each in one text with its style, code and data
 //! - `request`: requests of the live page
-//! - `latest`: newer requests cancel older ones of their kind
+//! - `latest`: cancels requests when newer requests of the same kind arrive
 //! - `rows`: rows of a sweep as JSON
-//! - `opened`: the design that the page begins with, and grid files of what the page shows
+//! - `opened`: the design that was opened, and grid files for the contents of the page
 //! - `description`: parameters, measures and the first view, for the page
 //! - `answer`: one file for each kind of request
-//! - `guard`: tokens, and the hosts and origins that may ask
+//! - `guard`: checks the token, the host and the origin of requests
 //! - `server`: the HTTP server
 
 pub mod page;

@@ -1,4 +1,4 @@
-//! The design that the page begins with, and grid files of what the page shows.
+//! The design that was opened, and grid files for the contents of the page.
 
 use std::fmt::Write as _;
 use std::sync::OnceLock;
@@ -15,7 +15,7 @@ use toml_edit::DocumentMut;
 
 use crate::request::{Along, By, Design, MOST_ROWS, Number, Refused};
 
-/// The sections of a grid file that every grid of the page keeps; others are about points and files.
+/// The sections of the opened file that every grid of the page keeps; the other sections are about points and files.
 const KEPT: [&str; 4] = ["vehicle", "derived", "where", "measure"];
 
 /// The name of the page's grids in messages.
@@ -26,27 +26,27 @@ pub(crate) struct Opened {
     /// The plan that was opened.
     plan: Plan,
     models: Vec<&'static dyn Simulator>,
-    /// The text of a grid with the preset and the sections kept, without parameters.
+    /// The text of a grid with the preset and the kept sections, without parameters.
     head: String,
-    /// The plan of `head`: published values.
+    /// The plan of `head`, which has the published values.
     published: Plan,
-    /// One value per parameter: those of the first point, NaN where a parameter follows others.
+    /// One value per parameter, from the first point; NaN if the parameter follows others.
     values: Vec<f64>,
-    /// The row of the published design, once it has been asked for.
+    /// The row of the published design, computed at the first request.
     published_row: OnceLock<Row>,
 }
 
 impl Opened {
-    /// The first design of a plan, with its formulas, conditions and settings.
+    /// Opens the first design of a plan, with its formulas, conditions and settings.
     ///
     /// # Errors
-    /// The mistakes of the file without its points.
+    /// The mistakes of the file if its points are left out.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
         let published = grid::parse(NAME, &head, models)?;
         let mut values = plan.point(0).values;
         for (value, (published, given)) in values.iter_mut().zip(published.base().iter().zip(plan.base())) {
-            // A page has one drive frequency, not a search for each design.
+            // The page has one drive frequency, without a search for the resonance of each design.
             if *given == Value::Resonance {
                 *value = published.in_point();
             }
@@ -55,27 +55,27 @@ impl Opened {
         Ok(Opened { plan, models, head, published, values, published_row: OnceLock::new() })
     }
 
-    /// The plan that was opened.
+    /// Returns the plan that was opened.
     pub(crate) fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The values of the design, one per parameter.
+    /// Returns the values of the design, one per parameter.
     pub(crate) fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The plan of the published design, with the formulas and measures of the one that was opened.
+    /// Returns the plan of the published design, with the formulas and measures of the opened plan.
     pub(crate) fn published_plan(&self) -> &Plan {
         &self.published
     }
 
-    /// The published values, one per parameter.
+    /// Returns the published values, one per parameter.
     pub(crate) fn published(&self) -> Vec<f64> {
         self.published.point(0).values
     }
 
-    /// The row of the published design, in the layout of the page's plans without axes.
+    /// Returns the row of the published design, in the layout of the page's plans without axes.
     pub(crate) fn published_row(&self) -> &Row {
         self.published_row.get_or_init(|| {
             let values = self.published();
@@ -86,7 +86,7 @@ impl Opened {
         })
     }
 
-    /// A grid file of the design, or of lines of it.
+    /// Returns a grid file for the design, or for lines of the design.
     ///
     /// # Errors
     /// [`Refused::Impossible`] if it would have too many rows.
@@ -98,11 +98,12 @@ impl Opened {
     ) -> Result<String, Refused> {
         let rows = x.map_or(1, |x| x.n as usize) * by.map_or(1, |by| by.values.len());
         if rows > MOST_ROWS {
-            let error = format!("{rows} rows are too many for the page, which shows {MOST_ROWS} at most");
+            let error = format!("{rows} rows are too many for the page, which shows at most {MOST_ROWS}");
             return Err(Refused::impossible(error));
         }
         if let Some(x) = x.filter(|x| x.n > 1 && number(&x.from) == number(&x.to)) {
-            let error = format!("`{}` must have two different ends, not {} twice", x.name, number(&x.from));
+            let error =
+                format!("`{}` must have two different ends, but both are {}", x.name, number(&x.from));
             return Err(Refused::Impossible { error, help: None, parameter: Some(x.name.clone()) });
         }
         let axes = [by.map(|by| by.name.as_str()), x.map(|x| x.name.as_str())];
@@ -124,7 +125,7 @@ impl Opened {
         Ok(page)
     }
 
-    /// True if a parameter has the value that was opened: neither the design nor an axis nor a formula gives it another one.
+    /// Returns true if a parameter has the opened value: the design, the axes and the formulas do not change it.
     fn is_as_opened(&self, index: usize, design: &Design, axes: &[Option<&str>]) -> bool {
         let name = self.plan.parameters()[index].name;
         !axes.contains(&Some(name))
@@ -132,8 +133,9 @@ impl Opened {
             && !self.plan.derived().parameters().any(|derived| derived == index)
     }
 
-    /// Lines for the parameters that are not published ones, but for those of `axes`. Values that were opened keep their
-    /// standard errors.
+    /// Writes lines for the parameters that differ from the published values, except those in `axes`.
+    ///
+    /// Opened values keep their standard errors.
     fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         let published = self.published();
         for (index, parameter) in self.plan.parameters().iter().enumerate() {
@@ -159,7 +161,7 @@ impl Opened {
         }
     }
 
-    /// The correlations between values that were opened.
+    /// Writes the correlations between opened values.
     fn write_correlations(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         for Correlation { between, coefficient } in self.plan.uncertainty().correlations() {
             if !between.iter().all(|&index| self.is_as_opened(index, design, axes)) {
@@ -174,7 +176,7 @@ impl Opened {
         }
     }
 
-    /// The plan of a grid file of the page, checked as every grid file is.
+    /// Returns the plan of a grid file of the page, which is checked like every grid file.
     ///
     /// # Errors
     /// [`Refused::Impossible`] with the first mistake.
@@ -185,7 +187,7 @@ impl Opened {
         })
     }
 
-    /// The plan of one design.
+    /// Returns the plan of one design.
     ///
     /// # Errors
     /// [`Refused::Impossible`] with the first mistake.
@@ -194,14 +196,14 @@ impl Opened {
     }
 }
 
-/// The beginning of every grid file of the page: preset, sections kept, solver settings.
+/// Returns the beginning of every grid file of the page: the preset, the kept sections and the solver settings.
 fn head(plan: &Plan) -> String {
     let mut document: DocumentMut = plan.source().text.parse().unwrap_or_default();
     let strays: Vec<String> = document.iter().map(|(key, _)| key.to_owned()).collect();
     for key in strays.iter().filter(|key| !KEPT.contains(&key.as_str())) {
         document.remove(key);
     }
-    // What stood behind the last section says nothing of those kept.
+    // The text after the last section is not about the kept sections.
     document.set_trailing("");
     let mut head = format!("preset = \"{}\"\n", plan.preset());
     let kept = document.to_string();
@@ -220,7 +222,7 @@ fn head(plan: &Plan) -> String {
     head
 }
 
-/// The line of a solver setting that differs from its default.
+/// Returns the line of a solver setting that differs from its default.
 fn setting_line(name: &str, kind: SettingKind, settings: &SolverSettings) -> Option<String> {
     let default = &SolverSettings::DEFAULT;
     let value = match kind {
@@ -233,12 +235,12 @@ fn setting_line(name: &str, kind: SettingKind, settings: &SolverSettings) -> Opt
     value.map(|value| format!("{name} = {value}\n"))
 }
 
-/// A name as a key of TOML: quoted unless it is a word.
+/// Returns a name as a key of TOML, in quotes unless it is a word.
 fn key(name: &str) -> String {
     toml_edit::Key::new(name).display_repr().into_owned()
 }
 
-/// A number or a text as a value of TOML.
+/// Returns a number or a text as a value of TOML.
 fn number(value: &Number) -> String {
     match value {
         Number::Si(value) => text::float(*value),
@@ -246,7 +248,7 @@ fn number(value: &Number) -> String {
     }
 }
 
-/// A mistake in a grid of the page, with the parameter that its line is about.
+/// Returns a mistake in a grid of the page, with the parameter of its line.
 fn refused(mistake: &Diagnostic, parameters: &[Parameter]) -> Refused {
     let line = mistake.source.text.lines().nth(mistake.line().saturating_sub(1)).unwrap_or_default();
     let name = line.split('=').next().unwrap_or_default().trim();

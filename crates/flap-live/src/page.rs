@@ -1,27 +1,27 @@
-//! Pages for a browser, each in one text with its style, code and data.
+//! Pages for a browser. Each page is one text with its style, code and data.
 
 /// The chart library's style, then the style of all pages.
 const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
 /// The chart library.
 const CHART_LIBRARY: &str = include_str!("../web/uplot/uPlot.iife.min.js");
 
-/// The page of results, with this heading. `data` is JSON for its code.
+/// Returns the page of results with this heading. `data` is JSON for its code.
 pub fn results(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/results.js"));
     filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, script)
 }
 
-/// The live page, with this heading. `data` is JSON for its code.
+/// Returns the live page with this heading. `data` is JSON for its code.
 #[cfg(feature = "server")]
 pub(crate) fn live(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/live.js"));
     filled(include_str!("../web/live.html"), heading, include_str!("../web/live.css"), data, script)
 }
 
-/// A page with everything in its places.
+/// Returns a page with all its parts inserted.
 fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> String {
     let mut page = String::new();
-    // In this order: what is put in is not searched again.
+    // The parts are inserted in one pass, so inserted text is not searched again.
     for (number, part) in html.split("{{").enumerate() {
         let Some((name, rest)) = part.split_once("}}").filter(|_| number > 0) else {
             page += part;
@@ -38,12 +38,12 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> S
     page
 }
 
-/// JSON as it may stand in a script: without `<`, so that no text ends the script or begins another.
+/// Returns JSON that is safe in a script: without `<`, no text can end the script or start another.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
-/// A text as HTML.
+/// Returns a text as HTML.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for letter in text.chars() {

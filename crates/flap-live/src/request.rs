@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-/// Most rows of one answer.
+/// Largest number of rows in one answer.
 pub(crate) const MOST_ROWS: usize = 4000;
 
-/// The parameters that differ from the design that was opened, by name. Null takes the value of a parameter away, so that it
-/// follows others.
+/// The parameters that differ from the opened design, by name. Null removes a parameter's value, so that it follows others.
 pub(crate) type Design = BTreeMap<String, Option<Number>>;
 
 /// A number in SI units, or text: a quantity with a unit, or an option.
@@ -37,10 +36,10 @@ pub(crate) struct By {
     pub(crate) values: Vec<Number>,
 }
 
-/// The place of a request among those of its page: a newer one cancels it.
+/// The order of a request among the requests of its page: a newer request cancels it.
 #[derive(Debug, Deserialize)]
 pub(crate) struct RequestOrder {
-    /// The page that asks, by a text of its own.
+    /// A text that identifies the page.
     pub(crate) page: String,
     pub(crate) number: u64,
 }
@@ -86,7 +85,7 @@ pub(crate) struct SaveRequest {
     pub(crate) design: Design,
     pub(crate) x: Option<Along>,
     pub(crate) by: Option<By>,
-    /// The response up and down along x, not the rows of a sweep.
+    /// True for the response up and down along x, false for the rows of a sweep.
     #[serde(default)]
     pub(crate) updown: bool,
 }
@@ -103,18 +102,18 @@ pub(crate) enum SaveKind {
 /// The reason why a request has no answer.
 #[derive(Debug)]
 pub(crate) enum Refused {
-    /// The request is not as it must be.
+    /// The request has a wrong form.
     Malformed(String),
-    /// Values that are impossible, with advice and the parameter that they are about.
+    /// Values that are impossible, with advice and the parameter concerned.
     Impossible { error: String, help: Option<String>, parameter: Option<String> },
-    /// A newer request has come.
+    /// A newer request has arrived.
     Superseded,
-    /// A mistake in flap itself.
+    /// An internal error in flap.
     Fault(String),
 }
 
 impl Refused {
-    /// Values that are impossible, for this reason.
+    /// Returns the refusal of impossible values, with this reason.
     pub(crate) fn impossible(error: impl Into<String>) -> Refused {
         Refused::Impossible { error: error.into(), help: None, parameter: None }
     }

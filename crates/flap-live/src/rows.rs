@@ -8,7 +8,7 @@ use flap_sweep::table::layout::{Cell, Layout};
 use serde::Serialize;
 use serde_json::Value;
 
-/// The rows of a plan: numbers have all their digits, and an unknown value is null.
+/// The rows of a plan. Numbers have all their digits, and an unknown value is null.
 #[derive(Serialize)]
 pub(crate) struct Rows {
     columns: Vec<String>,
@@ -16,7 +16,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// No rows yet.
+    /// Returns a table for rows of `plan`, without rows.
     pub(crate) fn of(plan: &Plan) -> Rows {
         Rows { columns: Layout::of(plan).names(), rows: Vec::new() }
     }
@@ -29,7 +29,7 @@ impl Sink for Rows {
     }
 }
 
-/// A cell as JSON, which has no infinite numbers: they are text.
+/// Returns a cell as JSON. JSON has no infinite numbers, so they are text.
 pub(crate) fn value(cell: Cell<'_>) -> Value {
     match cell {
         Cell::Whole(number) => number.into(),

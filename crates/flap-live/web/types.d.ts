@@ -1,4 +1,4 @@
-// Types of the pages' data, for the type checker and editors alone: no page contains this file.
+// Types of the pages' data, only for the type checker and editors: no page contains this file.
 
 import type UPlot from "uplot";
 import type { Chart } from "./chart/chart.js";
@@ -14,7 +14,7 @@ export interface Axis {
 
 export type Range = [number, number];
 
-/** The part of the plane that a chart shows: null shows everything. */
+/** The part of the plane that a chart shows; null shows everything. */
 export interface ZoomView {
   x: Range | null;
   y: Range | null;
@@ -28,11 +28,11 @@ export interface Line {
   color: string;
   x: number[];
   y: (number | null | undefined)[];
-  /** What `Mark.row` is for each value. */
+  /** The value of `Mark.row` for each value. */
   rows?: ArrayLike<any>;
   dash?: number[];
   width?: number;
-  /** True for a line of an earlier design: pale, and without marks under the pointer. */
+  /** True for a line of an earlier design: it is pale, and the pointer does not mark it. */
   ghost?: boolean;
   /** True if each value has a mark. */
   marks?: boolean;
@@ -75,7 +75,7 @@ export interface CellSet {
   byPlace?: Map<number, number>;
 }
 
-/** The shades of a chart: from the colour of `low` to that of `high`. */
+/** The shades of a chart, from the colour of `low` to the colour of `high`. */
 export interface ColourBar {
   label: string;
   unit: string;
@@ -91,7 +91,7 @@ export interface StatusEntry {
   shape: string;
 }
 
-/** What a chart shows. */
+/** The contents of a chart. */
 export interface Scene {
   x: Axis;
   y: Axis;
@@ -100,7 +100,7 @@ export interface Scene {
   cells?: CellSet;
   /** The ranges of points or cells. */
   extent?: { x: Range; y: Range };
-  /** The quantity in which the lines differ. */
+  /** The quantity by which the lines differ. */
   title?: string;
   /** Colours of points and cells. */
   legend?: { name: string; color: string }[];
@@ -113,7 +113,7 @@ export interface Scene {
   marker?: { x: number; y: number } | null;
 }
 
-/** A place of a chart that the pointer or the keyboard has reached. */
+/** A place of a chart that the pointer or the keyboard has selected. */
 export interface Mark {
   /** The key of the line; "point", "cell" or "gap". */
   key: string;
@@ -162,7 +162,7 @@ export interface Tick {
   label: string;
 }
 
-/** The parameters of a design that differ from the design that was opened. Null takes a value away. */
+/** The parameters of a design that differ from the opened design. Null removes a value. */
 export type Design = Record<string, number | string | null>;
 
 export interface Parameter {
@@ -191,7 +191,7 @@ export interface Measure {
   doc: string;
 }
 
-/** The data of the live page, as the server writes them. */
+/** The data of the live page, written by the server. */
 export interface OpenedDesign {
   version: string;
   title: string;
@@ -224,7 +224,7 @@ export interface LiveState {
   measure: string;
   log: { x: boolean; y: boolean };
   view: ZoomView;
-  /** True if the responses up and down are shown in place of the family. */
+  /** True if the responses up and down are shown instead of the family. */
   updown: boolean;
   /** Groups of lines that the legend has switched off. */
   hidden: string[];
@@ -264,7 +264,7 @@ export interface ResponseLine extends Omit<Line, "color"> {
 /** A gap of a response, before it has a mark. */
 export interface ResponseGap extends Omit<Gap, "shape" | "color"> {}
 
-/** The numbers of a design, as the server gives them. */
+/** The numbers of a design, from the server. */
 export interface PointAnswer {
   columns: string[];
   row: any[];
@@ -303,7 +303,7 @@ export interface StoredColumn {
 
 export type Cells = Float64Array | Float32Array | Uint8Array | Uint16Array | Uint32Array;
 
-/** A column of a page of results: numbers by row, NaN for none; of words, their codes. */
+/** A column of a page of results: numbers by row, NaN for none; a column of words has their codes. */
 export interface Column extends Omit<StoredColumn, "words"> {
   words: string[] | null;
   readonly cells: Cells;

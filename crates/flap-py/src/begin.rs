@@ -1,4 +1,4 @@
-//! States at the start of a drive period, from Python.
+//! Initial states from Python: states at the start of a drive period.
 
 use flap_core::simulate::Simulator;
 use flap_sweep::notation::nearest;
@@ -10,10 +10,10 @@ use pyo3::types::PyDict;
 
 use crate::{convert, error};
 
-/// The state with these components, each a number in the unit of its name, or text with a unit. Those not given are zero.
+/// Returns the state with these components: numbers in the unit of the name, or text with a unit. Other components are zero.
 ///
-/// A component has the name of its state, with the unit (`pitch_rad`, a number in rad) or without (`pitch`, the same), or
-/// with `deg` in place of `rad`.
+/// The name of a component is the name of its state with the unit (`pitch_rad`, in rad), without it (`pitch`, also in rad), or
+/// with `deg` instead of `rad`.
 pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let Ok(begin) = begin.cast::<PyDict>() else {
         let found = begin.get_type().name()?;
@@ -41,7 +41,7 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     Ok(values)
 }
 
-/// The states in the rows of an array; `None` for a row with a component that is not known.
+/// Returns the states in the rows of an array; `None` for a row with an unknown component.
 pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
     let rows = begin.as_array();
     rows.rows()
@@ -50,14 +50,14 @@ pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
         .collect()
 }
 
-/// The place of a component among the states, and the factor from the unit of its name to that of the state.
+/// Returns the index of a component among the states, and the factor from the unit of its name to the unit of the state.
 fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     for (index, state) in states.iter().enumerate() {
         let (words, unit) = split_unit(state);
         if name == state || name == words {
             return Ok((index, 1.0));
         }
-        // In degrees, as signals of trajectories are: stroke_deg, stroke_rate_deg_s.
+        // Names in degrees, as in trajectories: stroke_deg, stroke_rate_deg_s.
         let in_degrees = state.replace("rad", "deg");
         if unit.contains("rad") && name == in_degrees {
             return Ok((index, 1.0_f64.to_radians()));
@@ -71,7 +71,7 @@ fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     Err(PyValueError::new_err(message))
 }
 
-/// The names of the states of a design's or a model's equations of motion, with their units at the end.
+/// Return the names of the states in the equations of motion of a design or a model, with their units at the end.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn states(design: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {

@@ -1,4 +1,4 @@
-//! The work of a cluster's workers, and their identity.
+//! The work of a cluster's workers, and the identity of a process.
 
 use flap_sweep::run::identity::build;
 use flap_sweep::run::{self, RunOptions};
@@ -10,7 +10,7 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as chunks.
+/// Run the points from `begin` to before `end`, and return their rows as bytes, which are chunks for `sweep`.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, threads=None))]
 pub(crate) fn part<'py>(
@@ -33,7 +33,7 @@ pub(crate) fn part<'py>(
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }
 
-/// The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`.
+/// Return the identity of this process, which determines the bits of its rows: `build` (a hash of the sources) and `arithmetic`.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);

@@ -1,4 +1,4 @@
-//! Results as columns: rows go in, NumPy arrays come out without a copy.
+//! Collects rows into columns, which become NumPy arrays without a copy.
 
 use std::io;
 
@@ -19,7 +19,7 @@ enum Data {
     Number(Vec<f64>),
     /// 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
-    /// Places among the words that occur.
+    /// For each row the index of its word, and the words.
     Text(Vec<u32>, Vec<String>),
 }
 
@@ -40,7 +40,7 @@ impl Data {
             (Data::Number(cells), Cell::Number(cell)) => cells.push(cell),
             (Data::Flag(cells), Cell::Flag(cell)) => cells.push(cell.map_or(-1, i8::from)),
             (Data::Text(places, words), Cell::Text(word)) => {
-                // Columns of text have few different words.
+                // A linear search suffices, because columns of text have few different words.
                 let place = words.iter().position(|known| known == word).unwrap_or_else(|| {
                     words.push(word.to_owned());
                     words.len() - 1
@@ -52,13 +52,13 @@ impl Data {
     }
 }
 
-/// A column of which only the name tells something.
+/// Returns a column of which only the name is known.
 pub(crate) fn named(name: &str, kind: CellKind) -> Column {
     Column { name: name.to_owned(), unit: layout::split_unit(name).1.into(), kind, doc: String::new() }
 }
 
 impl Columns {
-    /// An empty table.
+    /// Returns an empty table.
     pub(crate) fn new(columns: Vec<Column>) -> Columns {
         let columns = columns.into_iter().map(|column| {
             let data = Data::new(column.kind);
@@ -74,7 +74,7 @@ impl Columns {
         }
     }
 
-    /// Adds a row out of a file. Gives the column whose cell does not fit.
+    /// Adds a row of a file. If a cell is not of its column's kind, returns the name of the column as an error.
     pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
         for ((column, data), text) in self.columns.iter_mut().zip(cells) {
             data.push(Cell::parse(column.kind, text).ok_or(column.name.as_str())?);
@@ -82,8 +82,10 @@ impl Columns {
         Ok(())
     }
 
-    /// A list of dictionaries with the entries `name`, `unit`, `doc` (the meaning), `cells` (an array) and `words`: those that
-    /// the array points to for a column of text, else None. Arrays of flags hold 1, 0, and -1 for unknown.
+    /// Returns a list of dictionaries with the entries `name`, `unit`, `doc` (the meaning), `cells` (an array) and `words`.
+    ///
+    /// For a column of text, `cells` has indices of `words`; otherwise `words` is None. Arrays of flags have 1, 0, and -1 for
+    /// unknown.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
         let list = PyList::empty(py);
         for (Column { name, unit, doc, .. }, data) in self.columns {
@@ -115,7 +117,7 @@ impl Sink for Columns {
     }
 }
 
-/// The summary of a finished sweep, as a dictionary.
+/// Returns the summary of a finished sweep as a dictionary.
 pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyDict>> {
     let counts = summary.statuses.iter().filter(|(_, count)| *count > 0);
     let counts = counts.map(|(status, count)| (status.name(), count));
@@ -132,7 +134,7 @@ pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound
     Ok(dict)
 }
 
-/// The conditions of a plan, each with the number of points that do not satisfy it, as a dictionary.
+/// Returns a dictionary of the conditions of a plan, each with the number of points that do not satisfy it.
 pub(crate) fn unsatisfied<'py>(py: Python<'py>, unsatisfied: &[Unsatisfied]) -> PyResult<Bound<'py, PyDict>> {
     unsatisfied.iter().map(|known| (&known.condition, known.points)).into_py_dict(py)
 }

@@ -6,10 +6,10 @@ use std::panic;
 use flap_core::simulate;
 use pyo3::prelude::*;
 
-/// The exit code of a panic, as of any Rust program.
+/// The exit code of a panic in Rust programs.
 const PANICKED: u8 = 101;
 
-/// Runs a command line, whose first word is the name of the program, and returns the exit code.
+/// Run a command line and return the exit code. The first word is the name of the program.
 #[pyfunction]
 pub(crate) fn command(py: Python<'_>, line: Vec<OsString>) -> u8 {
     py.detach(|| {

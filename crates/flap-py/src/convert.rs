@@ -1,4 +1,4 @@
-//! Numbers out of Python objects, and the errors for objects that are no numbers.
+//! Converts Python objects to numbers, with errors for objects that are not numbers.
 
 use flap_sweep::notation::text::shortened;
 use flap_sweep::notation::units;
@@ -7,9 +7,9 @@ use pyo3::exceptions::{PyException, PyIndexError, PyOverflowError, PyTypeError, 
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
 
-/// A finite number, of any type that Python's `float` takes except text and truth values.
+/// Returns a finite number from any type that Python's `float` accepts, except text and truth values.
 ///
-/// `TypeError` if `value` is of another type, or if its own code fails: the message says that `name` must be `wanted`.
+/// `TypeError` if `value` has another type, or raises an exception while it is read: the message requires `wanted` for `name`.
 /// `ValueError` if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
@@ -28,12 +28,12 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
         Ok(number)
     } else {
         let told = number.to_string().to_lowercase();
-        Err(PyValueError::new_err(format!("`{name}` cannot be {told}: values are finite")))
+        Err(PyValueError::new_err(format!("`{name}` cannot be {told}: values must be finite")))
     }
 }
 
-/// The size of an impulse (rad): a number in rad, or text with a unit. Errors as [`quantity`]; `ValueError` for more than half a
-/// turn.
+/// Returns the size of an impulse (rad) from a number in rad or text with a unit. Errors are as for [`quantity`], and
+/// `ValueError` for more than half a turn.
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude).map_err(|error| {
@@ -41,9 +41,10 @@ pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     })
 }
 
-/// A number in `unit`, or text with a unit, in `unit`. Text is refused if `takes_text` is false: the name has another unit.
+/// Returns a number in `unit` from a number or text with a unit. If `takes_text` is false, text is an error, because the name
+/// has another unit.
 ///
-/// `TypeError` or `ValueError` as [`number`]; `ValueError` for a text that is no such quantity.
+/// `TypeError` or `ValueError` as for [`number`]; `ValueError` for text that is not such a quantity.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match value.cast::<PyString>() {
         Ok(text) if takes_text => units::parse_as(&text.to_cow()?, unit).map_err(|error| {
@@ -55,7 +56,7 @@ pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'
     }
 }
 
-/// A whole number from 1 to the largest `u32`. `TypeError` for another type, `ValueError` for another number.
+/// Returns a whole number from 1 to the largest `u32`. `TypeError` for another type, `ValueError` for another number.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
     if value.is_instance_of::<PyBool>() {
@@ -66,7 +67,7 @@ pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
         Err(error) if error.is_instance_of::<PyTypeError>(value.py()) => {
             return Err(wrong_type(name, wanted, value));
         }
-        // Negative, or too large.
+        // The number is negative or too large.
         Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => 0,
         Err(error) => return Err(failed(name, wanted, value, error)),
     };
@@ -77,18 +78,18 @@ pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     Ok(count)
 }
 
-/// The `TypeError` for a value that is not of the type wanted.
+/// Returns the `TypeError` for a value of the wrong type.
 pub(crate) fn wrong_type(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyErr {
     PyTypeError::new_err(format!("`{name}` must be {wanted}, not {}", type_name(value)))
 }
 
-/// The `ValueError` for a whole number beyond the largest float.
+/// Returns the `ValueError` for a whole number beyond the largest float.
 pub(crate) fn too_large(name: &str) -> PyErr {
     PyValueError::new_err(format!("`{name}` is too large for a 64-bit float\nthe largest is {:e}", f64::MAX))
 }
 
-/// The `TypeError` for an object that raised `error` while it was read, which is its cause. What is no error of the object, such
-/// as `KeyboardInterrupt`, stays as it is.
+/// Returns the `TypeError` for an object that raised `error` while it was read; `error` is its cause. Exceptions that are not
+/// errors, such as `KeyboardInterrupt`, are returned unchanged.
 pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: PyErr) -> PyErr {
     let py = value.py();
     if !error.is_instance_of::<PyException>(py) {
@@ -102,12 +103,12 @@ pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: 
     refused
 }
 
-/// The name of an object's type.
+/// Returns the name of an object's type.
 pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "an object".to_owned(), |name| name.to_string())
 }
 
-/// The index from 0 of one of `length` points, given by its index from 0 or, if that is negative, from the end.
+/// Returns the index of one of `length` points; a negative index counts from the end.
 pub(crate) fn point_index(length: u64, name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
     let missing =
         |wanted: &str| PyIndexError::new_err(format!("there is no point {wanted}: the grid has {length}"));

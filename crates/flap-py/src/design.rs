@@ -1,4 +1,4 @@
-//! Designs with keywords on top: the first arguments of calls.
+//! Designs and keywords, the arguments of most calls.
 
 use flap_core::simulate;
 
@@ -11,13 +11,13 @@ use pyo3::types::PyDict;
 use crate::solver::{Keyword, Keywords};
 use crate::{grid, parameters};
 
-/// The plan of anything that names a design, see [`grid::plan`], with keywords on top.
+/// Returns the plan of a design (see [`grid::plan`]) with the values of keywords.
 pub(crate) fn plan(design: &Bound<'_, PyAny>, keywords: Option<&Bound<'_, PyDict>>) -> PyResult<Plan> {
     let (solver, keywords) = Keywords::take(keywords)?;
     Ok(set(with_solver(grid::plan(design)?, &solver)?, &keywords)?.0)
 }
 
-/// As [`plan`], or the plan of a model all of whose parameters the keywords give.
+/// Returns the plan as [`plan`] does, or the plan of a model if the keywords give all of its parameters.
 pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
     match plan_of_model(design, Some(keywords))? {
         Some((plan, set)) => alone(plan, &set),
@@ -25,20 +25,20 @@ pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> 
     }
 }
 
-/// The plan of a model without its preset, where these parameters are set.
+/// Returns the plan of a model without its preset, in which these parameters are set.
 pub(crate) fn alone(plan: Plan, set: &[usize]) -> PyResult<Plan> {
     let model = plan.simulator().name();
     plan.without_preset(set).map_err(|error| match error {
         ChangeError::Missing(names) => PyValueError::new_err(format!(
-            "model `{model}` has no values of its own: give {} too, or start from a preset",
+            "model `{model}` has no default values: also give {}, or start from a preset",
             names.join(", ")
         )),
         other => refused("a column", &other),
     })
 }
 
-/// The plan of a model by its name, with keywords on top, and the parameters that these set; `None` if there is no such
-/// model. Other parameters have the values of a preset.
+/// Returns the plan of a model by name with the values of keywords, and the parameters that the keywords set; `None` if there
+/// is no such model. Other parameters have the values of a preset.
 pub(crate) fn plan_of_model(
     design: &Bound<'_, PyAny>,
     keywords: Option<&Bound<'_, PyDict>>,
@@ -52,24 +52,24 @@ pub(crate) fn plan_of_model(
     set(with_solver(plan, &solver)?, &keywords).map(Some)
 }
 
-/// Refuses a vehicle, where a call takes one wing.
+/// Returns an error if the plan is a vehicle, for calls that simulate one wing.
 pub(crate) fn check_one_wing(plan: &Plan) -> PyResult<()> {
     let Some(vehicle) = plan.vehicle() else { return Ok(()) };
     let wings = text::count(vehicle.mounts().len() as u64, "wing");
     Err(PyValueError::new_err(format!(
-        "the design is a vehicle of {wings}, and this takes one wing\nname the design of the wing: a preset, a device or a grid \
-         without `vehicle`"
+        "the design is a vehicle of {wings}, but this call requires one wing\ngive the design of the wing: a preset, a device \
+         or a grid without `vehicle`"
     )))
 }
 
-/// The plan with the solver settings of keywords over its own.
+/// Returns the plan with the solver settings of keywords, which override the plan's settings.
 fn with_solver(plan: Plan, keywords: &Keywords<'_>) -> PyResult<Plan> {
     let mut settings = *plan.solver();
     keywords.apply(&mut settings)?;
     plan.with_solver(settings).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// The plan with parameters of all points set to the values of keywords, and the indices of these parameters.
+/// Returns the plan with parameters of all points set to the values of keywords, and the indices of these parameters.
 fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)> {
     let mut indices = Vec::new();
     for (name, value) in keywords {
@@ -81,16 +81,14 @@ fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)>
     Ok((plan, indices))
 }
 
-/// The exception for a change that a plan does not take, of a parameter that is `given` so, such as "set here".
+/// Returns the exception for a change that a plan rejects. `given` describes the parameter in the message: "set here".
 pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
     PyValueError::new_err(match error {
         ChangeError::Varied(name) | ChangeError::Derived(name) => {
-            format!("`{name}` is {given}, and the grid varies or derives it: keep one of them")
+            format!("`{name}` is {given}, but the grid varies or derives it: keep one of them")
         }
         ChangeError::Resonance(name) => {
-            format!(
-                "`{name}` is {given}, and the grid runs each design at its own resonance: keep one of them"
-            )
+            format!("`{name}` is {given}, but the grid runs each design at its resonance: keep one of them")
         }
         other => other.to_string(),
     })

@@ -12,13 +12,13 @@ use pyo3::prelude::*;
 /// file : str
 ///     The grid file, or ``"<grid>"``.
 /// line, column : int
-///     The place of the mistake, from 1; columns count characters.
+///     The place of the mistake, counted from 1; columns are in characters.
 /// start, end : int
-///     The same place in bytes of the text in UTF-8: first, and behind the last.
+///     The same place as byte offsets in the UTF-8 text: the first byte, and the byte after the last.
 /// message : str
-///     The mistake.
+///     The message.
 /// notes, help : list of str
-///     The allowed values, and ways to mend the mistake.
+///     The allowed values, and ways to correct the mistake.
 #[pyclass(frozen, get_all, new = "from_fields", module = "flapwing")]
 pub(crate) struct Diagnostic {
     file: String,
@@ -33,7 +33,7 @@ pub(crate) struct Diagnostic {
 
 #[pymethods]
 impl Diagnostic {
-    /// The arguments from which `pickle` makes it again: errors travel between the processes of a cluster.
+    /// Returns the arguments from which `pickle` restores the object: a cluster sends errors between processes.
     fn __getnewargs__(&self) -> (&str, usize, usize, usize, usize, &str, Vec<String>, Vec<String>) {
         let Diagnostic { file, line, column, start, end, message, notes, help } = self;
         (file, *line, *column, *start, *end, message, notes.clone(), help.clone())

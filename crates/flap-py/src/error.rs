@@ -1,4 +1,4 @@
-//! Errors as Python exceptions.
+//! Converts errors to Python exceptions.
 
 use std::io;
 
@@ -25,10 +25,10 @@ create_exception!(
     flapwing,
     GridError,
     PyValueError,
-    "A grid with mistakes.\n\nThe text shows every mistake with its lines; `diagnostics` lists them."
+    "A grid with mistakes.\n\nThe text shows every mistake with its lines, and `diagnostics` lists the mistakes."
 );
 
-/// `GridError` for mistakes in a grid, with its list of diagnostics.
+/// Returns a `GridError` for mistakes in a grid, with its list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     let error = GridError::new_err(diagnostic::render(mistakes, false));
     let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
@@ -38,7 +38,7 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     }
 }
 
-/// `GridError` for a dictionary that cannot be written as a grid file. It has no lines, so no diagnostics.
+/// Returns a `GridError` for a dictionary that cannot be written as a grid file. It has no lines, so it has no diagnostics.
 pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
     let error = GridError::new_err(message.to_owned());
     match error.value(py).setattr("diagnostics", Vec::<Diagnostic>::new()) {
@@ -47,7 +47,7 @@ pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
     }
 }
 
-/// The exception for a grid file without a plan.
+/// Returns the exception for a grid file without a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
         ReadError::Grid(mistakes) => grid(py, mistakes),
@@ -63,18 +63,18 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     }
 }
 
-/// `ValueError` for an experiment without results.
+/// Returns a `ValueError` for an experiment without results.
 pub(crate) fn experiment(error: &ExperimentError) -> PyErr {
     let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
     PyValueError::new_err(format!("{error}{help}"))
 }
 
-/// `ValueError` for a motion that could not be followed to its end.
+/// Returns a `ValueError` for a motion that could not be computed to its end.
 pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
     PyValueError::new_err(unfinished.to_string())
 }
 
-/// The exception for a run of points that ended early.
+/// Returns the exception for a run of points that ended early.
 pub(crate) fn run(error: &RunError) -> PyErr {
     match error {
         RunError::Sink(_) => PyOSError::new_err(error.to_string()),
@@ -82,12 +82,12 @@ pub(crate) fn run(error: &RunError) -> PyErr {
             PyRuntimeError::new_err(error.to_string())
         }
         RunError::Model(_) | RunError::Panic(_) => {
-            PyRuntimeError::new_err(format!("{error}; this is a mistake in flap: please report it"))
+            PyRuntimeError::new_err(format!("{error}; this is an error in flap: please report it"))
         }
     }
 }
 
-/// The exception for results that were not written, or not completed.
+/// Returns the exception for results that were not written or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
         if resumable { noted(py, error, "the same call continues the run") } else { error }
@@ -98,7 +98,7 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Create(error) => create(error),
         JobError::Exists { changed, .. } => {
             let changed = changed.as_ref().map_or_else(String::new, |changed| format!("; {changed}"));
-            let remedy = "name another file, or replace it with restart=True";
+            let remedy = "choose another file, or replace it with restart=True";
             PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
         }
         JobError::Resume { error, changed, .. } => resume(error, changed.as_deref()),
@@ -106,25 +106,25 @@ pub(crate) fn job(error: &JobError) -> PyErr {
             io_error(&format!("cannot read {}", path.display()), source)
         }
         JobError::Open(_) => {
-            PyValueError::new_err(format!("{error}: restart=True starts over, or name another file"))
+            PyValueError::new_err(format!("{error}: start over with restart=True, or choose another file"))
         }
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
 }
 
-/// The exception with a note.
+/// Returns the exception with a note.
 fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
     error.add_note(py, note).err().unwrap_or(error)
 }
 
 fn create(error: &CreateError) -> PyErr {
     match error {
-        CreateError::Exists { .. } => {
-            PyFileExistsError::new_err(format!("{error}: restart=True replaces it, or name another file"))
-        }
+        CreateError::Exists { .. } => PyFileExistsError::new_err(format!(
+            "{error}: replace it with restart=True, or choose another file"
+        )),
         CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
-            "{error}: the same call continues it, restart=True replaces it"
+            "{error}: the same call continues it; restart=True replaces it"
         )),
         CreateError::InTheWay { .. } => PyFileExistsError::new_err(format!(
             "{error}: rename or remove that file, or choose another name for the results"
@@ -140,12 +140,12 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
         ResumeError::Create(error) => create(error),
         ResumeError::Format(_) => PyValueError::new_err(message),
         ResumeError::NoJournal { .. } | ResumeError::Changed { .. } | ResumeError::Altered { .. } => {
-            PyValueError::new_err(format!("{message}: restart=True starts over, or name another file"))
+            PyValueError::new_err(format!("{message}: start over with restart=True, or choose another file"))
         }
     }
 }
 
-/// The exception for results that are not read.
+/// Returns the exception for results that cannot be read.
 pub(crate) fn open(error: &OpenError) -> PyErr {
     match error {
         OpenError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
@@ -159,7 +159,7 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
     }
 }
 
-/// The exception that Python itself raises for an error of the operating system.
+/// Returns the exception that Python raises for this error of the operating system.
 pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
     let message = format!("{what}: {error}");
     match error.kind() {

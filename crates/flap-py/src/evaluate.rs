@@ -1,4 +1,4 @@
-//! A batch of points, given as columns of parameters.
+//! Runs a batch of points, given as columns of parameters.
 
 use flap_core::parameter::Kind;
 use flap_sweep::notation::text;
@@ -11,9 +11,10 @@ use pyo3::types::PyDict;
 
 use crate::{begin, design, parameters, sweep};
 
-/// Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-/// for each parameter that varies, all as long. `initial_state` has a row of state
-/// components per point, nan for a point at rest.
+/// Run a batch of points; see `flapwing.evaluate`.
+///
+/// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
+/// `initial_state` has one row of state components per point, nan for a point at rest.
 #[pyfunction]
 #[pyo3(signature = (
     design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, initial_state=None,
@@ -71,7 +72,7 @@ pub(crate) fn evaluate<'py>(
     sweep::into_columns(py, &plan, &options, progress, None)
 }
 
-/// Checks that a design takes these keywords and has these measures, with the messages of `evaluate`.
+/// Check that a design accepts these keywords and has these measures, with the messages of `evaluate`.
 #[pyfunction]
 #[pyo3(signature = (design, /, *, keywords, measures=None))]
 pub(crate) fn check(
@@ -83,7 +84,7 @@ pub(crate) fn check(
     measures.map_or(Ok(()), |measures| with_columns(plan, &measures).map(drop))
 }
 
-/// A parameter has one place: a keyword would be lost behind a column.
+/// Returns an error if a parameter is both a column and a keyword, because the column would replace the keyword.
 fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> PyResult<()> {
     for name in keywords.keys() {
         if columns.contains(&name)? {
@@ -94,7 +95,7 @@ fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> Py
     Ok(())
 }
 
-/// The values of a column.
+/// Returns the parameter and the values of a column.
 fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, Vec<f64>)> {
     let index = parameters::index(plan.simulator(), name)?;
     let parameter = &plan.parameters()[index];
@@ -107,12 +108,12 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
     Ok((index, values.collect::<PyResult<_>>()?))
 }
 
-/// The plan whose rows have these measures alone.
+/// Returns the plan whose rows have only these measures.
 fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let known: Vec<String> = plan.measured().map(str::to_owned).collect();
     plan.with_columns(names).map_err(|error| match error {
         ChangeError::NoColumn(name) if known.contains(&name) => {
-            PyValueError::new_err(format!("`measures` names {name} twice\nkeep one of them"))
+            PyValueError::new_err(format!("`measures` has {name} twice\nkeep one of them"))
         }
         ChangeError::NoColumn(name) => {
             let names: Vec<&str> = known.iter().map(String::as_str).collect();
@@ -124,41 +125,42 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// The plan whose rows have derivatives by these parameters.
+/// Returns the plan whose rows have derivatives by these parameters.
 fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let mut by = Vec::with_capacity(names.len());
     for name in names {
         let index = parameters::index(plan.simulator(), name)?;
         if by.contains(&index) {
-            return Err(PyValueError::new_err(format!("`gradient` names {name} twice\nkeep one of them")));
+            return Err(PyValueError::new_err(format!("`gradient` has {name} twice\nkeep one of them")));
         }
         by.push(index);
     }
     plan.with_slopes(by).map_err(|error| match &error {
         ChangeError::NoShares(_, reason) => {
             let help = match reason {
-                NoShares::Unset(_) => "\ngive it a value, as a column or as a keyword".to_owned(),
+                NoShares::Unset(_) => "\nset it, as a column or as a keyword".to_owned(),
                 other if other.help().is_empty() => String::new(),
                 other => format!("\n{}", other.help()),
             };
             PyValueError::new_err(format!("{error}{help}"))
         }
-        ChangeError::NoSlope(_) => PyValueError::new_err(format!("{error}\nleave it out of `measures`")),
+        ChangeError::NoSlope(_) => PyValueError::new_err(format!("{error}\nremove it from `measures`")),
         _ => refused(&error),
     })
 }
 
-/// The exception for columns that a plan does not take.
+/// Returns the exception for columns that a plan rejects.
 fn refused(error: &ChangeError) -> PyErr {
     match error {
         ChangeError::TooManyPoints(_) => PyValueError::new_err("too many points"),
         ChangeError::AtResonance => PyValueError::new_err(
-            "the grid runs each design at its own resonance, where rows have no derivatives and begin nowhere else\n\
-             give drive_frequency a number, or follow it",
+            "the grid runs each design at its resonance, which excludes derivatives and initial states\n\
+             set drive_frequency to a number, or follow it",
         ),
         ChangeError::States(states, points) => {
-            let message =
-                format!("`initial_state` has {states} rows for {points} points\nit must have one for each");
+            let message = format!(
+                "`initial_state` has {states} rows for {points} points\nit must have one row per point"
+            );
             PyValueError::new_err(message)
         }
         other => design::refused("a column", other),

@@ -13,7 +13,7 @@ use crate::point::Chosen;
 use crate::watch::interruptible;
 use crate::{convert, error, motion, records};
 
-/// Runs a chirp; see `flapwing.chirp`.
+/// Simulate a chirp; see `flapwing.chirp`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point, start, stop, rate, samples))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
@@ -63,10 +63,10 @@ pub(crate) fn chirp<'py>(
     motion::into_python(py, response.envelope, meaning, &meta)
 }
 
-/// Periods of the first mode that are sampled after an impulse, if the call names no duration.
+/// Default duration after an impulse, in periods of the first mode.
 const CYCLES: f64 = 10.0;
 
-/// Follows the motion after an impulse; see `flapwing.impulse`.
+/// Simulate the motion after an impulse; see `flapwing.impulse`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point, amplitude, duration, samples))]
 pub(crate) fn impulse<'py>(
@@ -103,7 +103,7 @@ pub(crate) fn impulse<'py>(
     motion::into_python(py, free, meanings, &meta)
 }
 
-/// Forces along a given motion; see `flapwing.forces_along`.
+/// Compute the forces along a given motion; see `flapwing.forces_along`.
 #[pyfunction]
 #[pyo3(signature = (design, motion, keywords, /, *, point, periodic, samples))]
 pub(crate) fn forces_along<'py>(

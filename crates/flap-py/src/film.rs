@@ -1,4 +1,4 @@
-//! Filmed wings: stroke and pitch from points in images.
+//! Filmed wings: computes stroke and pitch from points in images.
 
 use flap_core::simulate::Trajectory;
 use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::{convert, motion, records};
 
-/// Computes stroke and pitch; see `flapwing.track_wing`.
+/// Compute stroke and pitch; see `flapwing.track_wing`.
 #[pyfunction]
 #[pyo3(signature = (points, /, *, chord=None))]
 pub(crate) fn track_wing<'py>(

@@ -1,4 +1,4 @@
-//! Grids: design spaces that have passed every check.
+//! Grids: checked design spaces.
 
 use std::path::{Path, PathBuf};
 
@@ -15,12 +15,12 @@ use pyo3::types::{PyDict, PyList, PySlice, PyString};
 
 use crate::{columns, convert, error, grid_text, parameters};
 
-/// The largest number of points of which `Grid.exclusions` evaluates the conditions.
+/// Largest number of points for which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
 
 /// A design space: a checked grid file.
 ///
-/// A grid is a sequence of design points, computed when asked for::
+/// A grid is a sequence of design points, which are computed on access::
 ///
 ///     grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
 ///     len(grid)                       # 3
@@ -29,20 +29,20 @@ const LOOKED_AT: u64 = 1_000_000;
 /// Parameters
 /// ----------
 /// source : str, path, dict or Grid
-///     A preset by its name; a grid file by its path; the text of one (a str with a line break or ``=``); or its entries
-///     as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges, or columns of Arrow; a DataFrame
-///     stands for the dictionary of its columns.
+///     The name of a preset, the path of a grid file, the text of a grid file (a str with a line break or ``=``), or its
+///     entries as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges or Arrow columns. A DataFrame
+///     has the same meaning as the dictionary of its columns.
 ///
 /// Raises
 /// ------
 /// GridError
-///     Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+///     All mistakes in the grid, each with its line, the allowed values and the nearest name.
 /// ValueError
 ///     There is no such preset.
 /// OSError
-///     The file is not there or cannot be read.
+///     The file does not exist or cannot be read.
 /// TypeError
-///     `source`, or something in it, is of another type.
+///     `source`, or a value in it, has another type.
 #[pyclass(frozen, module = "flapwing")]
 pub(crate) struct Grid {
     pub(crate) plan: Plan,
@@ -60,7 +60,7 @@ impl Grid {
         usize::try_from(self.plan.len()).map_err(|_| PyIndexError::new_err("too many points for len()"))
     }
 
-    /// Point number `index`: its parameters by name, in SI units; options by name. A slice gives a list of points.
+    /// Returns point number `index`: a dictionary of parameters in SI units or options. A slice returns a list of points.
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(slice) = index.cast::<PySlice>() {
             let length = isize::try_from(self.__len__()?).unwrap_or(isize::MAX);
@@ -88,20 +88,20 @@ impl Grid {
         format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset())
     }
 
-    /// The grid of a text that was read from the file `name`.
+    /// Return the grid of a text that was read from the file `name`.
     #[staticmethod]
     #[pyo3(signature = (name, text, /))]
     fn _named(py: Python<'_>, name: &str, text: &str) -> PyResult<Grid> {
         Ok(Grid { plan: parse(py, name, text)? })
     }
 
-    /// The function and the arguments from which `pickle` makes the grid again.
+    /// Returns the function and the arguments from which `pickle` restores the grid.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String))> {
         let source = slf.get().plan.source();
         Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
     }
 
-    /// The path of the grid file, or ``"<grid>"``. Files that the grid names are in its folder.
+    /// The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to its folder.
     #[getter]
     fn name(&self) -> &str {
         &self.plan.source().name
@@ -113,7 +113,7 @@ impl Grid {
         &self.plan.source().text
     }
 
-    /// The name of the preset that parameters start from.
+    /// The name of the preset, which gives the values of all other parameters.
     #[getter]
     fn preset(&self) -> &'static str {
         self.plan.preset()
@@ -125,22 +125,22 @@ impl Grid {
         self.plan.simulator().name()
     }
 
-    /// The axes, the last of which varies fastest: one dictionary each, of the parameters that move together along it
-    /// with their values in SI units. An axis of a sample begins with the entry `sample`, numbers from 0.
+    /// The axes; the last varies fastest. Each dictionary has the parameters that vary together along the axis, with their
+    /// values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
     #[getter]
     pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         axes(py, &self.plan)
     }
 
-    /// The parameters that differ from point to point: those of the axes, then the derived ones.
+    /// The parameters that differ between points: parameters of the axes, then derived parameters.
     #[getter]
     fn varied(&self) -> Vec<&str> {
         let varied = self.plan.differing();
         varied.map(|index| self.plan.parameters()[index].name).collect()
     }
 
-    /// Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
-    /// among a million spread over the grid.
+    /// Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, a million
+    /// points spread over the grid are checked.
     ///
     /// Returns
     /// -------
@@ -184,7 +184,7 @@ impl Grid {
         for (parameter, value) in self.plan.parameters().iter().zip(values) {
             match text::option(parameter, value) {
                 Some(option) => dict.set_item(parameter.name, option)?,
-                // A parameter that follows others, or is the resonance, has no value of its own.
+                // A parameter that follows others, or is the resonance, has no value here.
                 None if value.is_nan() => {}
                 None => dict.set_item(parameter.name, value)?,
             }
@@ -193,7 +193,7 @@ impl Grid {
     }
 }
 
-/// The plan of a preset's name, a path, a text, a dictionary or a grid.
+/// Returns the plan of a preset by name, a path, a text, a dictionary or a grid.
 pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = source.py();
     if let Ok(grid) = source.cast::<Grid>() {
@@ -220,26 +220,26 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
         }
         let found = convert::type_name(source);
         PyTypeError::new_err(format!(
-            "a design is not {found}\nit is the name of a preset, a path, the text of a grid file, a dictionary or a Grid"
+            "a design cannot be {found}\nit must be the name of a preset, a path, the text of a grid file, a dictionary or a Grid"
         ))
     })?;
     let plan = grid::read(&path, simulate::all()).map_err(|error| error::grid_file(py, &error))?;
     with_warnings(py, plan)
 }
 
-/// The plan, with a warning for each former name that its grid uses.
+/// Returns the plan, and warns about each former name in its grid.
 fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
     plan.renamed().iter().try_for_each(|parameter| parameters::warn_renamed(py, parameter))?;
     plan.unreached().iter().try_for_each(|parameter| parameters::warn_unreached(py, parameter))?;
     Ok(plan)
 }
 
-/// The plan of a preset's one point.
+/// Returns the plan of a preset, which has one point.
 pub(crate) fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
     parse(py, preset, &format!("preset = \"{preset}\"\n"))
 }
 
-/// The name of a preset or a model; `None` if `design` is a path, the text of a grid, or no text.
+/// Returns the name of a preset or a model; `None` if `design` is a path, the text of a grid, or not text.
 pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     let Ok(text) = design.cast::<PyString>() else { return Ok(None) };
     let text = text.to_cow()?;
@@ -253,7 +253,7 @@ fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
     with_warnings(py, plan)
 }
 
-/// The axes of a plan, see [`Grid::axes`].
+/// Returns the axes of a plan, see [`Grid::axes`].
 pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyList>> {
     let list = PyList::empty(py);
     for axis in plan.axes().as_slice() {

@@ -1,7 +1,7 @@
-//! A dictionary as the text of a grid file, so that messages can show the lines of its mistakes.
+//! Converts a dictionary to the text of a grid file, so that messages can show the lines of mistakes.
 //!
-//! Tables keep the order of the dictionary: the last axis varies fastest. Objects of the user's are read here, whose own code may
-//! fail: [`convert::failed`] makes errors of that.
+//! Tables keep the order of the dictionary, because the last axis varies fastest. The user's objects may raise exceptions while
+//! they are read: [`convert::failed`] converts these to errors.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -10,26 +10,26 @@ use toml::Value;
 
 use crate::{convert, error};
 
-/// The most levels of dictionaries and lists within each other. A grid file has about six.
+/// Largest number of nested levels of dictionaries and lists. A grid file has about six.
 const MOST_LEVELS: usize = 64;
 
 /// The types that an entry of a grid can have, for messages.
 const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
-/// The text of a grid file with these entries.
+/// Return the text of a grid file with these entries.
 #[pyfunction]
 #[pyo3(signature = (entries, /))]
 pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
     write(entries)
 }
 
-/// The text of a grid file with the entries of `grid`. `TypeError` for a key or a value that no grid file has.
+/// Returns the text of a grid file with the entries of `grid`. `TypeError` for a key or a value that a grid file cannot have.
 pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     let (mut head, mut tables) = (Vec::new(), Vec::new());
     for (key, value) in grid {
         let name = name(&key)?;
         if let Some(table) = dictionary(&value)? {
-            // A table of columns that change together.
+            // [zip] is a table of columns that vary together.
             let brackets = if name == "zip" { ["[[", "]]"] } else { ["[", "]"] };
             let [open, close] = brackets;
             let (plain, blocks) = split(&table)?;
@@ -53,7 +53,7 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
 /// Tables of a list, each with the key of the list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
-/// A table's entries without its lists of dictionaries, such as the wings of a vehicle, and these.
+/// Splits a table into its entries without lists of dictionaries, and these lists, such as the wings of a vehicle.
 fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Blocks<'py>)> {
     let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
     for (key, value) in table {
@@ -68,14 +68,14 @@ fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Block
     Ok((plain, blocks))
 }
 
-/// The dictionaries of a list, if it is a list of nothing else.
+/// Returns the dictionaries of a list, if it has only dictionaries.
 fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyDict>>>> {
     let Ok(list) = value.cast::<PyList>() else { return Ok(None) };
     let items = list.iter().map(|item| dictionary(&item)).collect::<PyResult<Option<Vec<_>>>>()?;
     Ok(items.filter(|items| !items.is_empty()))
 }
 
-/// A dictionary, a mapping, or a table of columns (a DataFrame, an Arrow table, a `Table`), as a dictionary.
+/// Returns a dictionary, a mapping, or a table of columns (a DataFrame, an Arrow table, a `Table`) as a dictionary.
 pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     if let Ok(dict) = value.cast::<PyDict>() {
         return Ok(Some(dict.clone()));
@@ -93,7 +93,7 @@ pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Boun
     columns(value).map_err(failed)
 }
 
-/// The entries of a mapping or the columns of a table; `None` for anything else.
+/// Returns the entries of a mapping or the columns of a table; `None` for other objects.
 fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     let dict = PyDict::new(value.py());
     if let Ok(mapping) = value.cast::<PyMapping>() {
@@ -112,7 +112,7 @@ fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>
     Ok(None)
 }
 
-/// The list of a range, an array, a Series or a column of Arrow; `None` for anything else.
+/// Returns the list of a range, an array, a Series or an Arrow column; `None` for other objects.
 fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
     if value.is_instance_of::<PyRange>() {
         return Ok(Some(
@@ -138,7 +138,10 @@ fn lines(table: &Bound<'_, PyDict>, place: &str) -> PyResult<String> {
 
 fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
     let Ok(key) = key.cast::<PyString>() else {
-        return Err(PyTypeError::new_err(format!("keys of a grid are text, not {}", key.get_type().name()?)));
+        return Err(PyTypeError::new_err(format!(
+            "keys of a grid must be text, not {}",
+            key.get_type().name()?
+        )));
     };
     let key = key.to_cow()?;
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
@@ -148,7 +151,7 @@ fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(Value::String(key.into_owned()).to_string())
 }
 
-/// A value on one line, within so many levels of dictionaries and lists.
+/// Returns a value on one line; `level` is the number of levels of dictionaries and lists around it.
 fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyResult<String> {
     if level > MOST_LEVELS {
         return Err(error::no_grid(value.py(), &too_deep(place)));
@@ -179,7 +182,7 @@ fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Value::String(text.to_cow()?.into_owned()));
     }
-    // A whole number first: 3 stays 3.
+    // Whole numbers are tried first, so that 3 stays 3.
     if let Ok(whole) = value.extract::<i64>() {
         return Ok(Value::Integer(whole));
     }
@@ -196,7 +199,7 @@ fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     })
 }
 
-/// The message about a dictionary or list at `place`.
+/// Returns the message for a dictionary or list at `place` with too many levels.
 fn too_deep(place: &str) -> String {
     let first: Vec<&str> = place.split('.').take(4).collect();
     let dots = if first.len() < 4 { "" } else { "…" };

@@ -1,4 +1,4 @@
-//! Labels of columns, for pictures.
+//! Labels of columns for pictures.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use flap_sweep::table::labels::{self, Direction, Label, Scale};
 use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
-/// A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean".
+/// Return a column's name in words, without its unit: `lift_mean_mn` gives "Lift, mean".
 #[pyfunction]
 #[pyo3(signature = (name, unit, /))]
 pub(crate) fn words(name: &str, unit: &str) -> String {
@@ -15,14 +15,14 @@ pub(crate) fn words(name: &str, unit: &str) -> String {
     words
 }
 
-/// A unit as it is printed: `uN*m/rad` is "µN·m/rad", `mm^2` is "mm²", `deg` is "°".
+/// Return a unit for printing: `uN*m/rad` gives "µN·m/rad", `mm^2` gives "mm²", `deg` gives "°".
 #[pyfunction]
 #[pyo3(signature = (unit, /))]
 pub(crate) fn printed(unit: &str) -> String {
     labels::printed(unit)
 }
 
-/// The factor to a readable unit, and that unit as it is printed, for values in `unit` of which `largest` is the largest.
+/// Return the factor to a readable unit and the printed unit, for values in `unit` whose largest is `largest`.
 #[pyfunction]
 #[pyo3(signature = (unit, largest, /))]
 pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
@@ -30,22 +30,23 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
     (factor, unit)
 }
 
-/// The unit of a column: that of the parameter or measure with this name in any model, or of the derivative of one by another,
-/// else the ending of the name; empty for none.
+/// Return the unit of a column, or empty text.
+///
+/// It is the unit of the parameter, measure or derivative with this name in any model, else the unit at the end of the name.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {
     labels::unit_of(name, simulate::all())
 }
 
-/// A column's name without the unit that it ends in, and that unit; empty if there is none.
+/// Return a column's name without the unit at its end, and the unit, which may be empty.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
     layout::split_unit(name)
 }
 
-/// The better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither.
+/// Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn better(name: &str) -> i8 {

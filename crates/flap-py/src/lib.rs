@@ -1,9 +1,8 @@
 //! Native part of the `flapwing` Python package.
 //!
-//! [`parameters`], [`design`] and [`solver`] turn Python values into those of flap-core and flap-sweep; [`columns`] turns
-//! rows into NumPy columns. No other code handles Python values. `python/flapwing/_flapwing.pyi` repeats signatures and
-//! docstrings for editors and type checkers; tests compare both. Functions without a docstring here are called by those in
-//! `python/flapwing`, which have one.
+//! [`parameters`], [`design`] and [`solver`] convert Python values to the types of flap-core and flap-sweep. [`columns`]
+//! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats signatures and docstrings for editors and type
+//! checkers; tests compare both. The public functions with full docstrings are in `python/flapwing`.
 
 mod begin;
 mod cluster;

@@ -1,4 +1,4 @@
-//! Lists of parameters and measures.
+//! Lists the parameters and measures of designs.
 
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ pub(crate) struct Measure {
     doc: String,
 }
 
-/// The standard errors of parameters in SI units, by name, and the correlations of pairs of them.
+/// The standard errors of parameters in SI units, by name, and the correlations of pairs of parameters.
 #[derive(IntoPyObject)]
 pub(crate) struct Uncertainty {
     errors: BTreeMap<String, f64>,
@@ -51,7 +51,7 @@ pub(crate) enum Value {
     Option(&'static str),
 }
 
-/// The parameters of a design or a model; see `flapwing.params`.
+/// Return the parameters of a design or a model; see `flapwing.params`.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
@@ -76,7 +76,7 @@ pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     Ok(listed)
 }
 
-/// The measures of a design or a model; see `flapwing.measures`.
+/// Return the measures of a design or a model; see `flapwing.measures`.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<Measure>> {
@@ -89,7 +89,7 @@ pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<Measure>> {
     Ok(listed.collect())
 }
 
-/// The standard errors of the parameters of a design in SI units, by name, and the correlations of pairs of parameters.
+/// Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {
@@ -104,12 +104,12 @@ pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {
     Ok(Uncertainty { errors, correlations: correlations.collect() })
 }
 
-/// The model of a design, or the model itself.
+/// Returns the model of a design, or a model by name.
 pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<Robot> {
     Ok(find(design)?.0)
 }
 
-/// The model of a preset or another design with its values, or a model with none.
+/// Returns the model of a design with its values, or a model by name without values.
 fn find(design: &Bound<'_, PyAny>) -> PyResult<(Robot, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {

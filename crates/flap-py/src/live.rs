@@ -44,7 +44,7 @@ impl LiveServer {
         self.lock().address().to_owned()
     }
 
-    /// Ends the server.
+    /// Stop the server.
     fn stop(&self, py: Python<'_>) {
         py.detach(|| self.lock().stop());
     }

@@ -1,4 +1,4 @@
-//! Motions of single points as columns.
+//! Converts motions of single points to columns.
 
 use flap_core::simulate::{Simulator, Trajectory};
 use flap_sweep::table::layout::{Cell, CellKind};
@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use crate::columns::{self, Columns};
 use crate::error;
 
-/// A motion as `columns`, each with its meaning, and `meta`.
+/// Returns a motion as a dictionary of `columns`, each with its meaning, and `meta`.
 pub(crate) fn into_python<'py>(
     py: Python<'py>,
     motion: Trajectory,
@@ -30,7 +30,7 @@ pub(crate) fn into_python<'py>(
     Ok(dict)
 }
 
-/// The meanings of the columns of a trajectory, by name; empty for a column that a trajectory has not.
+/// Returns the meanings of the columns of a trajectory by name; empty for other columns.
 pub(crate) fn meanings(
     model: &dyn Simulator,
     motion: &Trajectory,

@@ -16,7 +16,7 @@ pub(crate) struct Origins {
     sources: BTreeMap<String, String>,
 }
 
-/// The description of a design, empty if it has none, and the source of each parameter that has one.
+/// Return the description of a design, which may be empty, and the sources of parameters by name.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<Origins> {

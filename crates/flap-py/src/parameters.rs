@@ -1,4 +1,4 @@
-//! Parameters from Python: their names, and values out of keywords.
+//! Parameters from Python: their names, and their values from keywords.
 
 use std::ffi::CString;
 
@@ -13,12 +13,12 @@ use pyo3::types::PyString;
 use crate::convert;
 use crate::solver;
 
-/// The names of all presets, in the order of the models.
+/// Returns the names of all presets, in the order of the models.
 pub(crate) fn preset_names() -> Vec<&'static str> {
     simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name).collect()
 }
 
-/// The preset called `name`, with its model.
+/// Returns the preset `name` with its model.
 pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Simulator, &'static Preset)> {
     let Ok(name) = name.cast::<PyString>() else {
         return Err(convert::wrong_type("preset", "the name of a preset", name));
@@ -31,7 +31,7 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
     })
 }
 
-/// The index of the parameter called `name`.
+/// Returns the index of the parameter `name`.
 pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
     let index =
         Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))?;
@@ -42,19 +42,19 @@ pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
     Ok(index)
 }
 
-/// Warns of the former name of a parameter.
+/// Warns about the former name of a parameter.
 pub(crate) fn warn_renamed(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
     let text = CString::new(parameter.renamed())?;
     PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &text, 2)
 }
 
-/// Warns of a parameter of all wings of a vehicle that each wing has of its own.
+/// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own.
 pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
-    let text = CString::new(format!("`{0}` reaches no wing: each has a `{0}` of its own", parameter.name))?;
+    let text = CString::new(format!("`{0}` has no effect: every wing sets its own `{0}`", parameter.name))?;
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
 }
 
-/// The value of `parameter` in a design point: a number in SI units, or the index of an option.
+/// Returns the value of `parameter` in a design point: a number in SI units, or the index of an option.
 pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let found = match value.cast::<PyString>() {
         Ok(text) => value::of_text(parameter, &text.to_cow()?, UnitOf::Text),
@@ -63,7 +63,7 @@ pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyRes
     found.map_err(|error| refused(parameter, &error))
 }
 
-/// A number in SI units that is not text.
+/// Returns a number in SI units from a value that is not text.
 fn number(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let Parameter { name, unit, .. } = *parameter;
     match parameter.kind {
@@ -77,7 +77,7 @@ fn number(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     }
 }
 
-/// The exception for a value that `parameter` does not take.
+/// Returns the exception for a value that `parameter` cannot have.
 fn refused(parameter: &Parameter, error: &ValueError) -> PyErr {
     let Parameter { name, unit, .. } = *parameter;
     PyValueError::new_err(match error {
@@ -93,7 +93,7 @@ fn refused(parameter: &Parameter, error: &ValueError) -> PyErr {
     })
 }
 
-/// The options in quotes.
+/// Returns the options in quotes.
 fn listed(options: &[&str]) -> String {
     options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ")
 }
@@ -101,7 +101,7 @@ fn listed(options: &[&str]) -> String {
 fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
     let parameters: Vec<&str> = simulator.parameters().iter().map(|parameter| parameter.name).collect();
     let settings = solver::names();
-    // A misspelt solver setting arrives here too.
+    // Misspelt solver settings are also reported here.
     let hint = did_you_mean(name, &[&parameters[..], &settings[..]].concat());
     PyValueError::new_err(format!(
         "model `{}` has no parameter `{name}`{hint} (parameters: {}; solver settings: {})",
@@ -111,7 +111,7 @@ fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
     ))
 }
 
-/// The name among `names` that is nearest to `name`, as part of a message; empty if none is near.
+/// Returns the name among `names` that is nearest to `name`, as part of a message; empty if none is near.
 pub(crate) fn did_you_mean(name: &str, names: &[&str]) -> String {
     let nearest = nearest(name, names.iter().copied());
     nearest.map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"))

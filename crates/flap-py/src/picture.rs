@@ -1,4 +1,4 @@
-//! The choices that pictures share with those of the command.
+//! Colours, default measures and computations that pictures share with `flap plot`.
 
 use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
 use flap_sweep::picture::measures::{Role, usual};
@@ -8,8 +8,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// The colours of pictures: `series` is a list, `branches` has a colour for each branch, and `dark`, `plain`, `missing` and
-/// `bistable` are one colour each.
+/// Return the colours of pictures.
+///
+/// `series` is a list, and `branches` has one colour for each branch. `dark`, `plain`, `missing` and `bistable` are single
+/// colours.
 #[pyfunction]
 pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let branches = PyDict::new(py);
@@ -26,22 +28,23 @@ pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// The place in the sequential map of each of `count` lines that have an order; None for a line alone.
+/// Return the places of `count` ordered lines in the sequential colour map; None for a single line.
 #[pyfunction]
 #[pyo3(signature = (count, /))]
 pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
     (0..count).map(|index| table::shade(index, count)).collect()
 }
 
-/// True if numbers from `low` to `high` have both signs: then the map is a diverging one, with zero in its middle.
+/// Return True if numbers from `low` to `high` have both signs, which requires a diverging map with zero in its middle.
 #[pyfunction]
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {
     table::is_signed(low, high)
 }
 
-/// The measure that is drawn if none is named: the usual one among `columns` for a part, which is "response", "benefit",
-/// "cost" or "motion", and not in `taken`; None if there is none.
+/// Return the default measure among `columns` that is not in `taken`; None if there is none.
+///
+/// `role` is "response", "benefit", "cost" or "motion".
 #[pyfunction]
 #[pyo3(signature = (role, columns, taken, /))]
 #[expect(clippy::needless_pass_by_value, reason = "a list of Python's becomes a vector")]
@@ -50,13 +53,13 @@ pub(crate) fn usual_measure(
     columns: Vec<String>,
     taken: Vec<String>,
 ) -> PyResult<Option<String>> {
-    let role = Role::of(role).ok_or_else(|| PyValueError::new_err(format!("no part is called {role}")))?;
+    let role = Role::of(role).ok_or_else(|| PyValueError::new_err(format!("there is no role `{role}`")))?;
     let [columns, taken] =
         [&columns, &taken].map(|names| names.iter().map(String::as_str).collect::<Vec<_>>());
     Ok(usual(role, &columns, &taken).map(|place| columns[place].to_owned()))
 }
 
-/// The bands in which two ways differ, and the rows of each way after which it jumps to the other, as a dictionary.
+/// The bands in which two branches differ, and the rows of each branch after which it jumps, as a dictionary.
 #[derive(IntoPyObject)]
 pub(crate) struct Ways {
     bands: Vec<(f64, f64)>,
@@ -66,7 +69,8 @@ pub(crate) struct Ways {
 
 type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
 
-/// The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
+/// Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
+///
 /// `up` and `down` have the parameter, the measure, and the column `bistable`.
 #[pyfunction]
 #[pyo3(signature = (up, down, /))]
@@ -78,7 +82,7 @@ pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<Ways> {
     Ok(Ways { bands, up, down })
 }
 
-/// A histogram, as a dictionary: the ends of its bars, their heights, and pairs of a percentage and the percentile.
+/// A histogram as a dictionary: edges of the bars, heights of the bars, and pairs of a percentage and its percentile.
 #[derive(IntoPyObject)]
 pub(crate) struct Bars<'py> {
     edges: Bound<'py, PyArray1<f64>>,
@@ -86,7 +90,7 @@ pub(crate) struct Bars<'py> {
     percentiles: Vec<(u32, f64)>,
 }
 
-/// The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite.
+/// Return the edges and heights of a histogram's bars, and its percentiles; None if no value is finite.
 #[pyfunction]
 #[pyo3(signature = (values, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
@@ -102,8 +106,9 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
     }))
 }
 
-/// The rank correlation of each parameter with a measure, by falling size, with the place of the parameter. Those that follow
-/// an earlier parameter, and those without a correlation, are left out.
+/// Return the rank correlation of each parameter with a measure, and the index of the parameter, in falling order of size.
+///
+/// Parameters that follow an earlier parameter, and parameters without a correlation, are left out.
 #[pyfunction]
 #[pyo3(signature = (parameters, measure, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]

@@ -1,4 +1,4 @@
-//! The design point of a call: a design with keywords on top, and which of its points.
+//! The design point of a call: a design with the values of keywords, and the index of the point.
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
@@ -25,7 +25,7 @@ pub(crate) struct Chosen {
 }
 
 impl Chosen {
-    /// The point number `point` of a design with keywords on top, driven by `wave` if the call gives one.
+    /// Returns point number `point` of a design with the values of keywords, driven by `wave` if the call gives one.
     pub(crate) fn new(
         design: &Bound<'_, PyAny>,
         keywords: &Bound<'_, PyDict>,
@@ -47,7 +47,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// The point, if it can be run.
+    /// Returns the point, or an error if it cannot be run.
     pub(crate) fn possible(self) -> PyResult<Chosen> {
         match &self.invalid {
             Some(reason) => Err(PyValueError::new_err(reason.clone())),
@@ -55,7 +55,7 @@ impl Chosen {
         }
     }
 
-    /// The point for a motion: possible, and with a drive frequency, which is searched if it is to be the resonance.
+    /// Returns the point for a motion, or an error if it cannot be run. If its drive frequency is the resonance, searches it.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
         design::check_one_wing(&self.plan)?;
         let mut chosen = self.possible()?;
@@ -75,17 +75,17 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// The run of the point.
+    /// Returns the run of the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
-    /// The model that is run.
+    /// Returns the model that is run.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
 
-    /// The maker of the point's row: its model, at the resonance if the design is to be there.
+    /// Returns the computation of the point's row: its model, or the search for its resonance.
     pub(crate) fn rows(&self) -> &dyn Rows {
         match self.sampled.as_deref() {
             Some(sampled) => sampled,
@@ -93,7 +93,7 @@ impl Chosen {
         }
     }
 
-    /// The origin of the point's motions, see [`sweep::meta`].
+    /// Returns the origin of the point's motions, see [`sweep::meta`].
     pub(crate) fn meta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         sweep::meta(py, &self.plan, &sweep::options(None)?)
     }
@@ -102,7 +102,7 @@ impl Chosen {
         Parameter::index(self.plan.parameters(), name)
     }
 
-    /// Replaces the drive, or the stroke, by samples, whose duration is the drive period unless the frequency `is_set`.
+    /// Replaces the drive or the stroke by samples. Their duration is the drive period, unless the frequency `is_set`.
     fn drive_by(&mut self, wave: &Wave, is_set: bool) -> PyResult<()> {
         if !is_set && let Some(index) = self.parameter(DRIVE_FREQUENCY) {
             self.values[index] = 1.0 / wave.samples.duration();
@@ -112,7 +112,7 @@ impl Chosen {
                 self.parameter("stroke_mode").zip(self.parameter("stroke_amplitude"))
             else {
                 let message = format!(
-                    "the stroke of the model {} cannot be prescribed\nmodels with a parameter stroke_mode can",
+                    "the stroke of the model {} cannot be prescribed\nthis requires a model with the parameter stroke_mode",
                     self.plan.simulator().name()
                 );
                 return Err(PyValueError::new_err(message));
@@ -125,7 +125,7 @@ impl Chosen {
     }
 }
 
-/// The index of the point: the one given, or the only one.
+/// Returns the index of the point: the given index, or the only point.
 fn index(plan: &Plan, point: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
     let length = plan.len();
     let Some(point) = point else {
@@ -133,7 +133,7 @@ fn index(plan: &Plan, point: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
             return Ok(0);
         }
         let message = format!(
-            "the grid has {length} points, and this is about one\ngive point=0 to point={}",
+            "the grid has {length} points, but this call takes one\ngive point=0 to point={}",
             length - 1
         );
         return Err(PyValueError::new_err(message));

@@ -1,4 +1,4 @@
-//! Quantities out of text, for data that a user brings.
+//! Converts text to quantities, for data of the user.
 
 use flap_sweep::notation::units;
 use pyo3::exceptions::PyValueError;
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::{listing, parameters};
 
-/// The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit.
+/// Return the value in SI units of a parameter of a preset or a model, from a number or text with a unit.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, value, /))]
 pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -15,7 +15,7 @@ pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_,
     parameters::value_of(&model.parameters()[index], value)
 }
 
-/// The name of a parameter of a preset or a model, which may be given by its former name.
+/// Return the name of a parameter of a preset or a model, also for its former name.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, /))]
 pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<String> {
@@ -23,7 +23,7 @@ pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<S
     Ok(model.parameters()[parameters::index(&*model, parameter)?].name.to_owned())
 }
 
-/// The number of `unit` in a text such as `"3 mm"`, which must measure the same.
+/// Parse text such as `"3 mm"` and return the number in `unit`, which must be of the same kind.
 #[pyfunction]
 #[pyo3(signature = (name, text, unit, /))]
 pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {

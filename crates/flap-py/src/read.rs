@@ -1,4 +1,4 @@
-//! Result files, read back.
+//! Reads result files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 use crate::columns::{self, Columns};
 use crate::{error, grid, sweep};
 
-/// Reads a result file; see `flapwing.read`.
+/// Read a result file; see `flapwing.read`.
 #[pyfunction]
 #[pyo3(signature = (path, /, *, ignore_damage=false))]
 #[expect(clippy::needless_pass_by_value, reason = "a path out of Python is an owned one")]
@@ -34,12 +34,12 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
     dict.set_item("verified", is_verified)?;
     if let Some(Origin { plan, flap, build, arithmetic }) = origin {
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
-        // What wrote them may be another version, on another machine.
+        // Another version on another machine may have written the rows.
         meta.set_item("flap", flap)?;
         meta.set_item("build", build)?;
         meta.set_item("arithmetic", arithmetic)?;
         dict.set_item("meta", meta)?;
-        // The rows of curves are no grid.
+        // The rows of curves form no grid.
         if plan.followed().is_none() {
             dict.set_item("axes", grid::axes(py, &plan)?)?;
         }
@@ -47,7 +47,7 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
     Ok(dict)
 }
 
-/// The contents of a result file, with warnings for its user.
+/// The contents of a result file, with warnings for the user.
 struct Contents {
     columns: Columns,
     /// The origin of the rows, if it is recorded.
@@ -55,7 +55,7 @@ struct Contents {
     /// Units recorded in the file itself.
     units: BTreeMap<String, String>,
     warnings: Vec<String>,
-    /// True if checksums show that the rows are as they were written.
+    /// True if checksums agree with the rows.
     is_verified: bool,
 }
 
@@ -91,7 +91,7 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
             continue;
         }
         if let Err(column) = columns.push_record(row.iter()) {
-            let message = format!("{place}, line {line}: a cell of column {column} is not of its kind");
+            let message = format!("{place}, line {line}: a cell of column {column} has the wrong type");
             return Err(PyValueError::new_err(message));
         }
     }
@@ -102,7 +102,7 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// The origin in the sidecar, or else in the file itself, provided that its columns are those of the file.
+/// Returns the origin in the sidecar, else in the file, provided that its columns equal the file's columns.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
@@ -122,7 +122,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     Some(Origin { plan, flap, build, arithmetic })
 }
 
-/// The columns of a file without an origin: the kind of each is guessed from its cells.
+/// Returns the columns of a file without an origin; the kind of each is inferred from its cells.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     let mut kinds: Vec<Option<CellKind>> = vec![None; reader.names().len()];
     let mut row = StringRecord::new();

@@ -21,7 +21,7 @@ pub(crate) struct Wave {
 }
 
 impl Wave {
-    /// The waveform or the stroke of a call, if it gives one.
+    /// Returns the waveform or the stroke of a call, if it gives one.
     pub(crate) fn of(
         waveform: Option<&Bound<'_, PyAny>>,
         stroke: Option<&Bound<'_, PyAny>>,
@@ -30,13 +30,13 @@ impl Wave {
         let (source, name, quantity) = match (waveform, stroke) {
             (Some(_), Some(_)) => {
                 return Err(PyValueError::new_err(
-                    "waveform and stroke both drive the wing\nkeep one of them",
+                    "waveform and stroke cannot be used together\nkeep one of them",
                 ));
             }
             (Some(source), None) => (source, "waveform", record::WAVE),
             (None, Some(source)) => (source, "stroke", record::STROKE),
             (None, None) if once => {
-                return Err(PyValueError::new_err("once is about a waveform or a stroke\ngive one of them"));
+                return Err(PyValueError::new_err("once requires a waveform or a stroke\ngive one of them"));
             }
             (None, None) => return Ok(None),
         };
@@ -46,7 +46,7 @@ impl Wave {
     }
 }
 
-/// The record of a file, or of a dictionary of arrays of float64; `name` stands for the dictionary in messages.
+/// Reads the record of a file, or of a dictionary of float64 arrays, which messages call `name`.
 pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     let Ok(columns) = source.cast::<PyDict>() else {
         let path: PathBuf = source.extract()?;
@@ -58,12 +58,12 @@ pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
 }
 
-/// A quantity of a record over its time.
+/// Returns a quantity of a record over its time.
 pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) -> PyResult<Samples> {
     record.samples(quantity, repeat).map_err(|error| refused(&error))
 }
 
-/// The exception for a record that cannot be used.
+/// Returns the exception for a record that cannot be used.
 pub(crate) fn refused(error: &RecordError) -> PyErr {
     match error {
         RecordError::Read { name, source } => error::io_error(&format!("cannot read {name}"), source),

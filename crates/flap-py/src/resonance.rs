@@ -1,4 +1,4 @@
-//! The resonances of one point: linear, after an impulse, and driven.
+//! Computes the resonances of one point: linear, after an impulse, and driven.
 
 use flap_core::modes::Mode;
 use flap_core::num::Backend;
@@ -53,7 +53,7 @@ struct Gap {
     status: &'static str,
 }
 
-/// Finds the resonances of one point; see `flapwing.resonance`.
+/// Compute the resonances of one point; see `flapwing.resonance`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point, start, stop, tolerance, impulse, fit_cycles, spectrum_window))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]

@@ -1,4 +1,4 @@
-//! Responses up and down.
+//! Follows responses up and down.
 
 use flap_core::parameter::Kind;
 use flap_sweep::plan::Along;
@@ -23,8 +23,8 @@ struct Judged {
     bands: Vec<Band>,
 }
 
-/// A band of bistability, with its ends in SI units and the largest difference of the stroke (deg, peak to peak) between both
-/// motions: NaN if one of them is periodic nowhere in it.
+/// A bistable band: its ends in SI units, and the largest difference of the stroke between the two motions (deg, peak to peak).
+/// The difference is NaN if the two motions are nowhere both periodic.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,
@@ -46,8 +46,9 @@ impl Judged {
     }
 }
 
-/// Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
-/// number of all.
+/// Follow responses; see `flapwing.respond`.
+///
+/// `curves` has the numbers of the designs to follow, in rising order. `designs` in the result is the total number of designs.
 #[pyfunction]
 #[pyo3(signature = (design, parameter, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, return_states=false, threads=None, progress=None, keywords=None, curves=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
@@ -71,13 +72,13 @@ pub(crate) fn respond<'py>(
     design::check_one_wing(&plan)?;
     if plan.resonance().is_some() {
         let message =
-            "the grid runs each design at its own resonance: give drive_frequency a number, or follow it";
+            "the grid runs each design at its resonance: set drive_frequency to a number, or follow it";
         return Err(PyValueError::new_err(message));
     }
     let index = parameters::index(plan.simulator(), parameter)?;
     let parameter = &plan.robot().model().parameters()[index];
     let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
-        // It is refused below.
+        // The choice is rejected below.
         Kind::Choice(_) => Ok(None),
         Kind::Number(_) | Kind::Following(..) => {
             value.map(|value| parameters::value_of(parameter, value)).transpose()
@@ -87,8 +88,10 @@ pub(crate) fn respond<'py>(
         [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
         [None, None, None] => None,
         _ => {
-            let message =
-                format!("how `{}` rises is not known: start, stop and step go together", parameter.name);
+            let message = format!(
+                "the values of `{}` are incomplete: start, stop and step are required together",
+                parameter.name
+            );
             return Err(PyValueError::new_err(message));
         }
     };
@@ -107,7 +110,7 @@ pub(crate) fn respond<'py>(
     let followed = plan.followed().zip(Responses::of(&plan));
     let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let stroke = plan.rows().columns().iter().position(|column| column.name == STROKE);
-    let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model measures no stroke"))?;
+    let stroke = stroke.ok_or_else(|| PyValueError::new_err("the model does not measure the stroke"))?;
     let mut columns = Columns::new(Layout::of(&plan).columns());
     let mut verdicts = Vec::new();
     let mut watch = Watch::new(progress);

@@ -1,4 +1,4 @@
-//! One design point at a time: its row and its motion.
+//! Runs single design points: rows and motions.
 
 use flap_core::simulate::{Row, TrajectoryRequest};
 use flap_sweep::notation::expression::Kind;
@@ -12,21 +12,21 @@ use crate::records::Wave;
 use crate::watch::interruptible;
 use crate::{begin, convert, error, motion, parameters};
 
-/// The most samples of one trajectory: they are held in memory.
+/// Largest number of samples in a trajectory, which is held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
 
-/// The names of the published parameter sets, each with its model.
+/// Return the names of the published parameter sets.
 ///
 /// Returns
 /// -------
 /// list of str
-///     Names that `run` takes, such as ``"ozaki2018-large"``.
+///     Names for `run`, such as ``"ozaki2018-large"``.
 #[pyfunction]
 pub(crate) fn presets() -> Vec<&'static str> {
     parameters::preset_names()
 }
 
-/// Runs one point; see `flapwing.run`.
+/// Run one point; see `flapwing.run`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point=None, initial_state=None, waveform=None, stroke=None))]
 pub(crate) fn run<'py>(
@@ -55,7 +55,7 @@ pub(crate) fn run<'py>(
     row_to_dict(py, &names, &chosen.plan, &row)
 }
 
-/// Samples the motion of one point; see `flapwing.trajectory`.
+/// Sample the motion of one point; see `flapwing.trajectory`.
 #[pyfunction]
 #[pyo3(signature = (
     design, keywords, /, *, point, cycles, samples, from_rest, initial_state=None, waveform=None, stroke=None,
@@ -78,16 +78,17 @@ pub(crate) fn trajectory<'py>(
     let wave = Wave::of(waveform, stroke, once)?;
     let chosen = Chosen::new(design, keywords, point, wave.as_ref())?.for_motion(py)?;
     let (cycles, samples) = (convert::count("cycles", cycles)?, convert::count("samples", samples)?);
-    // A record that is followed once has one period.
+    // A record that is followed once has only one period.
     let cycles = if wave.is_some_and(|wave| wave.once) { 1 } else { cycles };
     let all = u64::from(cycles) * u64::from(samples);
     if all > SAMPLES_MAX {
-        let message = format!("{all} samples are too many: cycles times samples may be {SAMPLES_MAX}");
+        let message =
+            format!("{all} samples are too many: cycles times samples must be at most {SAMPLES_MAX}");
         return Err(PyValueError::new_err(message));
     }
     if from_rest && initial_state.is_some() {
         return Err(PyValueError::new_err(
-            "from_rest and initial_state both say where the motion begins\nkeep one of them",
+            "from_rest and initial_state both set the beginning of the motion\nkeep one of them",
         ));
     }
     let begin = initial_state.map(|state| begin::state(chosen.plan.simulator(), state)).transpose()?;
@@ -102,8 +103,8 @@ pub(crate) fn trajectory<'py>(
     motion::into_python(py, sampled, meanings, &chosen.meta(py)?)
 }
 
-/// A row as a dictionary; its entry `measures` has those called `names`, then those of the plan's own. Unknown numbers and flags
-/// are NaN.
+/// Returns a row as a dictionary. Its entry `measures` has the model's measures, called `names`, then the measures of the grid's
+/// `[measure]`. Unknown numbers and flags are NaN.
 fn row_to_dict<'py>(py: Python<'py>, names: &[&str], plan: &Plan, row: &Row) -> PyResult<Bound<'py, PyDict>> {
     let measure = |index: usize| row.measures.get(index).copied().unwrap_or(f64::NAN);
     let measures = PyDict::new(py);

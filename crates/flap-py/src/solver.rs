@@ -7,18 +7,18 @@ use pyo3::types::PyDict;
 
 use crate::convert;
 
-/// The names of the settings, in the order of the signature of `flapwing.run`.
+/// Returns the names of the settings, in the order of the signature of `flapwing.run`.
 pub(crate) fn names() -> Vec<&'static str> {
     SolverSettings::TABLE.iter().map(|setting| setting.name).collect()
 }
 
-/// The names of the solver settings, in the order of the signature of `flapwing.run`.
+/// Return the names of the solver settings, in the order of the signature of `flapwing.run`.
 #[pyfunction]
 pub(crate) fn settings() -> Vec<&'static str> {
     names()
 }
 
-/// The solver settings of a call: those of [`names`] that it gives.
+/// The solver settings that a call gives.
 pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 
 impl<'py> Keywords<'py> {
@@ -38,9 +38,9 @@ impl<'py> Keywords<'py> {
         Ok((Keywords(settings), others))
     }
 
-    /// Replaces those of `settings` that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
+    /// Replaces the settings that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
-        // In the order of the table: rtol decides the default of atol.
+        // The order of the table matters, because rtol determines the default of atol.
         for Setting { name, kind, .. } in SolverSettings::TABLE {
             let Some((_, value)) = self.0.iter().find(|(given, _)| given == name) else { continue };
             match kind {
@@ -56,10 +56,10 @@ impl<'py> Keywords<'py> {
     }
 }
 
-/// A keyword that is no solver setting.
+/// A keyword that is not a solver setting.
 pub(crate) type Keyword<'py> = (String, Bound<'py, PyAny>);
 
-/// A number more than zero and less than `limit`, else `ValueError`; `TypeError` if it is no number.
+/// Returns a number more than zero and less than `limit`. `ValueError` for other numbers, `TypeError` for other types.
 fn tolerance(name: &str, limit: f64, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = convert::number(name, "a number", value)?;
     if number > 0.0 && number < limit {

@@ -1,4 +1,4 @@
-//! Sweeps: every point of a plan into columns, or into a file.
+//! Runs every point of a plan, into columns or into a file.
 
 use std::ffi::CString;
 use std::num::NonZeroUsize;
@@ -25,8 +25,9 @@ use crate::{convert, error};
 /// Time between checkpoints of results in a file.
 const CHECKPOINT: Duration = Duration::from_secs(1);
 
-/// Runs a grid; see `flapwing.sweep`. `chunks` gives the rows of other processes: called with the number of points done,
-/// it gives the bytes of the next chunk.
+/// Run a grid; see `flapwing.sweep`.
+///
+/// `chunks` returns rows of other processes: called with the number of points done, it returns the bytes of the next chunk.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(
@@ -43,7 +44,7 @@ pub(crate) fn sweep<'py>(
     let options = options(threads)?;
     let begin = if restart { Begin::Restart } else { Begin::Continue };
     match out {
-        None if restart => Err(PyValueError::new_err("restart is about a file of results: give out")),
+        None if restart => Err(PyValueError::new_err("restart requires a file of results: give out")),
         None => into_columns(py, plan, &options, progress, chunks.as_ref()),
         Some(out) => {
             let options = SessionOptions { run: options, checkpoint: CHECKPOINT };
@@ -53,7 +54,7 @@ pub(crate) fn sweep<'py>(
     }
 }
 
-/// The options of a run: as many threads as given, or one per core.
+/// Returns the options of a run, with the given number of threads or one per core.
 pub(crate) fn options(threads: Option<&Bound<'_, PyAny>>) -> PyResult<RunOptions> {
     let mut options = RunOptions::default();
     if let Some(threads) = threads {
@@ -63,7 +64,7 @@ pub(crate) fn options(threads: Option<&Bound<'_, PyAny>>) -> PyResult<RunOptions
     Ok(options)
 }
 
-/// Runs a plan, and gives its `columns`, `summary`, `axes` and `meta`.
+/// Runs a plan and returns its `columns`, `summary`, `axes` and `meta`.
 pub(crate) fn into_columns<'py>(
     py: Python<'py>,
     plan: &Plan,
@@ -97,8 +98,8 @@ pub(crate) fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job, and gives its `summary` (of the rows of earlier runs too, and empty if nothing was left to run), `axes` and
-/// `meta`.
+/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs; it is empty if nothing was
+/// left to run.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,
@@ -138,7 +139,7 @@ fn into_file<'py>(
     Ok(dict)
 }
 
-/// Runs the points here, or takes their rows from chunks.
+/// Runs the points in this process, or takes their rows from chunks.
 fn work(
     plan: &Plan,
     options: &RunOptions,
@@ -155,7 +156,7 @@ fn work(
     output.finish(ended)
 }
 
-/// Runs the points on this machine, until the interpreter ends it.
+/// Runs the points in this process, until the interpreter interrupts the run.
 fn run_here(
     plan: &Plan,
     options: &RunOptions,
@@ -175,7 +176,7 @@ fn run_here(
     Ok(())
 }
 
-/// Takes the rows of other processes, until there are none or the interpreter ends it.
+/// Takes the rows of other processes, until there are no more or the interpreter interrupts the run.
 fn fetch(
     plan: &Plan,
     options: &RunOptions,
@@ -205,7 +206,7 @@ fn fetch(
     Ok(())
 }
 
-/// The derivatives of rows, as a dictionary: their measures and parameters, and the column of each pair.
+/// Returns the derivatives of rows as a dictionary: their measures and parameters, and the column of each pair.
 fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bound<'py, PyDict>> {
     let known: Vec<&str> = plan.measured().collect();
     let of: Vec<&str> = gradient.of.iter().map(|&of| known[of]).collect();
@@ -220,7 +221,7 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
     Ok(dict)
 }
 
-/// The origin of rows, as a dictionary: versions, model, solver settings, and the text of the grid.
+/// Returns the origin of rows as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
     let solver = PyDict::new(py);

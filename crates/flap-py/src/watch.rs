@@ -1,4 +1,4 @@
-//! Long work without the interpreter, which looks for Ctrl-C and reports progress now and then.
+//! Runs long work without the interpreter lock, with regular checks for Ctrl-C and reports of progress.
 
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
@@ -7,12 +7,12 @@ use flap_core::simulate::Interrupt;
 use flap_sweep::run::Progress;
 use pyo3::prelude::*;
 
-/// The interval between looks at the interpreter: short for a user, long for the work.
+/// The interval between checks: short for a user, long compared with the work of a check.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// A watch on the interpreter while work runs without it.
 pub(crate) struct Watch {
-    /// A callback, called with the number of points done and of points in all.
+    /// A callback, called with the number of points done and the total number of points.
     progress: Option<Py<PyAny>>,
     last: Option<Instant>,
     error: Option<PyErr>,
@@ -23,14 +23,14 @@ impl Watch {
         Watch { progress, last: None, error: None }
     }
 
-    /// Looks as [`Watch::look`] does. True if the work is to end.
+    /// Checks as [`Watch::look`] does. Returns true if the work must end.
     pub(crate) fn stops(&mut self, progress: Progress) -> bool {
         self.look(progress.finished, progress.points);
         self.error.is_some()
     }
 
-    /// Looks for signals and reports progress, if [`INTERVAL`] has passed. An exception of a signal handler or of the
-    /// callback ends the work.
+    /// If [`INTERVAL`] has passed, checks for signals and reports progress. An exception of a signal handler or of the callback
+    /// ends the work.
     pub(crate) fn look(&mut self, done: u64, all: u64) {
         if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
             self.look_now(done, all);
@@ -46,27 +46,27 @@ impl Watch {
         self.note(seen);
     }
 
-    /// Keeps an exception and ends the work, if `seen` is one.
+    /// If `seen` is an exception, stores it and ends the work.
     pub(crate) fn note(&mut self, seen: PyResult<()>) {
         if let Err(error) = seen {
             self.error.get_or_insert(error);
         }
     }
 
-    /// Reports that all points are done, so that a bar is full at the end, unless an exception ended the work.
+    /// Reports that all points are done, so that a bar is full at the end. Does nothing if an exception ended the work.
     pub(crate) fn done(&mut self, all: u64) {
         if self.error.is_none() {
             self.look_now(all, all);
         }
     }
 
-    /// `Err` with the exception that ended the work, if one did.
+    /// Returns the exception that ended the work, if one did, as `Err`.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
     }
 }
 
-/// Does `work` without the interpreter; Ctrl-C interrupts it. `Err` with the exception of the signal handler.
+/// Runs `work` without the interpreter lock. Ctrl-C interrupts it; then the exception of the signal handler is returned as `Err`.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Interrupt<'_>) -> T + Send,

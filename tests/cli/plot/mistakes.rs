@@ -70,17 +70,17 @@ fn mistakes_are_told() {
         (&["sweep.csv", "--y", "status"], &["column `status` holds words, not numbers"]),
         (
             &["sweep.csv", "--kind", "map", "--by", "status"],
-            &["--by needs --kind response or hysteresis, and this picture is a map"],
+            &["--by requires --kind response or hysteresis, but this picture is a map"],
         ),
         (
             &["sweep.csv", "--kind", "response", "--color", "cycles"],
-            &["--color needs --kind map, scatter or pareto, and this picture is a response"],
+            &["--color requires --kind map, scatter or pareto, but this picture is a response"],
         ),
-        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim need --kind pareto"]),
-        (&["sweep.csv", "--kind", "trajectory"], &["needs a column time_s"]),
+        (&["sweep.csv", "--y-aim", "min"], &["--x-aim and --y-aim require --kind pareto"]),
+        (&["sweep.csv", "--kind", "trajectory"], &["requires the column time_s"]),
         (
             &["sweep.csv", "--kind", "histogram", "--y", "lift_mean_mn"],
-            &["a histogram has no --y; name its measure with --x"],
+            &["a histogram has no --y; choose its measure with --x"],
         ),
         (
             &[
@@ -98,7 +98,7 @@ fn mistakes_are_told() {
             &["sweep.csv", "--kind", "tornado", "--html", "a.html"],
             &["--html cannot show a tornado; use --out FILE.png"],
         ),
-        (&["sweep.csv", "--kind", "hysteresis"], &["needs the columns `branch` and `bistable`"]),
+        (&["sweep.csv", "--kind", "hysteresis"], &["requires the columns `branch` and `bistable`"]),
         (&["sweep.csv", "--out", "picture.pdf"], &["pictures end in .svg or .png"]),
         (&["sweep.csv", "--out", "picture.html"], &["--html picture.html writes a page"]),
         (&["sweep.csv", "--size", "10x10"], &["expected WxH"]),
@@ -113,7 +113,7 @@ fn mistakes_are_told() {
         (
             &["other.csv"],
             &[
-                "cannot tell what to draw: this is neither a sweep nor a motion",
+                "no kind of picture suits this file: it is neither a sweep nor a motion",
                 "--x and --y",
                 "the columns are a, b",
             ],
@@ -127,6 +127,6 @@ fn mistakes_are_told() {
             ended.says(text);
         }
     }
-    folder.ends(3, "plot missing.csv").says("cannot read missing.csv");
+    folder.ends(2, "plot missing.csv").says("missing.csv: there is no such file");
     folder.ends(3, "plot sweep.csv --out missing/picture.svg");
 }

@@ -308,7 +308,7 @@ fn many_rows_are_thinned_and_said() {
     let picture = drawn(&folder, "many.csv --by drive_voltage_pp");
     assert!(picture.svg.len() < 1_000_000, "{}", picture.svg.len());
     let ended = refused(&folder, &["many.csv", "--by", "drive_frequency", "--x", "drive_voltage_pp"]);
-    ended.says("25000 of 50000 rows have a drive_frequency of their own");
+    ended.says("25000 of 50000 rows have different values of drive_frequency");
 
     let mut text = HEADER.to_owned() + "\n";
     for point in 0..200 {

@@ -77,4 +77,4 @@ def test_mistakes_are_told(found):
         message(ValueError, plot.fit, found, "bands")
         == "`show` is 'bands'\nit must be one of data, profiles, correlations"
     )
-    assert message(TypeError, plot.fit, 3) == "`result` is int\nit must be what flapwing.fit returns"
+    assert message(TypeError, plot.fit, 3) == "`result` is int\nit must be the result of flapwing.fit"

@@ -123,8 +123,8 @@ def test_mistakes_are_told_before_a_figure_is_made(slopes, robot):
         assert len(plot.force_panels(table).axes) == 6
     assert len(plot.force_panels(table, drive_voltage_pp=180.0).axes) == 6
     told = message(ValueError, plot.control_matrix, course(drive_offset=np.arange(3.0)))
-    assert told.startswith("the table has no derivatives of force and torque\ngive evaluate the argument gradient=")
+    assert told.startswith("the table has no derivatives of force and torque\ncall evaluate with gradient=")
     single = {"drive_frequency": np.arange(3.0), "lift_mean_mn": np.arange(3.0)}
-    assert "it is of no vehicle" in message(ValueError, plot.force_panels, single)
+    assert "it has no results of a vehicle" in message(ValueError, plot.force_panels, single)
     by_power = flapwing.evaluate(robot, {"drive_offset": [0.0]}, gradient=["drive_offset"], measures=["power_mean_mw"])
     assert "of no force or torque" in message(ValueError, plot.control_matrix, by_power)

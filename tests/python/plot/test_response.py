@@ -168,7 +168,7 @@ def test_response_mistakes(sweep, keywords, says):
 
 
 def test_panels_need_a_measure(sweep):
-    assert "names no measure" in message(ValueError, plot.response_panels, sweep, [])
+    assert "`measures` is empty" in message(ValueError, plot.response_panels, sweep, [])
     assert len(drawn(plot.response_panels(sweep, ["lift_mean_mn"])).axes) == 1
 
 

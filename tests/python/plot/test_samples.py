@@ -108,7 +108,7 @@ def test_of_axes_beside_a_sample_a_value_is_chosen(crossed, function):
 
 def test_lines_and_cells_of_a_sample_are_refused(sample):
     for function in (plot.response, plot.heatmap):
-        assert "plot.scatter draws such designs" in message(ValueError, function, sample, x="hinge_stiffness", **(
+        assert "draw such designs with plot.scatter" in message(ValueError, function, sample, x="hinge_stiffness", **(
             {"y": "drive_voltage_pp", "value": "lift_mean_mn"} if function is plot.heatmap else {}
         ))  # fmt: skip
 
@@ -126,5 +126,5 @@ def test_mistakes(sample):
 
 def test_a_large_sample_makes_no_lines_unasked(crossed):
     text = message(ValueError, plot.response, crossed)
-    assert "40 lines would cover each other" in text and "by='drive_voltage_pp' draws them all" in text
+    assert "40 lines would cover each other" in text and "draw all lines with by='drive_voltage_pp'" in text
     assert len(plot.response(crossed, by="drive_voltage_pp").lines) >= 40

@@ -100,7 +100,7 @@ def test_tornado_mistakes():
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean", ["wing_length"]
     )
     assert "only numbers" in message(ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["lift_sign"])
-    assert "give it a value, as in `drive_bias=…`" in message(
+    assert "set it, as in `drive_bias=…`" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["drive_bias"]
     )
     assert "more than zero" in message(

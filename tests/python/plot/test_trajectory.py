@@ -70,7 +70,7 @@ def test_motions_have_labels_of_their_own(motion):
     assert legend(ax) == ["80 V", "60 V"] and ax.get_ylabel() == "Stroke (°)"
     assert legend(plot.trajectory(motion, label="80 V").axes[0]) == ["Stroke, 80 V", "Pitch, 80 V"]
     with pytest.raises(
-        ValueError, match="`ax` has the vertical axis 'Stroke \\(°\\)', and the signals are in mN\ndraw them"
+        ValueError, match="`ax` has the vertical axis 'Stroke \\(°\\)', but the signals are in mN\ndraw them"
     ):
         plot.trajectory(motion, "lift_mn", ax=ax)
 

@@ -32,7 +32,7 @@ def given(kind):
 def test_what_is_no_axes(function, kind):
     ax = given(kind)
     told = message(TypeError, function, TABLE, ax=ax)
-    assert told == f"`ax` is {type(ax).__name__}\nit must be axes of matplotlib: one of those of plt.subplots()"
+    assert told == f"`ax` is {type(ax).__name__}\nit must be matplotlib Axes, such as from plt.subplots()"
 
 
 @pytest.mark.parametrize(
@@ -53,8 +53,8 @@ def test_what_is_no_axes(function, kind):
         (plot.heatmap, (TABLE,), {"vmin": "1"}, "`vmin` is str\nit must be a number"),
         (plot.heatmap, (TABLE,), {"vmax": True}, "`vmax` is bool\nit must be a number"),
         (plot.heatmap, (TABLE,), {"cmap": 3}, "`cmap` is int\nit must be a colour map"),
-        (plot.heatmap, (TABLE,), {"colorbar": "right"}, "`colorbar` is str\nit must be True, False or axes"),
-        (plot.heatmap, (TABLE,), {"drive_voltage_pp": [1]}, "`drive_voltage_pp` is list\nit is compared with"),
+        (plot.heatmap, (TABLE,), {"colorbar": "right"}, "`colorbar` is str\nit must be True, False or matplotlib Axes"),
+        (plot.heatmap, (TABLE,), {"drive_voltage_pp": [1]}, "`drive_voltage_pp` is list\nit must be a number"),
         (plot.hysteresis, (loop(),), {"curve": "0"}, "`curve` is str\nit must be a whole number"),
         (plot.control_matrix, ([[0]] * 6,), {"inputs": "a"}, "`inputs` is str\nit must be a list of names"),
         (plot.wing_path, (TABLE,), {"frames": "many"}, "`frames` is str\nit must be a whole number"),

@@ -1,4 +1,4 @@
-//! Device files: `device new`, `wing`.
+//! Arguments of `flap device new` and `flap device wing`.
 
 use std::path::PathBuf;
 
@@ -8,9 +8,13 @@ use super::values::{density, length, line_density, mass};
 
 #[derive(Subcommand)]
 pub(crate) enum DeviceCommand {
-    /// Print the device file of a preset, to be edited: every parameter with value, unit, range and meaning
+    /// Print the device file of a preset, for you to edit
+    ///
+    /// The file lists every parameter with its value, unit, range and meaning.
     New(NewArgs),
-    /// Turn the outline of a wing into a device file: areas, radii, inertias, and the chord as a table
+    /// Compute the parameters of a wing from its outline, and print them as a device file
+    ///
+    /// The parameters are areas, radii, inertias, and a table of the chord.
     Wing(WingArgs),
 }
 
@@ -19,7 +23,7 @@ pub(crate) enum DeviceCommand {
     after_help = "Examples:\n  flap device new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap device new mybee.toml > copy.toml"
 )]
 pub(crate) struct NewArgs {
-    /// A preset, or a device or grid file whose values are written out
+    /// Preset, device file or grid file whose values are printed
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 }
@@ -27,15 +31,17 @@ pub(crate) struct NewArgs {
 #[derive(clap::Args)]
 #[command(after_help = WING_HELP)]
 pub(crate) struct WingArgs {
-    /// CSV file with the columns `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`, from root to tip
+    /// CSV file with the outline of the wing, from root to tip
+    ///
+    /// Columns: `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`.
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// The preset or device that the wing is put on; its model decides the parameters
+    /// Preset, device file or grid file that the wing is added to; its model decides which parameters are computed
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 
-    /// Distance of the wing's root from the stroke axis, such as `2 mm`; 0 m without this option
+    /// Distance of the wing's root from the stroke axis, such as `2 mm` [default: 0 m]
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) offset: Option<f64>,
 
@@ -51,14 +57,17 @@ pub(crate) struct WingArgs {
     #[arg(long, value_name = "MASS/LENGTH", value_parser = line_density)]
     pub(crate) spar: Option<f64>,
 
-    /// Mass of the wing as weighed, such as `0.6 mg`: membrane and spar are scaled to it; alone, it is spread evenly
+    /// Measured mass of the wing, such as `0.6 mg`
+    ///
+    /// The masses of membrane and spar are scaled to this mass. Without --thickness and --density, the mass is
+    /// spread evenly over the area.
     #[arg(long, value_name = "MASS", value_parser = mass)]
     pub(crate) mass: Option<f64>,
 }
 
 const WING_HELP: &str = "\
-The edges are distances from the hinge's axis: the leading edge ahead of it, the trailing edge behind it. Between stations they are \
-straight. docs/how-to/wings.md says which numbers belong together when a wing changes.
+Distances are measured from the hinge's axis: the leading edge lies ahead of it, the trailing edge behind it. Between \
+stations, the edges are straight. Some parameters must change together with the wing: see the manual, How to, Wings.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

@@ -1,8 +1,8 @@
-//! Conditions on rows: the option `--where`.
+//! The option `--where`: conditions on rows.
 
 use flap_sweep::notation::expression::is_free_name;
 
-/// A condition that rows satisfy, or are left out.
+/// A condition on rows. Rows that do not satisfy it are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Filter {
     /// The column of this name has this value.
@@ -11,8 +11,8 @@ pub(crate) enum Filter {
     Comparison(String),
 }
 
-/// The condition that `text` is: `COLUMN=VALUE`, else a comparison.
-#[expect(clippy::unnecessary_wraps, reason = "clap asks for a result")]
+/// Parses a condition: `COLUMN=VALUE`, else a comparison.
+#[expect(clippy::unnecessary_wraps, reason = "clap requires a result")]
 pub(super) fn filter(text: &str) -> Result<Filter, String> {
     let equal = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
     Ok(match equal.filter(|(name, value)| is_free_name(name) && !value.starts_with('=')) {
@@ -21,7 +21,7 @@ pub(super) fn filter(text: &str) -> Result<Filter, String> {
     })
 }
 
-/// A word without the quotes around it, which comparisons have and a shell may leave.
+/// Removes the quotes around a word. Words in comparisons have quotes, and a shell may leave them.
 fn unquoted(word: &str) -> &str {
     let inner = |quote: char| word.strip_prefix(quote)?.strip_suffix(quote);
     inner('\'').or_else(|| inner('"')).unwrap_or(word)

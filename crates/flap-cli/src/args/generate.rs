@@ -1,4 +1,4 @@
-//! Files for other programs: `generate completions`, `man`, `schema`.
+//! Arguments of `flap generate completions`, `flap generate man` and `flap generate schema`.
 
 use std::path::PathBuf;
 
@@ -9,16 +9,16 @@ use clap_complete::Shell;
 pub(crate) enum GenerateCommand {
     /// Print a script that completes commands and options in a shell
     Completions(CompletionsArgs),
-    /// Write manual pages
+    /// Write manual pages, one per command
     Man(ManArgs),
-    /// Print a JSON schema of grid files, for editors that complete their keys
+    /// Print a JSON schema of grid files, for editors that complete keys
     Schema(SchemaArgs),
 }
 
 #[derive(clap::Args)]
 #[command(after_help = COMPLETIONS_HELP)]
 pub(crate) struct CompletionsArgs {
-    /// The shell
+    /// Shell for which the script is printed
     #[arg(value_name = "SHELL")]
     pub(crate) shell: Shell,
 }
@@ -33,7 +33,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  flap generate man ~/.local/share/man/man1")]
 pub(crate) struct ManArgs {
-    /// Folder for the pages, one per command; pages that are there are overwritten
+    /// Folder for the pages; existing pages are overwritten
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
 }
@@ -43,7 +43,7 @@ pub(crate) struct ManArgs {
     after_help = "Example:\n  flap generate schema > flap.schema.json     (and #:schema ./flap.schema.json as the first line of a grid)"
 )]
 pub(crate) struct SchemaArgs {
-    /// Only the parameters of this preset's model, with the preset's values as defaults
+    /// Include only the parameters of this preset's model, with the preset's values as defaults
     #[arg(long, value_name = "PRESET")]
     pub(crate) preset: Option<String>,
 }

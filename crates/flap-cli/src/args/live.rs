@@ -7,11 +7,11 @@ use super::values::threads;
 #[derive(clap::Args)]
 #[command(after_help = LIVE_HELP)]
 pub(crate) struct LiveArgs {
-    /// A preset, a device or a grid file to begin with; `-` for a grid from stdin [default: the first preset]
+    /// Preset, device file or grid file; `-` reads a grid from stdin [default: the first preset]
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: Option<String>,
 
-    /// Port of the server
+    /// Port of the server [default: a free port]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub(crate) port: u16,
 
@@ -25,9 +25,8 @@ pub(crate) struct LiveArgs {
 }
 
 const LIVE_HELP: &str = "\
-Starts a server on this machine and prints the address of its page, with a token: who has the address can ask for rows. The \
-server listens on 127.0.0.1 alone, reads no files but the one named here, and writes none. Ctrl-C ends it. Without --port it \
-takes a free port.
+Starts a server on this machine and prints the address of its page. The address contains a token: everybody who has it can \
+request rows. The server listens only on 127.0.0.1, reads only the file that you name, and writes no files. Ctrl-C stops it.
 
 Examples:
   flap live jafferis2016

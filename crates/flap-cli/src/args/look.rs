@@ -1,4 +1,4 @@
-//! Commands that summarize results: `top`, `describe`.
+//! Arguments of commands that summarize results: `flap top` and `flap describe`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ pub(crate) struct TopArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: String,
 
-    /// Number of rows
+    /// Number of rows to list
     #[arg(short = 'n', long, value_name = "N", default_value = "10", value_parser = values::rows)]
     pub(crate) rows: NonZeroUsize,
 
@@ -28,8 +28,8 @@ pub(crate) struct TopArgs {
 
 const TOP_HELP: &str = "\
 Lists the varied and derived parameters of the best rows, the column that ranks them, and their status. The table shows \
-six digits and prefixes of units; csv and json have the cells of FILE. Rows without a value are left out, and of equal rows \
-the first ones come first. Of an unfinished file, the rows up to the last checkpoint are ranked.
+six digits and prefixes of units; csv and json contain the cells of FILE. Rows without a value are left out. Rows with equal \
+values keep their order. If FILE is unfinished, the rows up to the last checkpoint are ranked.
 
 Examples:
   flap top sweep.csv --by efficiency_gf_per_w
@@ -45,8 +45,9 @@ pub(crate) struct DescribeArgs {
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 
-    /// Columns whose percentiles are listed, separated by commas; of a column of words, such as true and false, each is
-    /// counted [default: all behind the parameters]
+    /// Columns to summarize, separated by commas [default: all columns after the parameters]
+    ///
+    /// Columns of numbers are summarized by percentiles. In columns of words, such as true and false, each word is counted.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -55,11 +56,11 @@ pub(crate) struct DescribeArgs {
 }
 
 const DESCRIBE_HELP: &str = "\
-Prints three kinds of tables. First: the number of rows of each status. Second: the smallest value, the 5th, 50th and 95th \
-percentile and the largest value of each measure. Third, for each main measure: the best row, with the value of each axis \
-there, and the values of the axis among the best tenth of the rows. A wide range there means that the axis matters little; \
-`at the end` means that a wider axis may hold better designs. An axis is a varied parameter, and in results of \
-`flap respond` also the branch.
+Prints three kinds of tables. The first has the number of rows of each status. The second has the smallest value, the 5th, \
+50th and 95th percentile and the largest value of each measure. The third, for each main measure, has the best row with the \
+value of each axis, and the values of the axis among the best tenth of the rows. If that range is wide, the axis matters \
+little. `at the end` means that a wider axis may contain better designs. An axis is a varied parameter; in results of \
+`flap respond`, the branch is an axis too.
 
 Examples:
   flap describe sweep.csv
@@ -73,12 +74,14 @@ pub(crate) struct LookArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// The better direction [default: min for power, current, strain, field, drag and force, max for other columns]
+    /// Better direction of the measure [default: min for power, current, strain, field, drag and force, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 
-    /// Use only rows with this value (a number as in the file, a number with a unit, or a word), or for which this
-    /// comparison holds: 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. May be repeated
+    /// Use only the rows that satisfy this condition. May be repeated
+    ///
+    /// COLUMN=VALUE takes a number as in the file, a number with a unit, or a word. A comparison may have several parts, as in
+    /// 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 

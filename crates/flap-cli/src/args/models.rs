@@ -1,12 +1,14 @@
-//! `flap models`.
+//! Arguments of `flap models`.
 
 use super::options::OutputFormat;
 
 #[derive(clap::Args)]
 #[command(after_help = HELP)]
 pub(crate) struct ModelsArgs {
-    /// Models, presets, devices and grid files, whose parameters and columns are listed; parameters, columns, settings
-    /// and statuses, which are explained [default: list the models and their presets]
+    /// Names to list or explain [default: list the models and their presets]
+    ///
+    /// For a model, a preset, a device file or a grid file, flap lists parameters and columns.
+    /// For a parameter, a column, a setting or a status, it prints the meaning.
     #[arg(value_name = "NAME|FILE")]
     pub(crate) names: Vec<String>,
 
@@ -14,11 +16,13 @@ pub(crate) struct ModelsArgs {
     #[arg(long, value_name = "MODEL|PRESET", requires = "names")]
     pub(crate) model: Option<String>,
 
-    /// Print whole meanings, not their first sentences, and the symbols and allowed values of parameters
+    /// Print whole meanings instead of first sentences, and the symbols and allowed values of parameters
     #[arg(long, requires = "names")]
     pub(crate) long: bool,
 
-    /// Output format: csv and json have all texts, and the values of parameters in SI units
+    /// Output format
+    ///
+    /// csv and json contain the whole meanings, and the values of parameters in SI units.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }

@@ -1,4 +1,4 @@
-//! Groups of options that several commands have.
+//! Options that several commands have.
 
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -10,14 +10,14 @@ use flap_sweep::table::labels::{self, Direction};
 
 use super::values::{assignment, count, interval, positive, threads, tolerance};
 
-/// The choice of a design point.
+/// Options that choose a design point.
 #[derive(clap::Args)]
 pub(crate) struct PointArgs {
-    /// A preset, a device or a grid file; `-` for a grid from stdin
+    /// Preset, device file or grid file; `-` reads a grid from stdin
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
-    /// Index of the point in the grid file, from 0
+    /// Index of the point in the grid file, counted from 0
     #[arg(short, long, value_name = "I", default_value_t = 0)]
     pub(crate) point: u64,
 
@@ -26,44 +26,43 @@ pub(crate) struct PointArgs {
     pub(crate) set: Vec<(String, String)>,
 }
 
-/// Settings of the solver.
+/// Options that set the solver.
 #[derive(clap::Args, Default)]
 pub(crate) struct SolverArgs {
-    /// Relative tolerance of the integrator; the absolute tolerance becomes a hundredth of it
+    /// Relative tolerance of the integrator; the absolute tolerance is set to a hundredth of it
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 
-    /// Largest estimated relative error of a row; points whose rows exceed it are integrated again with a smaller
-    /// tolerance
+    /// Largest estimated relative error of a row; points that exceed it are integrated again with a smaller tolerance
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
-    /// Change of the state per drive period below which an orbit counts as settled
+    /// Largest change of the state per drive period at which an orbit counts as settled
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 
-    /// Drive periods after which a point counts as unsettled
+    /// Number of drive periods after which a point counts as unsettled
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) max_cycles: Option<u32>,
 }
 
-/// Settings of a sweep's work: threads and checkpoints.
+/// Options of a sweep: threads, exit code and checkpoints.
 #[derive(clap::Args)]
 pub(crate) struct WorkArgs {
     /// Number of worker threads; it does not change the rows [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
-    /// Exit with 1 if some points are not periodic
+    /// Exit with code 1 if some points are not periodic
     #[arg(long)]
     pub(crate) strict: bool,
 
-    /// Time between checkpoints: the most work that a killed sweep repeats
+    /// Time between checkpoints; a sweep that was killed repeats at most this much work
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
     pub(crate) checkpoint: Duration,
 }
 
-/// Options of commands that write small files.
+/// The option of commands that write small files.
 #[derive(clap::Args)]
 pub(crate) struct OverwriteArgs {
     /// Overwrite existing files
@@ -71,11 +70,12 @@ pub(crate) struct OverwriteArgs {
     pub(crate) force: bool,
 }
 
-/// Options of commands that begin or continue results.
+/// Options of commands that start or continue results.
 #[derive(clap::Args)]
 pub(crate) struct BeginArgs {
-    /// Start over, and replace existing results when the new ones are complete. Until then the new ones have another
-    /// name, as in results.new.csv
+    /// Start over, and replace existing results when the new ones are complete
+    ///
+    /// Until then, the new results have a name such as results.new.csv.
     #[arg(short = 'f', long, visible_alias = "force")]
     pub(crate) restart: bool,
 
@@ -84,7 +84,7 @@ pub(crate) struct BeginArgs {
 }
 
 impl BeginArgs {
-    /// The treatment of results that are there already.
+    /// Returns the treatment of existing results.
     pub(crate) fn treatment(&self) -> Begin {
         if self.restart { Begin::Restart } else { Begin::Continue }
     }
@@ -93,7 +93,7 @@ impl BeginArgs {
 /// The format in which a command prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutputFormat {
-    /// Aligned columns with six digits, to be read
+    /// Aligned columns with six digits
     Table,
     /// Comma-separated values with all digits
     Csv,
@@ -111,22 +111,22 @@ pub(crate) enum Aim {
 }
 
 impl Aim {
-    /// The better direction of the column called `name`: that of its label, else larger values.
+    /// Returns the better direction of the column `name`: the direction in its label, else larger values.
     pub(crate) fn of(name: &str) -> Aim {
         if labels::better(name) == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
     }
 }
 
-/// Options of commands that read results.
+/// The option of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {
-    /// Use the readable rows of damaged results
+    /// If results are damaged, use the rows that can be read
     #[arg(long)]
     ignore_damage: bool,
 }
 
 impl ReadArgs {
-    /// The treatment of damage.
+    /// Returns the treatment of damaged results.
     pub(crate) fn on_damage(&self) -> OnDamage {
         if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
     }

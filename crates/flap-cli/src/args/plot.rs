@@ -1,4 +1,4 @@
-//! `flap plot`.
+//! Arguments of `flap plot`.
 
 use std::path::PathBuf;
 
@@ -10,55 +10,59 @@ use super::options::{Aim, OverwriteArgs, ReadArgs};
 #[derive(clap::Args)]
 #[command(after_help = PLOT_HELP)]
 pub(crate) struct PlotArgs {
-    /// Results of `flap sweep`, `flap respond --out` or `flap results`, or a trajectory of `flap run`
+    /// Results of `flap sweep`, `flap respond --out` or `flap results`, a trajectory of `flap run`, or a matrix of `flap vehicle`
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// File for the picture; the ending chooses the format: .svg or .png [default: FILE's name with the ending
-    /// .svg, in the working directory; none with --html]
+    /// File for the picture; the ending chooses the format: .svg or .png [default: FILE's name with the ending .svg, in
+    /// the working directory; no picture with --html]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// File for a page to explore in a browser: choose columns, filter rows, read their values. It needs no network
+    /// File for a page to explore in a browser
+    ///
+    /// On the page you choose columns, filter rows and read their values. It works without a network.
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
 
-    /// Kind of picture [default: the one that fits the columns of the file, see below]
+    /// Kind of picture [default: depends on the columns of the file, see below]
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
-    /// Column of the horizontal axis; the measure of a histogram or a tornado
+    /// Column on the horizontal axis; for a histogram or a tornado, the measure
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) x: Option<String>,
 
-    /// Column of the vertical axis
+    /// Column on the vertical axis
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) y: Option<String>,
 
-    /// One line for each value of this column
+    /// Draw one line for each value of this column
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
-    /// Column shown as the colour of the cells of a map, or of the points of a scatter or a Pareto picture
+    /// Column shown as colour: of the cells of a map, or of the points of a scatter or Pareto picture
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
-    /// Draw only the rows with this value (a number as in the file, a number with a unit, or a word), or for which this
-    /// comparison holds: 'lift_mean_mn > 1 and cycles < 100'. May be repeated. An axis of the sweep that the picture does
-    /// not show is fixed at its middle value, unless its value is given here
+    /// Use only the rows that satisfy this condition. May be repeated
+    ///
+    /// COLUMN=VALUE takes a number as in the file, a number with a unit, or a word. A comparison may have several parts, as in
+    /// 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep, flap fixes the axis
+    /// at its middle value. --where chooses another value.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// The better direction of x in a Pareto picture [default: min for power, current, strain, field, drag and force,
+    /// Better direction of x in a Pareto picture [default: min for power, current, strain, field, drag and force,
     /// max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// The better direction of y in a Pareto picture [default: as for x]
+    /// Better direction of y in a Pareto picture [default: as for x]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
-    /// Heading [default: the name of the file]
+    /// Heading of the picture [default: the name of the file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
@@ -74,7 +78,7 @@ pub(crate) struct PlotArgs {
 }
 
 impl PlotArgs {
-    /// The columns that must have a value, with it.
+    /// Returns the conditions `COLUMN=VALUE` as names and values.
     pub(crate) fn values(&self) -> Vec<(String, String)> {
         let value = |filter: &Filter| match filter {
             Filter::Equal(name, value) => Some((name.clone(), value.clone())),
@@ -83,7 +87,7 @@ impl PlotArgs {
         self.filters.iter().filter_map(value).collect()
     }
 
-    /// The comparisons that rows must satisfy.
+    /// Returns the conditions that are comparisons.
     pub(crate) fn comparisons(&self) -> Vec<Filter> {
         self.filters.iter().filter(|filter| matches!(filter, Filter::Comparison(_))).cloned().collect()
     }
@@ -92,34 +96,34 @@ impl PlotArgs {
 /// The kind of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PictureKind {
-    /// A measure over a parameter, one line for each value of another
+    /// A measure over a parameter, with one line for each value of another column
     Response,
     /// A measure as the colour of cells over two parameters
     Map,
-    /// Two measures of every design as points, in the colours of a third
+    /// Two measures of every design as points, coloured by a third
     Scatter,
-    /// The number of designs over a measure, with the percentiles 5, 50 and 95
+    /// The number of designs over a measure, with the 5th, 50th and 95th percentile
     Histogram,
-    /// The rank correlation (Spearman) of each parameter that varies with a measure, as bars
+    /// The rank correlation (Spearman) of a measure with each varied parameter, as bars
     Tornado,
-    /// Two measures of every design, and the Pareto front: the designs that no other design beats in both
+    /// Two measures of every design with the Pareto front: the designs that no other design beats in both
     Pareto,
-    /// Stroke and pitch over time, and their phase portrait: rates over angles
+    /// Stroke and pitch over time, and their phase portrait (rates over angles)
     Trajectory,
-    /// The branches up and down of a response, unstable orbits dashed
+    /// The branches up and down of a response, with unstable orbits dashed
     Hysteresis,
-    /// The effect of each input of a vehicle on force and torque, as `flap vehicle --format csv` writes it
+    /// The effect of each input of a vehicle on force and torque, from the output of `flap vehicle --format csv`
     Matrix,
 }
 
 impl PictureKind {
-    /// The name on the command line.
+    /// Returns the name on the command line.
     pub(crate) fn name(self) -> String {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
 }
 
-/// Width and height of a picture (pixels).
+/// The size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Size {
     pub(crate) width: f64,
@@ -127,14 +131,14 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-The default of --kind is `hysteresis` for results of `flap respond`, `trajectory` for a motion, `matrix` for what `flap vehicle \
---format csv` writes, `scatter` for a sample, \
-`response` for a sweep of one parameter or of the drive frequency and others, `map` for other sweeps of two or more \
-parameters. With measures as --x and --y it is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
+If --kind is not given, flap chooses it from the file: `hysteresis` for results of `flap respond`, `trajectory` for a motion, \
+`matrix` for the output of `flap vehicle --format csv`, and `scatter` for a sample. A sweep of one parameter, or of the drive \
+frequency and other parameters, gives `response`. Other sweeps of two or more parameters give `map`. If --x and --y are \
+measures, the kind is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
 
-Without names of columns, a scatter or a Pareto picture shows the mean lift over the mean power, a scatter in the colours \
-of the stroke from peak to peak; a histogram or a tornado shows the mean lift. Another measure of the file takes the place \
-of one that is missing. An axis that is crossed with a sample is fixed at its middle value.
+If no columns are given, a scatter or Pareto picture shows the mean lift over the mean power. A scatter is coloured by the \
+peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file does not have these measures, flap takes \
+others. If a sample is crossed with an axis, the axis is fixed at its middle value.
 
 Examples:
   flap plot sweep.csv
@@ -146,7 +150,7 @@ Examples:
   flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
   flap plot sweep.parquet --html sweep.html";
 
-/// Width and height from `WxH` (pixels), each from 200 to 4000.
+/// Parses a size `WxH` (pixels); both numbers are from 200 to 4000.
 fn size(text: &str) -> Result<Size, String> {
     let number = |text: &str| text.trim().parse::<u16>().ok().filter(|side| (200..=4000).contains(side));
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| number(w).zip(number(h)));

@@ -1,4 +1,4 @@
-//! `flap respond`.
+//! Arguments of `flap respond`.
 
 use std::path::PathBuf;
 
@@ -8,23 +8,25 @@ use super::values::assignment;
 #[derive(clap::Args)]
 #[command(after_help = RESPOND_HELP)]
 pub(crate) struct RespondArgs {
-    /// A preset, or a grid file: each of its points, without the axis that is followed, is a design with a curve
+    /// Preset, device file or grid file; `-` reads a grid from stdin
+    ///
+    /// Each point of the grid, without the followed axis, is a design with its own curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
-    /// The parameter that rises and falls
+    /// Parameter that rises and falls
     #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
-    /// Its first value: a number in SI units, or with a unit [default: the first value of the grid file's axis]
+    /// First value: a number in SI units, or with a unit [default: the first value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) from: Option<String>,
 
-    /// Its last value [default: the last value of the grid file's axis]
+    /// Last value [default: the last value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) to: Option<String>,
 
-    /// The step from one value to the next [default: the steps of the grid file's axis]
+    /// Step between values [default: the steps of the grid file's axis]
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
@@ -32,22 +34,23 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
-    /// Continue the branches of bistable bands around their ends: adds the unstable orbits between them, as rows of the
-    /// branch `unstable`
+    /// Continue the branches around the ends of bistable bands
+    ///
+    /// This adds the unstable orbits between the branches, as rows of the branch `unstable`.
     #[arg(long)]
     pub(crate) unstable: bool,
 
-    /// Set a parameter of all designs: a number in SI units, a number with a unit, or an option. May be repeated
+    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// Write the motions, a row each, to a file, or to stdout with `-`. The ending chooses the format: .csv, .csv.zst or
-    /// .parquet
+    /// File for the rows, one per motion; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Output format of the summary: csv and json have one row per band in which a design is bistable, or its motions are
-    /// not periodic
+    /// Output format of the summary
+    ///
+    /// csv and json have one row per band in which the design is bistable or its motions are not periodic.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -59,15 +62,15 @@ pub(crate) struct RespondArgs {
 }
 
 const RESPOND_HELP: &str = "\
-The parameter first rises, then falls. The first point of each way starts at rest, every other one from the settled \
-motion of the point before it. Where the way up and the way down settle to different motions, the design is bistable. \
-Steps with an end of such a band in them are halved, and so are steps in which the motion changes by more than a tenth, where a narrow \
-band may be. One line per design summarizes its response; it goes to stdout, \
-with --out - to stderr.
+The parameter first rises, then falls. The first point of each branch starts at rest. Every other point starts from the \
+settled motion of the point before it. If the branches up and down settle to different motions, the design is bistable. \
+flap halves a step if a bistable band ends in it, or if the motion changes by more than a tenth, since it may hide a narrow \
+band. The summary has one line per design. It is printed to stdout; with `--out -`, to stderr.
 
-Rows leave in the order of the designs, a whole curve at a time. Ctrl-C and SIGTERM give the running curves half a \
-second to finish, keep the rows and exit with 130; a second one exits at once. Beside FILE, FILE.meta.toml records the command's \
-options. Until all curves are there, FILE.journal records the progress. Whatever ended the run, the same command continues it.
+Rows are written in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, running curves have half \
+a second to finish. flap keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
+FILE, records the command's options. Until all curves are complete, FILE.journal records the progress. If a run was \
+interrupted, run the same command again to continue it.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

@@ -1,4 +1,4 @@
-//! Commands on results: `results resume`, `rerun`, `merge`, `convert`, `verify`.
+//! Arguments of `flap results resume`, `rerun`, `merge`, `convert` and `verify`.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use super::values::status;
 
 #[derive(Subcommand)]
 pub(crate) enum ResultsCommand {
-    /// Continue an interrupted sweep with the grid that its results recorded
+    /// Continue an interrupted sweep with the grid that its sidecar records
     Resume(ResumeArgs),
     /// Run points of earlier results again with other solver settings
     Rerun(RerunArgs),
@@ -25,19 +25,21 @@ pub(crate) enum ResultsCommand {
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
 pub(crate) struct VerifyArgs {
-    /// Results with their sidecars beside them
+    /// Result files, with their sidecars (FILE.meta.toml) beside them
     #[arg(value_name = "FILE", required = true)]
     pub(crate) results: Vec<PathBuf>,
 
-    /// Output format: `table` prints a line per file
+    /// Output format
+    ///
+    /// `table` prints one line per file.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const VERIFY_HELP: &str = "\
-Compares each FILE with the checksums in FILE.meta.toml and prints one line: the file is sound, or which of its rows are \
-damaged. An unfinished file is compared as far as its journal goes. Rows are counted from 1, in blocks of 256. If a row \
-is missing or added, all rows behind it count as damaged.
+Compares each FILE with the checksums in its sidecar FILE.meta.toml and prints one line per file: the file is sound, or \
+these rows are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
+256. If a row is missing or added, all rows after it count as damaged.
 
 Exit codes:
   0    all files are sound
@@ -51,7 +53,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
 pub(crate) struct ResumeArgs {
-    /// The unfinished results
+    /// Unfinished results, with their sidecar (FILE.meta.toml) beside them
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
@@ -63,9 +65,9 @@ pub(crate) struct ResumeArgs {
 }
 
 const RESUME_HELP: &str = "\
-Continues after the last row of FILE that its journal covers. The finished file has the same bytes as that of a sweep without \
-interruption. The grid is the one in FILE.meta.toml. Refuses if another build of flap or another kind of machine began \
-the sweep, or if complete results are damaged.
+Continues after the last row of FILE that its journal records. The finished file has the same bytes as a sweep without \
+interruption. The grid is read from FILE.meta.toml. flap stops with an error if another build of flap or another kind \
+of machine started the sweep, or if complete results are damaged.
 
 Example:
   flap results resume results/run1.csv";
@@ -73,11 +75,11 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RERUN_HELP)]
 pub(crate) struct RerunArgs {
-    /// Results with their sidecar beside them
+    /// Earlier results, with their sidecar (RESULTS.meta.toml) beside them
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
-    /// Run the points with one of these statuses again
+    /// Run the points with these statuses again, separated by commas
     #[arg(
         long,
         value_name = "STATUS,...",
@@ -87,11 +89,11 @@ pub(crate) struct RerunArgs {
     )]
     pub(crate) status: Vec<Status>,
 
-    /// Run the points whose `error_estimate` exceeds the accuracy of RESULTS again
+    /// Run the points again whose `error_estimate` exceeds the accuracy of RESULTS
     #[arg(long)]
     pub(crate) inaccurate: bool,
 
-    /// File for the new rows. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: PathBuf,
 
@@ -106,7 +108,7 @@ pub(crate) struct RerunArgs {
 }
 
 const RERUN_HELP: &str = "\
-The new rows keep the point indices of RESULTS. Solver settings that are not given are those of RESULTS.
+The new rows keep the point indices of RESULTS. Solver settings that you do not give are taken from RESULTS.
 
 Examples:
   flap results rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
@@ -116,15 +118,15 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct MergeArgs {
-    /// File for all rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
+    /// File for the rows; `-` prints CSV to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
-    /// The results of every shard, with their sidecars beside them
+    /// Results of all shards, with their sidecars (SHARD.meta.toml) beside them
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
-    /// Merge shards that several builds of flap computed. The sidecar of OUT names all of them
+    /// Merge shards that different builds of flap computed; the sidecar of OUT lists the builds
     #[arg(long)]
     pub(crate) mixed_builds: bool,
 
@@ -136,9 +138,9 @@ pub(crate) struct MergeArgs {
 }
 
 const MERGE_HELP: &str = "\
-OUT has the same bytes as a sweep on one machine. Refuses if a shard is missing, unfinished, damaged, given twice or part of \
-another sweep. Merging runs no model: shards of another build of flap keep its name in OUT.meta.toml. Shards of several \
-builds need --mixed-builds, since their rows may differ.
+OUT has the same bytes as a sweep on one machine. flap stops with an error if a shard is missing, unfinished, damaged, given \
+twice, or part of another sweep. Merging runs no model. If another build of flap computed the shards, OUT.meta.toml records \
+that build. If several builds computed them, their rows may differ, so --mixed-builds is required.
 
 Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
@@ -146,11 +148,11 @@ Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`
 #[derive(clap::Args)]
 #[command(after_help = CONVERT_HELP)]
 pub(crate) struct ConvertArgs {
-    /// Results with their sidecar beside them
+    /// Results, with their sidecar (IN.meta.toml) beside them
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
-    /// File for the same rows: .csv, .csv.zst, .parquet, or `-` for CSV to stdout
+    /// File for the rows; `-` prints CSV to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(value_name = "OUT")]
     pub(crate) to: PathBuf,
 
@@ -162,7 +164,7 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-OUT has the same bytes as a sweep that writes this format. Of unfinished results, the rows up to the last checkpoint are \
+OUT has the same bytes as a sweep that writes this format. If IN is unfinished, the rows up to the last checkpoint are \
 converted.
 
 Examples:

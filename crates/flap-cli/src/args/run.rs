@@ -1,4 +1,4 @@
-//! `flap run`.
+//! Arguments of `flap run`.
 
 use std::path::PathBuf;
 
@@ -12,25 +12,28 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// CSV file with the waveform of the drive, in place of drive_shape: columns time_s (or time_ms) and wave. The
-    /// file's duration is the drive period, unless drive_frequency is set
+    /// CSV file with the waveform of the drive, which replaces drive_shape
+    ///
+    /// Columns: time_s (or time_ms) and wave. The duration of the file is the drive period, unless drive_frequency is set.
     #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
     pub(crate) waveform: Option<PathBuf>,
 
-    /// CSV file with a prescribed stroke: columns time_s (or time_ms) and stroke_deg (or stroke_rad). The
-    /// file's duration is the drive period, unless drive_frequency is set
+    /// CSV file with a prescribed stroke
+    ///
+    /// Columns: time_s (or time_ms) and stroke_deg (or stroke_rad).
+    /// The duration of the file is the drive period, unless drive_frequency is set.
     #[arg(long, value_name = "FILE")]
     pub(crate) stroke: Option<PathBuf>,
 
-    /// Follow the waveform or stroke once, from rest, instead of repeating it
+    /// Follow the waveform or the stroke once from rest, without repeating it
     #[arg(long, requires = "trajectory")]
     pub(crate) once: bool,
 
-    /// CSV file for the motion over time; the summary is printed as well. `-` prints the motion instead
+    /// CSV file for the motion over time; `-` prints it to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Drive periods of the trajectory
+    /// Number of drive periods in the trajectory
     #[arg(long, value_name = "N", default_value_t = 2, requires = "trajectory",
           value_parser = value_parser!(u32).range(1..=100_000))]
     pub(crate) cycles: u32,
@@ -44,12 +47,15 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
-    /// Print the ten parameters by which this measure of the settled motion changes most, in its unit per per cent of the
-    /// parameter
+    /// Print the ten parameters that change this measure most
+    ///
+    /// The changes are of the settled motion, in the measure's unit per 1 % of the parameter.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) gradient: Option<String>,
 
-    /// Output format. With --gradient, csv and json have the derivatives in place of the measures
+    /// Output format
+    ///
+    /// With --gradient, csv and json contain the derivatives instead of the measures.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 

@@ -1,4 +1,4 @@
-//! Commands on grid files: `sweep`, `check`.
+//! Arguments of commands on grid files: `flap sweep` and `flap check`.
 
 use std::path::{Path, PathBuf};
 
@@ -9,23 +9,25 @@ use super::options::{BeginArgs, OutputFormat};
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
 pub(crate) struct SweepArgs {
-    /// The grid file: preset, parameters and axes; `-` for stdin. The sidecar of earlier results (.meta.toml) repeats
-    /// their sweep
+    /// Grid file: preset, parameters and axes; `-` reads a grid from stdin
+    ///
+    /// The sidecar of earlier results (FILE.meta.toml) repeats their sweep.
     #[arg(value_name = "GRID", required_unless_present = "named_grid")]
     first_grid: Option<PathBuf>,
 
-    /// The grid file, as an option
+    /// Grid file, given as an option
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 
-    /// File for the rows, or `-` for stdout [default: the output path in the grid file, else the grid
-    /// file's name with the ending .csv, in the working directory]. The ending chooses the format: .csv, .csv.zst or
-    /// .parquet
+    /// File for the rows; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// [default: `path` in [output] of the grid file, else the grid file's name with the ending .csv, in the working
+    /// directory]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Run only part I of N equal parts, so that several machines can share a sweep; `flap results merge` joins the parts.
-    /// Without --out, the rows go to a file such as grid.2of8.csv
+    /// Run part I of N equal parts, so that several machines can share a sweep
+    ///
+    /// `flap results merge` joins the parts. Without --out, the rows are written to a file such as grid.2of8.csv.
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
 
@@ -34,18 +36,18 @@ pub(crate) struct SweepArgs {
 }
 
 impl SweepArgs {
-    /// The grid file, however it is named.
+    /// Returns the path of the grid file.
     pub(crate) fn grid(&self) -> &Path {
         self.first_grid.as_deref().or(self.named_grid.as_deref()).unwrap_or(Path::new(""))
     }
 }
 
 const SWEEP_HELP: &str = "\
-Rows are written in the order of the points, as soon as they are computed. Ctrl-C or SIGTERM gives the running points \
-half a second to finish, keeps the rows and exits with 130; a second one exits at once. Beside FILE, \
-FILE.meta.toml (the sidecar) records the origin of the rows. Until the sweep is complete, FILE.journal records its \
-progress. Whatever ended a sweep, the same command continues it, and runs nothing if all rows are there. Rows of another grid \
-or of another build of flap are not replaced without --restart.
+Rows are written in the order of the points, as soon as they are computed. After Ctrl-C or SIGTERM, running points have half \
+a second to finish. flap keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml (the \
+sidecar), beside FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records its progress. If a \
+sweep was interrupted, run the same command again to continue it. If all rows exist, the command runs nothing. Rows of \
+another grid or of another build of flap are replaced only with --restart.
 
 Examples:
   flap sweep grid.toml
@@ -59,20 +61,24 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = CHECK_HELP)]
 pub(crate) struct CheckArgs {
-    /// The grid file; `-` for stdin. Files that a grid from stdin names are relative to the working directory
+    /// Grid file; `-` reads a grid from stdin
+    ///
+    /// If a grid from stdin names files, their paths are relative to the working directory.
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// Output format: csv and json have one value per row, with its section, name and key
+    /// Output format
+    ///
+    /// csv and json have one value per row, with its section, name and key.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const CHECK_HELP: &str = "\
 Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and an estimate \
-of the time that the sweep takes. For the estimate, it runs up to 256 points for about a second. Lists the parameters \
-that differ from the preset, and warns of values more than a hundred times larger or smaller. Of a grid of more than a \
-million points, it counts excluded points among a million of them.
+of the time that the sweep takes. For the estimate, flap runs up to 256 points for about a second. The command lists the \
+parameters that differ from the preset, and warns if a value is more than a hundred times larger or smaller. If a grid has \
+more than a million points, excluded points are counted in a sample of a million points.
 
 Examples:
   flap check grid.toml

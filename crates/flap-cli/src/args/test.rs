@@ -1,4 +1,4 @@
-//! Experiments on one wing: `test chirp`, `impulse`, `resonance`, `lift`, `track`.
+//! Arguments of experiments on one wing: `flap test chirp`, `impulse`, `resonance`, `lift` and `track`.
 
 use std::path::PathBuf;
 
@@ -9,13 +9,13 @@ use super::values::{finite, frequency, impulse, positive, time};
 
 #[derive(Subcommand)]
 pub(crate) enum TestCommand {
-    /// Sweep the drive frequency from rest, and print a row per drive period
+    /// Sweep the drive frequency from rest, and print one row per drive period
     Chirp(ChirpArgs),
-    /// Give the resting stroke an impulse, and compute the free motion
+    /// Compute the free motion after an impulse on the resting stroke
     Impulse(ImpulseArgs),
-    /// Compare the resonances of a design point: linear, free and driven
+    /// Compare the linear, free and driven resonances of a design point
     Resonance(ResonanceArgs),
-    /// Compute the forces on a wing whose stroke and pitch are given, as filmed
+    /// Compute the forces on a wing from its measured stroke and pitch
     Lift(LiftArgs),
     /// Compute stroke, pitch and rotation centre of a filmed wing from tracked points
     Track(TrackArgs),
@@ -35,15 +35,17 @@ pub(crate) struct ChirpArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Rate of change of the frequency (Hz/s); negative for a falling chirp. A chirp has at most 100,000 drive periods
+    /// Rate of change of the frequency (Hz/s); negative for a falling chirp
+    ///
+    /// A chirp has at most 100,000 drive periods.
     #[arg(long, value_name = "HZ/S", default_value_t = 15.0, value_parser = finite, allow_negative_numbers = true)]
     pub(crate) rate: f64,
 
-    /// CSV file for the rows per drive period [default: stdout, in the format of --format]
+    /// CSV file for the rows, one per drive period [default: stdout, in the format of --format]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// CSV file for the motion over time, or `-` for stdout in place of the rows
+    /// CSV file for the motion over time; `-` prints it to stdout instead of the rows
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -74,8 +76,10 @@ pub(crate) struct ImpulseArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping:
-    /// `20 deg` is a stroke rate of 2 pi f_1 20 deg
+    /// Size of the impulse on the stroke, as an angle
+    ///
+    /// The angle is the amplitude that the first mode alone would reach without damping. For example, `20 deg` is a
+    /// stroke rate of 2 pi f_1 20 deg, with the frequency f_1 of the first mode.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) amplitude: f64,
 
@@ -83,11 +87,11 @@ pub(crate) struct ImpulseArgs {
     #[arg(long, value_name = "TIME", value_parser = time)]
     pub(crate) duration: Option<f64>,
 
-    /// CSV file for the motion over time, or `-` for stdout in place of the summary
+    /// CSV file for the motion over time; `-` prints it to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Samples per period of the first mode, at least
+    /// Smallest number of samples per period of the first mode
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
 
@@ -103,7 +107,7 @@ pub(crate) struct ImpulseArgs {
 }
 
 const IMPULSE_HELP: &str = "\
-The drive is held still.
+The drive is held at the voltage at which the wing rests with zero stroke and pitch: see the manual, How to, Resonance.
 
 Examples:
   flap test impulse ozaki2018-small
@@ -115,11 +119,13 @@ pub(crate) struct ResonanceArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Size of the impulse on the stroke, as the amplitude that the first mode alone would reach without damping
+    /// Size of the impulse on the stroke, as an angle
+    ///
+    /// The angle is the amplitude that the first mode alone would reach without damping.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 
-    /// Periods of the first mode to which the damped sine is fitted
+    /// Number of periods of the first mode to which the damped sine is fitted
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(2..=1000))]
     pub(crate) window_cycles: u32,
 
@@ -149,8 +155,8 @@ pub(crate) struct ResonanceArgs {
 
 const RESONANCE_HELP: &str = "\
 Prints three kinds of resonance. Linear: the natural frequencies of small undamped motions. Free: a damped sine and the \
-peaks of a spectrum, both of the motion after an impulse on the resting stroke. Driven: the drive frequencies at which \
-the settled stroke is largest, at the point's own voltage.
+peaks of a spectrum, both from the motion after an impulse on the resting stroke. Driven: the drive frequencies at which \
+the settled stroke has a peak, at the point's own voltage.
 
 Examples:
   flap test resonance ozaki2018-large
@@ -163,19 +169,21 @@ pub(crate) struct LiftArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// CSV file with the motion: columns time_s (or time_ms), stroke_deg (or stroke_rad), pitch_deg (or pitch_rad)
+    /// CSV file with the motion of the wing
+    ///
+    /// Columns: time_s (or time_ms), stroke_deg (or stroke_rad) and pitch_deg (or pitch_rad).
     #[arg(value_name = "MOTION")]
     pub(crate) motion: PathBuf,
 
-    /// The motion is one period: its last sample is the first of the next period
+    /// Treat the motion as one period; its last sample is the first sample of the next period
     #[arg(long)]
     pub(crate) periodic: bool,
 
-    /// CSV file for motion and forces over time, or `-` for stdout in place of the summary
+    /// CSV file for motion and forces over time; `-` prints them to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Number of samples from the beginning of the motion to its end
+    /// Number of samples from the beginning to the end of the motion
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
     pub(crate) samples: u32,
 
@@ -188,8 +196,8 @@ pub(crate) struct LiftArgs {
 }
 
 const LIFT_HELP: &str = "\
-Angles follow the conventions of the model, see docs/models/direct-drive.md. Between samples the motion is a cubic spline. Its \
-acceleration amplifies the noise of the samples, so smooth them first.
+Angles follow the conventions of the model: see the manual, Models, Direct drive. Between samples, the motion is a cubic \
+spline. Its acceleration amplifies the noise of the samples, so smooth them first.
 
 Examples:
   flap test lift ozaki2018-small motion.csv --trajectory forces.csv
@@ -198,16 +206,18 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = TRACK_HELP)]
 pub(crate) struct TrackArgs {
-    /// CSV file with the points of every image: columns root_x, root_y, tip_x, tip_y of the leading edge, and edge_x,
-    /// edge_y of a point of the lower edge for the pitch, all in one unit; and time_s or time_ms
+    /// CSV file with the tracked points of every image
+    ///
+    /// Columns: time_s (or time_ms), and root_x, root_y, tip_x, tip_y of the leading edge.
+    /// For the pitch, edge_x and edge_y of a point on the lower edge. All lengths have the same unit.
     #[arg(value_name = "POINTS")]
     pub(crate) points: PathBuf,
 
-    /// Chord from the leading edge to the point of the lower edge, in the unit of the points
+    /// Chord from the leading edge to the point on the lower edge, in the unit of the points
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) chord: Option<f64>,
 
-    /// CSV file for stroke_deg and pitch_deg over time, or `-` for stdout [default: stdout, in the format of --format]
+    /// CSV file for stroke_deg and pitch_deg over time; `-` prints them to stdout [default: stdout, in the format of --format]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -220,8 +230,8 @@ pub(crate) struct TrackArgs {
 }
 
 const TRACK_HELP: &str = "\
-Uses the method of Ozaki and Hamaguchi 2018: the stroke is the angle from the x-axis to the leading edge, the pitch \
-follows from the projected chord (eq. 42), the centre of rotation is a least-squares fit (eq. 43).
+Uses the method of Ozaki and Hamaguchi 2018. The stroke is the angle from the x-axis to the leading edge. The pitch \
+follows from the projected chord (eq. 42). The rotation centre is a least-squares fit (eq. 43).
 
 Example:
   flap test track points.csv --chord 6.5 --out motion.csv";

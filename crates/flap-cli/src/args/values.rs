@@ -1,6 +1,6 @@
-//! Values of options: text into numbers, times, assignments.
+//! Parsers for the values of options: numbers, quantities, times and assignments.
 //!
-//! Every function returns the message for the user if the text is no such value.
+//! If the text is not a valid value, each function returns the message for the user.
 
 use std::num::NonZeroUsize;
 use std::time::Duration;
@@ -9,70 +9,70 @@ use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
 use flap_sweep::resonance::{self, LargeImpulse};
 
-/// A parameter's name and its value from `name=value`, both without surrounding blanks.
+/// Parses `name=value` and returns both parts without surrounding blanks.
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
-/// A length (m) of zero or more.
+/// Parses a length (m), zero or more.
 pub(super) fn length(text: &str) -> Result<f64, String> {
     size(text, "m", "2 mm")
 }
 
-/// A density (kg/m³).
+/// Parses a density (kg/m³), zero or more.
 pub(super) fn density(text: &str) -> Result<f64, String> {
     size(text, "kg/m^3", "1400 kg/m^3")
 }
 
-/// A mass per length (kg/m).
+/// Parses a mass per length (kg/m), zero or more.
 pub(super) fn line_density(text: &str) -> Result<f64, String> {
     size(text, "kg/m", "20 mg/m")
 }
 
-/// A mass (kg) of more than zero.
+/// Parses a mass (kg) of more than zero.
 pub(super) fn mass(text: &str) -> Result<f64, String> {
     size(text, "kg", "0.6 mg").and_then(|mass| {
         if mass > 0.0 { Ok(mass) } else { Err("the mass must be more than zero".to_owned()) }
     })
 }
 
-/// A quantity of zero or more in an SI unit.
+/// Parses a quantity of zero or more and returns it in `unit`, an SI unit.
 fn size(text: &str, unit: &str, example: &str) -> Result<f64, String> {
     let number = quantity(text, unit, example)?;
     if number >= 0.0 { Ok(number) } else { Err("expected zero or more".to_owned()) }
 }
 
-/// A number of threads from 1 to 1024.
+/// Parses a number of threads from 1 to 1024.
 pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     let number = text.parse::<NonZeroUsize>().ok().filter(|number| number.get() <= 1024);
     number.ok_or_else(|| "expected a whole number from 1 to 1024".to_owned())
 }
 
-/// A number of rows of 1 or more.
+/// Parses a number of rows, 1 or more.
 pub(super) fn rows(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "expected a whole number of 1 or more".to_owned())
 }
 
-/// A finite number greater than 0.
+/// Parses a finite number greater than 0.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| "expected a finite number more than zero".to_owned())
 }
 
-/// A whole number from 1 to 2^32 - 1.
+/// Parses a whole number from 1 to 2^32 - 1.
 pub(super) fn count(text: &str) -> Result<u32, String> {
     let number = text.parse().ok().filter(|number| *number > 0);
     number.ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
 }
 
-/// A finite number.
+/// Parses a finite number.
 pub(super) fn finite(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| "expected a finite number, such as 15".to_owned())
 }
 
-/// A tolerance greater than 0 and less than 0.1; a larger one has no meaning.
+/// Parses a tolerance greater than 0 and less than 0.1.
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "expected a number, such as 1e-6".to_owned())?;
     if number > 0.0 && number < 0.1 {
@@ -82,37 +82,37 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The size of an impulse: an angle with its unit, in radians.
+/// Parses the size of an impulse, an angle with its unit, and returns it in radians.
 pub(super) fn impulse(text: &str) -> Result<f64, String> {
     let angle = quantity(text, "rad", "20 deg")?;
     resonance::impulse(angle).map_err(|error| format!("{error}: {}", LargeImpulse::HELP))
 }
 
-/// A time with its unit, in seconds.
+/// Parses a time with its unit and returns it in seconds.
 pub(super) fn time(text: &str) -> Result<f64, String> {
     quantity(text, "s", "50 ms")
 }
 
-/// A frequency (Hz), with or without a unit.
+/// Parses a frequency with or without a unit and returns it in Hz.
 pub(super) fn frequency(text: &str) -> Result<f64, String> {
     units::parse_as(text, "").or_else(|_| quantity(text, "Hz", "120 Hz"))
 }
 
-/// A number with a unit of the same kind as `si_unit`, in that unit.
+/// Parses a number with a unit and returns it in `si_unit`.
 fn quantity(text: &str, si_unit: &str, example: &str) -> Result<f64, String> {
     units::parse_as(text, si_unit).map_err(|error| {
         format!("{}: write a number with a unit, such as `{example}`", error.message("the value"))
     })
 }
 
-/// A time from 0 to a day.
+/// Parses a time from 0 to a day.
 pub(super) fn interval(text: &str) -> Result<Duration, String> {
     let seconds = time(text)?;
     let allowed = Some(seconds).filter(|seconds| (0.0..=86_400.0).contains(seconds));
     allowed.map(Duration::from_secs_f64).ok_or_else(|| "must be from 0 s to 86400 s".to_owned())
 }
 
-/// The status of that name.
+/// Parses the name of a status.
 pub(super) fn status(text: &str) -> Result<Status, String> {
     let found = Status::ALL.into_iter().find(|status| status.name() == text);
     found.ok_or_else(|| {

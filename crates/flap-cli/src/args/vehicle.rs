@@ -1,4 +1,4 @@
-//! `flap vehicle`.
+//! Arguments of `flap vehicle`.
 
 use super::options::{OutputFormat, PointArgs, SolverArgs};
 use super::values::assignment;
@@ -9,16 +9,20 @@ pub(crate) struct VehicleArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Inputs, separated by commas: parameters of the vehicle, or words [default: amplitude, bias and, with
-    /// drive_shape = "harmonics", second_harmonic, each of all wings and as a left-right difference]
+    /// Inputs, separated by commas: parameters of the vehicle, or the words below
+    ///
+    /// By default: amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each is taken for all wings together
+    /// and as a left-right difference.
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 
-    /// Find the inputs near the point that give this force (mN) or torque (uN*m). May be repeated
+    /// Find inputs near the point that give this force (mN) or torque (uN*m). May be repeated
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = assignment)]
     pub(crate) trim: Vec<(String, String)>,
 
-    /// Output format: csv and json have the matrix with all digits
+    /// Output format
+    ///
+    /// csv and json contain the matrix with all digits.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -27,11 +31,12 @@ pub(crate) struct VehicleArgs {
 }
 
 const VEHICLE_HELP: &str = "\
-Prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], their changes with each input, and \
-the combinations of inputs that make them (singular values). Derivatives are exact, those of the settled motion.
+Prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and their changes with each input. \
+It also prints the combinations of inputs with the largest effects (singular values). The derivatives are exact \
+derivatives of the settled motion.
 
-Words for inputs: amplitude, bias, frequency, second_harmonic, second_phase, third_harmonic; with _difference behind for left \
-minus right, or with the name of a wing in front, as in left_amplitude.
+Words for inputs: amplitude, bias, frequency, second_harmonic, second_phase, third_harmonic. Append _difference for left \
+minus right, or prefix the name of a wing, as in left_amplitude.
 Components: force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw (uN*m). Roll > 0 lifts the left \
 side, pitch > 0 lowers the nose, yaw > 0 turns the nose to the left.
 

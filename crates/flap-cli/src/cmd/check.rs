@@ -1,4 +1,4 @@
-//! `flap check`: the sweep that a grid file describes.
+//! `flap check`: a summary of the sweep that a grid file describes.
 
 mod estimate;
 
@@ -33,10 +33,10 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Columns of the table for programs.
+/// Columns of the output in csv and json.
 const NAMES: [&str; 4] = ["section", "name", "key", "value"];
 
-/// The summary for programs, one value per row.
+/// Returns the summary with one value per row, for csv and json.
 fn rows(plan: &Plan) -> Vec<Vec<String>> {
     let row = |section: &str, name: &str, key: &str, value: String| {
         vec![section.to_owned(), name.to_owned(), key.to_owned(), value]
@@ -111,7 +111,7 @@ fn page(plan: &Plan) -> String {
     page
 }
 
-/// A line with the wings of a vehicle.
+/// Returns a line that lists the wings of a vehicle.
 fn wings(vehicle: &Vehicle) -> String {
     let named = vehicle
         .mounts()
@@ -121,7 +121,7 @@ fn wings(vehicle: &Vehicle) -> String {
     format!("a vehicle of {}: {}\n", text::count(named.len() as u64, "wing"), named.join(", "))
 }
 
-/// One line per varied parameter; parameters that move together have the same axis number.
+/// Returns a table with one line per varied parameter; parameters that vary together have the same axis number.
 fn axes(plan: &Plan) -> String {
     let mut table = Table::with_headings(&["axis", "parameter", "from", "to", "count", "unit"]).with_keys(2);
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
@@ -141,13 +141,13 @@ fn axes(plan: &Plan) -> String {
     table.text_within(console::width())
 }
 
-/// One line per parameter with another value than the preset; empty if there is none.
+/// Returns a table of the parameters that differ from the preset; empty if none does.
 fn deviations(plan: &Plan) -> String {
     let deviations = deviation::of(plan);
     if deviations.is_empty() {
         return String::new();
     }
-    let mut table = Table::with_headings(&["other than the preset", "here", "preset", "ratio"]);
+    let mut table = Table::with_headings(&["differs from the preset", "here", "preset", "ratio"]);
     for deviation in deviations {
         let name = deviation.parameter.name.to_owned();
         table.row([name, deviation.shown(), deviation.preset_shown(), deviation.ratio()]);
@@ -155,7 +155,7 @@ fn deviations(plan: &Plan) -> String {
     "\n".to_owned() + &table.text_within(console::width())
 }
 
-/// The first and the last value of an axis, or the distribution of a sample.
+/// Returns the first and the last value of an axis, or the distribution of a sample, as text.
 fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     let show = |value| text::value(parameter, value);
     if let Values::Correlated { mean, sd, .. } = values {
@@ -184,7 +184,7 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     }
 }
 
-/// Method and seed of each sample, and the file of the points.
+/// Returns the method and the seed of each sample, and the file of the points, as text.
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
@@ -205,14 +205,14 @@ fn samples(plan: &Plan) -> String {
     text
 }
 
-/// Most points that are checked one by one to count the excluded ones.
+/// Largest number of points that are checked one by one to count the excluded ones.
 const MOST_COUNTED: u64 = 1_000_000;
 
 /// The points that `[where]` excludes.
 struct Excluded {
-    /// A line about them; empty without conditions.
+    /// A line about the excluded points; empty without conditions.
     line: String,
-    /// The number of the other points; approximate for a large grid.
+    /// Number of points that are run; approximate for a large grid.
     runs: u64,
 }
 
@@ -231,13 +231,13 @@ impl Excluded {
         let runs = (plan.len() as f64 * share) as u64;
         let looked_at = found.looked_at;
         let line = format!(
-            "\nof {looked_at} points spread over the grid, which is too large to check each, {line}\n"
+            "\nthe grid is too large to check every point; of {looked_at} points spread over it, {line}\n"
         );
         Excluded { line, runs }
     }
 }
 
-/// The varied and derived parameters of the first and the last point, and whether each is run.
+/// Returns the varied and derived parameters of the first and the last point, as text; excluded and invalid points are marked.
 fn ends(plan: &Plan) -> String {
     let mut text = String::new();
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
@@ -255,7 +255,7 @@ fn ends(plan: &Plan) -> String {
     text
 }
 
-/// The search range of the drive frequency.
+/// Returns a line with the search range of the drive frequency.
 fn at_resonance(range: &Range) -> String {
     let Range { of, from, to, tolerance } = range;
     let from =
@@ -266,7 +266,7 @@ fn at_resonance(range: &Range) -> String {
     );
     let of = of.name();
     let line =
-        format!("drive_frequency: that of the largest {of}, from {from} to {to}, within {tolerance} Hz");
+        format!("drive_frequency: at the largest {of}, searched from {from} to {to}, within {tolerance} Hz");
     wrapped(&line, 2) + "\n"
 }
 
@@ -276,7 +276,7 @@ fn solver(solver: &SolverSettings) -> String {
     wrapped(&line, 0) + "\n"
 }
 
-/// Names and values of the settings of the solver.
+/// Returns names and values of the solver's settings.
 fn settings(solver: &SolverSettings) -> impl Iterator<Item = (&'static str, String)> {
     SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| {
         let value = match kind {

@@ -38,14 +38,14 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The columns that are asked for.
+/// The columns that the user selected.
 struct Asked {
     status: Option<usize>,
     /// Columns with percentiles, and true if the user named them.
     columns: (Vec<usize>, bool),
     /// For each column of the file, true if it is read.
     is_read: Vec<bool>,
-    /// Measures with best rows.
+    /// Measures whose best rows are listed.
     by: Vec<usize>,
 }
 
@@ -105,20 +105,20 @@ fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Descrip
     Ok(Description { rows: table.of, statuses, columns: spreads, words, best })
 }
 
-/// The failure of a file that has nothing to describe.
+/// Returns the failure for a file without columns of numbers.
 fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
     let failure = Failure::usage(format!("{} has no column of numbers", args.look.results.display()));
     let other = [";", "\t", "|"].into_iter().find(|mark| table.columns[0].name.contains(mark));
     match other {
         Some(mark) => failure.help(format!(
-            "cells are separated by commas, and the first line has `{}`: is that the separator?",
+            "cells must be separated by commas; the first line contains `{}`, which may be the separator",
             mark.escape_default()
         )),
         None => failure,
     }
 }
 
-/// The number of rows of each status, and the rows to be described: those that are periodic, or `all`.
+/// Returns the number of rows of each status, and the rows to describe: all rows, or only the periodic ones.
 fn statuses(table: &Table, status: usize, all: bool) -> (Vec<Count>, Vec<usize>) {
     let rows: Vec<usize> = (0..table.rows).collect();
     let levels = Levels::of(table, status, &rows);

@@ -1,4 +1,4 @@
-//! `flap generate`: files for shells, for `man`, and for editors.
+//! `flap generate`: files for shells, manual pages, and a schema for editors.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,11 +22,11 @@ pub(crate) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
     }
 }
 
-/// Prints a script with which a shell asks this program for completions.
+/// Prints a script with which a shell requests completions from this program.
 fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let program = args::line().first().map_or_else(|| "flap".into(), PathBuf::from);
     let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    // A program that the shell found by its name keeps that name: another version may be installed later.
+    // If the shell found the program by name, the script keeps that name: another version may be installed later.
     let is_found = program.parent().is_none_or(|folder| folder == Path::new(""));
     let called = if is_found { program } else { std::path::absolute(program)? };
     let mut script = Vec::new();

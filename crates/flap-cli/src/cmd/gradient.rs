@@ -1,4 +1,4 @@
-//! The parameters that move a measure of a point most: `flap run --gradient`.
+//! `flap run --gradient`: the parameters that change a measure of a point most.
 
 use std::fmt::Write as _;
 
@@ -13,19 +13,19 @@ use crate::failure::Failure;
 use crate::print;
 use crate::table::{Table, six_digits, wrapped};
 
-/// Parameters that are listed.
+/// Number of parameters in the table.
 const LISTED: usize = 10;
 
-/// The place of the measure called `column`.
+/// Returns the index of the measure `column`.
 pub(super) fn measure(chosen: &Chosen, column: &str) -> Result<usize, Failure> {
     let names = || chosen.simulator().columns().iter().map(|column| column.name.as_str());
     names().position(|name| name == column).ok_or_else(|| {
         let failure = Failure::usage(format!("--gradient: there is no measure `{column}`"));
-        failure.nearest(column, names(), "`flap models MODEL` lists its measures")
+        failure.nearest(column, names(), "`flap models MODEL` lists the measures of a model")
     })
 }
 
-/// Columns of the derivatives for programs.
+/// Columns of the derivatives in csv and json.
 const NAMES: [&str; 5] = ["parameter", "value", "unit", "change_per_pct", "reason"];
 
 /// The derivatives of a measure by all parameters.
@@ -38,12 +38,12 @@ pub(super) struct Gradient<'c> {
 }
 
 impl<'c> Gradient<'c> {
-    /// The derivatives of a measure of a settled row.
+    /// Computes the derivatives of a measure of a settled row.
     pub(super) fn of(chosen: &'c Chosen, row: &Row, measure: usize) -> Result<Gradient<'c>, Failure> {
         if row.status != Status::Periodic {
             let status = row.status.name();
             return Err(Failure::usage(format!(
-                "--gradient: the motion is {status}: only periodic ones have derivatives"
+                "--gradient: the motion is {status}, and only periodic motions have derivatives"
             )));
         }
         let fixed = chosen.set_parameters();
@@ -67,7 +67,7 @@ impl<'c> Gradient<'c> {
         print::table(format, &NAMES, &rows, String::new)
     }
 
-    /// The strongest parameters as a table.
+    /// Returns the strongest parameters as a table.
     pub(super) fn page(&self) -> String {
         let Gradient { column: Column { name: column, unit, .. }, value, slopes, chosen } = self;
         let mut table = Table::with_headings(&["parameter", "value", "unit", "change per %", "% per %"]);
@@ -83,7 +83,7 @@ impl<'c> Gradient<'c> {
         }
         let here = format!("{} {unit}", six_digits(*value));
         let head = format!(
-            "{column} = {}. The largest changes per 1 % of a parameter, in the unit of the measure and in % of it:",
+            "{column} = {}. Largest changes for a 1 % change of a parameter, in the unit of the measure and in % of it:",
             here.trim_end()
         );
         let mut page = wrapped(&head, 0) + "\n\n";
@@ -93,7 +93,7 @@ impl<'c> Gradient<'c> {
             let names: Vec<&str> =
                 of_reason.map(|(index, _)| chosen.plan.parameters()[*index].name).collect();
             if !names.is_empty() {
-                let line = format!("not known ({}): {}", reason.name(), names.join(", "));
+                let line = format!("no derivative ({}): {}", reason.name(), names.join(", "));
                 let _ = writeln!(page, "{}", wrapped(&line, 2));
             }
         }

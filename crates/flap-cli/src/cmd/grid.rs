@@ -1,4 +1,4 @@
-//! Grids that commands read: from a file, or from stdin.
+//! Reads grids from a file or from stdin.
 
 use std::io;
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::models;
 /// The name of stdin in messages and sidecars.
 const STDIN: &str = "<stdin>";
 
-/// The plan of the grid file at `path`, or of the grid that comes from stdin if the path is `-`.
+/// Reads the grid file at `path`, or a grid from stdin if the path is `-`, and returns its plan.
 pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let plan = if is_stdin(path) {
         grid::read_from(io::stdin().lock(), Path::new(STDIN), models::all())
@@ -27,7 +27,7 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     }
     for parameter in plan.unreached() {
         console::warn(&format!(
-            "{}: `{1}` reaches no wing: each has a `{1}` of its own",
+            "{}: `{1}` has no effect: every wing sets its own `{1}`",
             plan.source().name,
             parameter.name
         ));
@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     Ok(plan)
 }
 
-/// True for `-`, the name of stdin where a grid is read.
+/// Returns true for `-`, the name of stdin.
 pub(super) fn is_stdin(path: &Path) -> bool {
     is_stdout(path)
 }

@@ -1,4 +1,4 @@
-//! `flap live`: a page on which curves follow the parameters.
+//! `flap live`: a page with sliders for parameters, and curves that follow them.
 
 use std::sync::atomic::Ordering;
 use std::thread;
@@ -13,37 +13,34 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::{models, signals};
 
-/// Time between two looks for a signal.
+/// Time between two checks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
 
 pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     let what = args.what.clone().or_else(|| models::presets().next().map(str::to_owned));
-    let what = what.ok_or_else(|| Failure::usage("there are no presets: name a file"))?;
+    let what =
+        what.ok_or_else(|| Failure::usage("there are no presets: name a device file or a grid file"))?;
     let plan = point::plan(&what)?;
     if plan.resonance().is_some() {
-        console::say(
-            "the page has one drive frequency, not a resonance of each design: it begins with the preset's",
-        );
+        console::say("the page does not search for resonances: it starts at the preset's drive frequency");
     }
     let default = RunOptions::default();
     let run = RunOptions { threads: args.threads.unwrap_or(default.threads), ..default };
-    // Before the server: a signal that comes early must end it too.
+    // Before the server starts: an early signal must stop it too.
     let stop = signals::stop();
     let started = Server::start(plan, models::all(), &LiveOptions { port: args.port, run });
     let mut server = started.map_err(|error| match error {
         StartError::Design(mistakes) => Failure::Grid(mistakes),
-        StartError::Port(..) => {
-            Failure::usage(error.to_string()).help("name another port, or leave --port out")
-        }
+        StartError::Port(..) => Failure::usage(error.to_string()).help("choose another port, or omit --port"),
         StartError::System(_) => Failure::System(error.to_string(), Vec::new()),
     })?;
     console::results(&format!("{}\n", server.address()))?;
     if !args.no_open
         && let Err(error) = open::that_detached(server.address())
     {
-        console::say(&format!("no browser opens ({error}): open the address above"));
+        console::say(&format!("no browser was opened ({error}): open the address above"));
     }
-    console::say("Ctrl-C ends it");
+    console::say("press Ctrl-C to stop the server");
     while !stop.load(Ordering::Relaxed) {
         thread::sleep(LOOK);
     }

@@ -1,11 +1,11 @@
-//! Failures that commands on rows share.
+//! Failures that several commands on rows have in common.
 
 use crate::args::LookArgs;
 use crate::data::filter::Filters;
 use crate::failure::Failure;
 
 impl LookArgs {
-    /// The failure if no row is left.
+    /// Returns the failure if no row is left.
     pub(super) fn no_rows(&self, filters: &Filters) -> Failure {
         let file = self.results.display();
         if self.filters.is_empty() {
@@ -16,7 +16,7 @@ impl LookArgs {
         failure.help("`flap describe` shows the range of each column")
     }
 
-    /// The failure if no row that is used has a value of the column called `name`.
+    /// Returns the failure if no selected row has a value in the column `name`.
     pub(super) fn without(&self, name: &str) -> Failure {
         let file = self.results.display();
         if self.all {

@@ -1,4 +1,4 @@
-//! Files with motions over time.
+//! Writes motions over time to files.
 
 use std::io;
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::print::write_csv;
 use crate::{console, job};
 
-/// Writes a CSV file, all of it or nothing, and says how many rows it has. `row` is the noun for one, such as `sample`.
+/// Writes a CSV file, all or nothing, and prints its number of rows. `row` is the noun for a row, such as `sample`.
 ///
 /// # Errors
 ///

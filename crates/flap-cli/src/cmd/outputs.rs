@@ -1,4 +1,4 @@
-//! Output files of a command: each differs from its inputs and from its other outputs.
+//! Checks the output files of a command: each differs from its inputs and from its other outputs.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use flap_sweep::files::results::Format;
 
 use crate::failure::Failure;
 
-/// True for `-`, the name of stdout.
+/// Returns true for `-`, the name of stdout.
 pub(crate) fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -17,7 +17,7 @@ pub(crate) fn is_stdout(path: &Path) -> bool {
 ///
 /// # Errors
 ///
-/// `Usage` if a name has the ending of another format, and those of [`check`].
+/// `Usage` if a name has the ending of another format, and the errors of [`check`].
 pub(crate) fn check_tables<'p>(
     inputs: &Inputs,
     outputs: impl IntoIterator<Item = Option<&'p Path>>,
@@ -43,7 +43,7 @@ pub(crate) fn check<'p>(
         inputs.protect(output)?;
         if outputs[..number].iter().any(|other| is_same_target(other, output)) {
             let message = format!("{} is the name of two outputs", output.display());
-            return Err(Failure::usage(message).help("give each output a file of its own"));
+            return Err(Failure::usage(message).help("give each output its own file"));
         }
     }
     Ok(())

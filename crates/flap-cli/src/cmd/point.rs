@@ -1,4 +1,4 @@
-//! The design point of a command: a preset or a point of a grid file, with parameters set on top.
+//! The design point of a command: a preset or a point of a grid file, with the parameters of `--set`.
 
 use std::path::Path;
 
@@ -23,17 +23,17 @@ pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// One value per parameter.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or stroke from a file, if the command line names one.
+    /// The model with a waveform or stroke from a file, if the command line gives one.
     pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
-    /// The parameters that the command line sets.
+    /// Indices of the parameters that the command line sets.
     set: Vec<usize>,
-    /// Those of them whose values have their unit.
+    /// Indices of the parameters in `set` whose values have a unit.
     set_with_unit: Vec<usize>,
 }
 
 impl Chosen {
-    /// The point that the command line asks for.
+    /// Finds the point that the command line selects.
     pub(crate) fn new(point: &PointArgs, solver: &SolverArgs) -> Result<Chosen, Failure> {
         let plan = with_solver(plan(&point.what)?, solver)?;
         if point.point >= plan.len() {
@@ -56,7 +56,7 @@ impl Chosen {
                 let names: Vec<&str> =
                     unsatisfied.iter().map(|&condition| plan.conditions()[condition].name.as_str()).collect();
                 console::say(&format!(
-                    "a sweep leaves this point out, because it does not satisfy {}",
+                    "a sweep excludes this point, because it does not satisfy {}",
                     names.join(", ")
                 ));
             }
@@ -67,7 +67,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Searches the resonance if the drive frequency is to be at it.
+    /// If the drive frequency is the resonance, searches it.
     fn find_resonance(&mut self) -> Result<(), Failure> {
         let Some(resonance) = self.plan.resonance() else { return Ok(()) };
         let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
@@ -87,17 +87,17 @@ impl Chosen {
         Ok(())
     }
 
-    /// The run of the point.
+    /// Returns the run of the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
-    /// The model that is run.
+    /// Returns the model that is run.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
 
-    /// Sets a parameter. False if the model has no such parameter.
+    /// Sets a parameter. Returns false if the model has no such parameter.
     pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
         let index = Parameter::index(self.plan.parameters(), name);
         if let Some(index) = index {
@@ -106,18 +106,18 @@ impl Chosen {
         index.is_some()
     }
 
-    /// The parameters that the command line sets.
+    /// Returns the indices of the parameters that the command line sets.
     pub(crate) fn set_parameters(&self) -> &[usize] {
         &self.set
     }
 
-    /// True if the value of a parameter is written with its unit, in the file or on the command line.
+    /// Returns true if the value of a parameter has a unit in the file or on the command line.
     pub(crate) fn has_unit(&self, parameter: usize) -> bool {
         let of_file = !self.set.contains(&parameter) && self.plan.has_unit(parameter);
         of_file || self.set_with_unit.contains(&parameter)
     }
 
-    /// Model and preset in one line.
+    /// Returns model and preset in one line.
     pub(crate) fn title(&self) -> String {
         let Chosen { plan, index, .. } = self;
         let title = format!("{} from {}", plan.simulator().name(), plan.preset());
@@ -125,7 +125,7 @@ impl Chosen {
     }
 }
 
-/// The plan of a preset or a grid file.
+/// Returns the plan of a preset, a device file or a grid file.
 pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     if models::preset(what).is_some() {
         let grid = format!("preset = \"{what}\"\n");
@@ -140,15 +140,16 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     Err(failure.nearest(what, models::presets(), "`flap models` lists models and presets"))
 }
 
-/// Refuses a vehicle where `command` takes one wing.
+/// Returns an error if the plan is a vehicle; `command` simulates one wing.
 pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(), Failure> {
     let Some(vehicle) = plan.vehicle() else { return Ok(()) };
     let wings = text::count(vehicle.mounts().len() as u64, "wing");
-    let failure = Failure::usage(format!("{what} is a vehicle of {wings}: {command} takes one wing"));
-    Err(failure.help("remove [vehicle] from the file, with what is about single wings and differences"))
+    let failure = Failure::usage(format!("{what} is a vehicle of {wings}, but {command} requires one wing"));
+    Err(failure
+        .help("remove [vehicle] from the file, and all keys that refer to single wings or their differences"))
 }
 
-/// The plan with the settings of the command line over those of the grid file.
+/// Returns the plan with the solver settings of the command line, which override the grid file's.
 pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
     let mut settings = *plan.solver();
     if let Some(rtol) = args.rtol {
@@ -162,7 +163,7 @@ pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure
     Ok(plan.with_solver(settings)?)
 }
 
-/// The index of the parameter called `name`.
+/// Returns the index of the parameter `name`.
 pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
     let found = Parameter::index(parameters, name);
     if let Some(index) = found.filter(|&index| parameters[index].name != name) {
@@ -178,14 +179,14 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     })
 }
 
-/// The option that sets a parameter, up to its value.
+/// Returns the option that sets a parameter, up to its value.
 pub(super) fn set_option(name: &str) -> String {
     format!("--set {name}=")
 }
 
-/// The value of a parameter from the text given with `option`.
+/// Returns the value of a parameter from the text given with `option`.
 pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
-    // A bare number is in SI units, as in a grid file.
+    // As in a grid file, a number without a unit is in SI units.
     value::of_text(parameter, text, UnitOf::TextOrSi).map_err(|error| {
         let message = error.message(parameter.name, text);
         let failure = Failure::usage(match error {

@@ -1,4 +1,4 @@
-//! `flap respond`: the motions of designs as a parameter rises and falls.
+//! `flap respond`: follows the motions of designs while a parameter rises and falls.
 
 use std::io;
 
@@ -23,10 +23,12 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let plan = point::with_solver(plan, &args.solver)?;
     if plan.resonance().is_some() {
         let failure = Failure::usage(format!(
-            "{} asks for designs at their own resonance, which `flap respond` cannot follow",
+            "{} sets drive_frequency to the resonance of each design, which `flap respond` cannot follow",
             args.what
         ));
-        return Err(failure.help("give drive_frequency a number, or follow it with --along drive_frequency"));
+        return Err(
+            failure.help("set drive_frequency to a number, or follow it with --along drive_frequency")
+        );
     }
     let (mut plan, along) = along(args, plan)?;
     for (name, value) in &args.set {
@@ -34,11 +36,14 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     }
     let plan = plan.following(along);
     let Some(verdicts) = Verdicts::of(&plan, args.format, Lines::Stdout) else {
-        return Err(Failure::usage(format!("the model {} measures no stroke", plan.simulator().name())));
+        return Err(Failure::usage(format!(
+            "the model {} does not measure the stroke",
+            plan.simulator().name()
+        )));
     };
     match &args.out {
         Some(out) if args.format != OutputFormat::Table && is_stdout(out) => {
-            Err(Failure::usage("stdout has the rows, so that --format has no place for the summary"))
+            Err(Failure::usage("--format cannot be used with --out -: stdout already has the rows"))
         }
         Some(out) => {
             let begin = args.begin.treatment();
@@ -48,7 +53,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     }
 }
 
-/// Prints the summary of each curve, and writes no rows.
+/// Prints the summary of each curve without writing rows.
 fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
     let default = RunOptions::default();
     let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
@@ -73,14 +78,14 @@ impl Sink for Nowhere {
     }
 }
 
-/// The parameter that rises and falls, and its values: those of the command line, or of the grid's axis.
+/// Returns the followed parameter with its values, from the command line or from the grid's axis.
 fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];
     let number = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
         given.as_deref().map(|text| point::value(parameter, option, text)).transpose()
     };
-    // A difference of values may be smaller than any value.
+    // A step may be smaller than the smallest allowed value.
     let amount = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
         given.as_deref().map(|text| difference(parameter, option, text)).transpose()
     };
@@ -90,7 +95,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
             [None, None, None] => None,
             _ => {
                 let message = format!("the values of `{}` are incomplete", parameter.name);
-                return Err(Failure::usage(message).help("--from, --to and --step are needed together"));
+                return Err(Failure::usage(message).help("--from, --to and --step are required together"));
             }
         };
     let tolerance = amount("--tolerance", &args.tolerance)?;
@@ -100,7 +105,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     })
 }
 
-/// The difference between two values of a parameter, which is more than zero.
+/// Parses a step, which is more than zero.
 fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
     let number = number.map_err(|error| {
@@ -113,7 +118,7 @@ fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Fa
     let failure = Failure::usage(format!("{option} {text}: must be more than zero"));
     let is_step = option == "--step";
     Err(if is_step {
-        failure.help("values rise from --from to --to, then fall in the same steps")
+        failure.help("values rise from --from to --to, then fall by the same steps")
     } else {
         failure
     })

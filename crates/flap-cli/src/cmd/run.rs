@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     settle(&chosen, args, measure)
 }
 
-/// The option that follows the motion of a wing, if there is one.
+/// Returns the option that requires one wing, if the user gave one.
 fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
     let options = [
         (args.trajectory.is_some(), "--trajectory"),
@@ -89,7 +89,7 @@ fn settle(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// The line with the command that runs an unsettled point longer.
+/// Returns a line with the command that runs an unsettled point longer.
 fn longer(chosen: &Chosen, args: &RunArgs) -> String {
     let cycles = chosen.plan.solver().max_cycles;
     let PointArgs { what, point, set } = &args.point;
@@ -103,12 +103,12 @@ fn longer(chosen: &Chosen, args: &RunArgs) -> String {
     let periods = count(cycles.into(), "drive period");
     let longer = cycles.saturating_mul(10);
     format!(
-        "the point did not settle within {periods}. This command runs it longer: {command} --max-cycles {longer}. \
+        "the point did not settle within {periods}. To run it longer: {command} --max-cycles {longer}. \
          If the residual does not fall with more periods, lower --rtol or raise --settle-tol"
     )
 }
 
-/// Most samples of one trajectory: they are held in memory.
+/// Largest number of samples in a trajectory, which is held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
 
 fn check_length(args: &RunArgs) -> Result<(), Failure> {
@@ -116,14 +116,15 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
     if samples <= SAMPLES_MAX {
         return Ok(());
     }
-    let message = format!("{samples} samples are too many: --cycles times --samples may be {SAMPLES_MAX}");
+    let message =
+        format!("{samples} samples are too many: --cycles times --samples must be at most {SAMPLES_MAX}");
     Err(Failure::usage(message))
 }
 
-/// Columns of the table of a row.
+/// Columns of a row in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// The row as a page: the course of the run, and a table of the measures.
+/// Returns the row as a page: status and numbers of the run, and a table of the measures.
 fn page(chosen: &Chosen, row: &Row) -> String {
     let course = course(row, six_digits).into_iter();
     let course = course.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));
@@ -137,7 +138,7 @@ fn page(chosen: &Chosen, row: &Row) -> String {
     page
 }
 
-/// The row below [`NAMES`], with all digits.
+/// Returns the row in the columns [`NAMES`], with all digits.
 fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     let columns = fixed_columns();
     let meaning =
@@ -148,7 +149,7 @@ fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     course.chain(measures(chosen, row, text::float)).collect()
 }
 
-/// Status and course of a run, by the names of the columns. A number that does not apply is empty.
+/// Returns status and numbers of a run, with the names of their columns. A number that does not apply is empty.
 fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
     [
@@ -163,7 +164,7 @@ fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     ]
 }
 
-/// The measures below [`NAMES`], if the row has any.
+/// Returns the measures in the columns [`NAMES`]; empty if the row has none.
 fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<String>> {
     let columns = chosen.plan.simulator().columns();
     let of_model = columns.iter().zip(&row.measures).map(|(column, &measure)| {

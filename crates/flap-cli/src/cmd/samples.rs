@@ -7,14 +7,14 @@ use super::point::Chosen;
 use crate::args::RunArgs;
 use crate::failure::Failure;
 
-/// Reads the waveform or the stroke that the command line names, if any, and gives it to the point.
+/// Reads the waveform or the stroke that the command line gives, and adds it to the point.
 pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
     let (path, quantity) = match (&args.waveform, &args.stroke) {
         (Some(path), _) => (path, record::WAVE),
         (None, Some(path)) => (path, record::STROKE),
         (None, None) if args.once => {
-            return Err(Failure::usage("--once needs --waveform or --stroke"));
+            return Err(Failure::usage("--once requires --waveform or --stroke"));
         }
         (None, None) => return Ok(()),
     };
@@ -25,9 +25,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
         let message =
             format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator().name());
-        return Err(
-            Failure::usage(message).help("--stroke works with models that have the parameter stroke_mode")
-        );
+        return Err(Failure::usage(message).help("--stroke requires a model with the parameter stroke_mode"));
     }
     chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
     Ok(())

@@ -1,4 +1,4 @@
-//! Cells of result files as they are shown: to people with prefixes of units, to programs with all digits.
+//! Formats cells of result files: with prefixes of units for tables, with all digits for csv and json.
 
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::split_unit;
@@ -12,7 +12,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// For numbers in `unit`.
+    /// Chooses a unit for numbers in `unit`.
     pub(super) fn new(unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
         let finite = numbers.into_iter().filter(|number| number.is_finite());
         let largest = finite.fold(0.0, |most: f64, number| most.max(number.abs()));
@@ -20,7 +20,7 @@ impl Shown {
         Shown { factor, unit }
     }
 
-    /// For numbers in the column of this name: if the name ends in the unit, the numbers keep it.
+    /// Chooses a unit for the column `name`. If the name ends in the unit, the numbers keep it.
     pub(super) fn of_column(name: &str, unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
         let (_, ending) = split_unit(name);
         if !ending.is_empty() && ending == unit {
@@ -29,12 +29,12 @@ impl Shown {
         Shown::new(unit, numbers)
     }
 
-    /// The unit as it is printed; empty for none.
+    /// Returns the unit as it is printed; empty for none.
     pub(super) fn unit(&self) -> &str {
         &self.unit
     }
 
-    /// The name of a column, with its unit if the name does not end in it.
+    /// Returns the name of a column, with its unit if the name does not end in it.
     pub(super) fn heading(&self, name: &str) -> String {
         let (_, ending) = split_unit(name);
         if self.unit.is_empty() || labels::printed(ending) == self.unit {
@@ -44,12 +44,12 @@ impl Shown {
         }
     }
 
-    /// A number with six digits.
+    /// Returns a number with six digits.
     pub(super) fn number(&self, number: f64) -> String {
         six_digits(number * self.factor)
     }
 
-    /// A cell of a file: a number with six digits, or a word.
+    /// Returns a cell: a number with six digits, or a word.
     pub(super) fn cell(&self, cell: &str) -> String {
         let is_whole = cell.parse::<u64>().is_ok();
         match cell.parse() {

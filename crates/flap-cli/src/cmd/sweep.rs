@@ -1,4 +1,4 @@
-//! `flap sweep`: every point of a grid file, one row each.
+//! `flap sweep`: runs every point of a grid file and writes one row each.
 
 use std::path::{Path, PathBuf};
 
@@ -32,30 +32,31 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     job::run(&plan, out, args.begin.treatment(), &args.begin.work, origin)
 }
 
-/// The plan of the earlier results whose sidecar the command line names, and the origin of its points if it is the plan
-/// of a rerun.
+/// Returns the plan in the sidecar of earlier results, and the origin of its points if the results are a rerun.
 fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     let path = args.grid();
     if args.shard.is_some() {
         return Err(Failure::usage(
-            "a sidecar has a selection of points of its own: --shard needs a grid file",
+            "a sidecar has its own selection of points: --shard requires a grid file",
         ));
     }
     if args.out.is_none() {
-        return Err(Failure::usage("the sidecar of earlier results needs a name for the new ones")
-            .help("name their file: --out FILE"));
+        return Err(Failure::usage("a sidecar as input requires a name for the new results")
+            .help("name their file with --out FILE"));
     }
     let sidecar = Sidecar::read(path)?;
     Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()))
 }
 
-/// The file of the rows by default.
+/// Returns the default file for the rows.
 fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
     let whole = match &plan.output().path {
         Some(path) => path.clone(),
         None if grid::is_stdin(args.grid()) => {
-            let failure = Failure::usage("a grid from stdin needs a name for its results");
-            return Err(failure.help("name their file: --out FILE, or `path` in [output] of the grid"));
+            let failure = Failure::usage("a grid from stdin requires a name for its results");
+            return Err(
+                failure.help("name their file with --out FILE, or with `path` in [output] of the grid")
+            );
         }
         None => {
             let mut name = args.grid().file_stem().unwrap_or_default().to_owned();
@@ -66,7 +67,7 @@ fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
     Ok(args.shard.map_or_else(|| whole.clone(), |shard| name_of_shard(&whole, shard)))
 }
 
-/// The name of a shard's rows: `grid.2of8.csv` for `grid.csv`.
+/// Returns the name for a shard's rows: `grid.2of8.csv` for `grid.csv`.
 fn name_of_shard(whole: &Path, shard: Shard) -> PathBuf {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);

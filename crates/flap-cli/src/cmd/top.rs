@@ -60,8 +60,8 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The columns that are listed: those of the point (in other files, the first), that of the ranking, those asked for, and the
-/// status.
+/// Returns the columns to list: the columns of the point (in other files, the first column), the ranking column, the columns of
+/// `--columns`, and the status.
 fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     let place = |name: &str| source.names().iter().position(|known| known == name);
     let status = place("status");
@@ -76,14 +76,14 @@ fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     Ok(columns)
 }
 
-/// The number in a cell of the column that ranks rows; NaN if the cell is empty.
+/// Returns the number in a cell of the ranking column; NaN if the cell is empty.
 fn value(by: &str, cell: &str) -> Result<f64, Failure> {
     if cell.is_empty() {
         return Ok(f64::NAN);
     }
     cell.parse().map_err(|_| {
         Failure::usage(format!("column `{by}` holds words such as `{cell}`, which have no order"))
-            .help("name a column of numbers with --by")
+            .help("choose a column of numbers with --by")
     })
 }
 
@@ -91,20 +91,20 @@ fn value(by: &str, cell: &str) -> Result<f64, Failure> {
 struct Best {
     most: usize,
     aim: Aim,
-    /// Values with the cells that are shown.
+    /// Values with their cells.
     rows: Vec<(f64, Vec<String>)>,
 }
 
 impl Best {
     fn add(&mut self, value: f64, cells: Vec<&str>) {
-        // Sorting now and then takes less time than keeping rows in order.
+        // Sorting from time to time is faster than keeping the rows in order.
         if self.rows.len() >= self.most.saturating_mul(2).max(1000) {
             self.cut();
         }
         self.rows.push((value, cells.into_iter().map(str::to_owned).collect()));
     }
 
-    /// Drops all rows but the best. Rows of the same value stay in their order.
+    /// Drops all rows except the best. Rows with equal values keep their order.
     fn cut(&mut self) {
         match self.aim {
             Aim::Max => self.rows.sort_by(|a, b| b.0.total_cmp(&a.0)),
@@ -113,7 +113,7 @@ impl Best {
         self.rows.truncate(self.most);
     }
 
-    /// The best rows, the best first.
+    /// Returns the best rows, the best row first.
     fn sorted(mut self) -> Vec<Vec<String>> {
         self.cut();
         self.rows.into_iter().map(|(_, cells)| cells).collect()
@@ -128,7 +128,7 @@ struct LeftOut {
 }
 
 impl LeftOut {
-    /// The end of a message.
+    /// Returns the end of a message.
     fn text(&self) -> String {
         let mut text = String::new();
         if self.other_statuses > 0 {
@@ -142,7 +142,7 @@ impl LeftOut {
     }
 }
 
-/// The rows as aligned columns.
+/// Returns the rows as aligned columns.
 fn table(names: &[String], units: &[String], rows: &[Vec<String>]) -> String {
     let shown: Vec<Shown> = (units.iter().enumerate())
         .map(|(place, unit)| {

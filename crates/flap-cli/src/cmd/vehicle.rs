@@ -1,4 +1,4 @@
-//! `flap vehicle`: control effectiveness and trims.
+//! `flap vehicle`: control matrix and trims of a vehicle.
 
 use std::fmt::Write as _;
 
@@ -17,30 +17,31 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Headings of the components.
+/// Headings of force and torque components.
 const HEADINGS: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
-/// The share of a combination below which an input or a component is not named.
+/// An input or a component with a smaller share in a combination is not listed.
 const SMALL: f64 = 0.1;
 
-/// The share of the largest singular value below which a combination does nothing.
+/// A combination with a smaller share of the largest singular value has no effect.
 const NOTHING: f64 = 1e-9;
 
 pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
     let Some(vehicle) = chosen.plan.vehicle() else {
         let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
-        return Err(
-            failure.help("add [vehicle] and [[vehicle.wings]] to a grid file: see docs/how-to/vehicle.md")
-        );
+        return Err(failure
+            .help("add [vehicle] and [[vehicle.wings]] to a grid file: see the manual, How to, Vehicles"));
     };
     let inputs = inputs(vehicle, &chosen, &args.inputs)?;
     if let Some(input) = inputs.iter().find(|input| is_derived(&chosen, input)) {
         let failure = Failure::usage(format!("`{}` is derived from other parameters", input.name));
-        return Err(failure.help("name those that it is derived from, or remove it from [derived]"));
+        return Err(
+            failure.help("choose the parameters from which it is derived, or remove it from [derived]")
+        );
     }
     if chosen.plan.derived().parameters().next().is_some() {
-        console::warn("[derived] parameters keep their values while inputs change");
+        console::warn("derived parameters ([derived]) are held constant while inputs change");
     }
     let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
     let targets = targets(&args.trim)?;
@@ -73,7 +74,7 @@ fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
     format!("{}: a vehicle with the {wings_are} {}", chosen.title(), wings.join(", "))
 }
 
-/// The inputs that the command line names, or the usual ones.
+/// Returns the inputs that the command line selects, or the default inputs.
 fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<Input>, Failure> {
     if names.is_empty() {
         let parameters = chosen.plan.parameters().iter().zip(&chosen.values);
@@ -111,7 +112,7 @@ fn is_derived(chosen: &Chosen, input: &Input) -> bool {
     chosen.plan.derived().parameters().any(|derived| derived == input.parameter)
 }
 
-/// The targets of the command line.
+/// Returns the targets of `--trim`.
 fn targets(given: &[(String, String)]) -> Result<Vec<Target>, Failure> {
     let mut targets: Vec<Target> = Vec::new();
     for (name, value) in given {
@@ -126,7 +127,7 @@ fn targets(given: &[(String, String)]) -> Result<Vec<Target>, Failure> {
         let Some(value) = number else {
             let unit = if component < 3 { "mN" } else { "uN*m" };
             let failure = Failure::usage(format!("--trim {name}={value}: `{value}` is not a number"));
-            return Err(failure.help(format!("write a number in {unit}, without the unit")));
+            return Err(failure.help(format!("write a number in {unit}, without a unit")));
         };
         if targets.iter().any(|target| target.component == component) {
             return Err(Failure::usage(format!("--trim: `{name}` is given twice")));
@@ -136,7 +137,7 @@ fn targets(given: &[(String, String)]) -> Result<Vec<Target>, Failure> {
     Ok(targets)
 }
 
-/// Force and torque, the matrix, and the combinations of inputs.
+/// Returns force and torque, the matrix, and the combinations of inputs, as text.
 fn table(found: &Effectiveness) -> String {
     let mut here = Table::with_headings(&["mean", "unit", HEADINGS[0], HEADINGS[1], HEADINGS[2]]);
     let row = |name: &str, unit: &str, numbers: &[f64]| {
@@ -178,12 +179,12 @@ fn table(found: &Effectiveness) -> String {
     )
 }
 
-/// The number; zero if it is nothing but rounding beside 1 mN or 1 uN·m.
+/// Returns the number, or zero if it is only rounding beside 1 mN or 1 uN·m.
 fn tidy(number: f64) -> f64 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }
 
-/// The component of force and that of torque that an input changes most.
+/// Returns the component of force and the component of torque that an input changes most.
 fn made(column: &[f64]) -> String {
     let largest = |from: usize| {
         let of = (from..from + 3).max_by(|&one, &other| column[one].abs().total_cmp(&column[other].abs()))?;
@@ -195,14 +196,14 @@ fn made(column: &[f64]) -> String {
     made.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ")
 }
 
-/// The largest shares of a vector, with their names.
+/// Returns the largest components of a vector with their names.
 fn named(shares: &[f64], name: impl Fn(usize) -> String) -> String {
     let mut places: Vec<usize> = (0..shares.len()).filter(|&i| shares[i].abs() >= SMALL).collect();
     places.sort_by(|&one, &other| shares[other].abs().total_cmp(&shares[one].abs()));
     places.iter().map(|&i| format!("{:+.2} {}", shares[i], name(i))).collect::<Vec<_>>().join(" ")
 }
 
-/// The matrix with all digits.
+/// Returns the matrix with all digits.
 fn cells(found: &Effectiveness) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     let head = ["mean".to_owned(), String::new(), String::new()];
@@ -223,12 +224,12 @@ impl From<ControlError> for Failure {
             ControlError::NotPeriodic { .. } => {
                 "choose another point with --point, or other values with --set: `flap run` shows the row"
             }
-            ControlError::NoSize(_) => "give it a value with --set, or leave it out of --inputs",
+            ControlError::NoSize(_) => "set it with --set, or remove it from --inputs",
             ControlError::NoSlope { reason: NoSlope::Edge, .. } => {
-                "the input is at an end of its range: give it another value with --set, or leave it out of --inputs"
+                "the input is at an end of its range: set another value with --set, or remove it from --inputs"
             }
             ControlError::NoSlope { .. } => {
-                "docs/reference/grid.md explains the word: choose another point, or leave the input out of --inputs"
+                "the manual explains this reason in Reference, Grid files: choose another point, or remove the input from --inputs"
             }
         };
         Failure::usage(error.to_string()).help(help)
@@ -238,8 +239,10 @@ impl From<ControlError> for Failure {
 impl From<TrimError> for Failure {
     fn from(error: TrimError) -> Failure {
         let help = match &error {
-            TrimError::FewInputs { .. } => "name more --inputs, or fewer --trim",
-            TrimError::NotReached { .. } => "choose other --inputs, or targets nearer to the point",
+            TrimError::FewInputs { .. } => "give more --inputs or fewer --trim",
+            TrimError::NotReached { .. } => {
+                "choose other --inputs, or targets closer to the point's force and torque"
+            }
             TrimError::Control(_) => "",
         };
         match error {

@@ -7,17 +7,17 @@ use super::levels::{Levels, Values};
 
 /// The parameters that a file varies.
 pub(crate) struct Axes {
-    /// Columns with more than one value, without those that follow from one before.
+    /// Columns with more than one value, except columns that follow from an earlier one.
     pub(crate) columns: Vec<usize>,
-    /// True for a sample: most of its values are different, so that they form no grid.
+    /// True for a sample: most of its values differ, so the points form no grid.
     pub(crate) sampled: bool,
-    /// Those of `columns` that stand for a sample.
+    /// Columns among `columns` that stand for a sample.
     #[cfg(feature = "plots")]
     pub(crate) sample: Vec<usize>,
-    /// Those of `columns` that hold words.
+    /// Columns among `columns` that contain words.
     #[cfg(feature = "plots")]
     pub(crate) words: Vec<usize>,
-    /// All parameters of a sample: each of its columns tells the rows apart, so that the others follow from the first.
+    /// All parameters of a sample. Each of these columns has a different value in every row, so the others follow from the first.
     pub(crate) members: Vec<usize>,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct Axes {
 type Varied = (usize, Levels);
 
 impl Axes {
-    /// The axes among the columns from the second up to `end`.
+    /// Returns the axes among the columns from the second up to `end`.
     pub(crate) fn of(table: &Table, end: usize) -> Axes {
         let rows: Vec<usize> = (0..table.rows).collect();
         let (mut kept, mut others): (Vec<Varied>, Vec<Varied>) = (Vec::new(), Vec::new());
@@ -38,7 +38,7 @@ impl Axes {
             if follows { &mut others } else { &mut kept }.push((column, levels));
         }
         let sample = sample(table, &kept, &others);
-        // A sample of one parameter alone is a curve over it.
+        // A sample of one parameter alone is treated as a curve over this parameter.
         let sampled = !sample.is_empty() && (kept.len() > 1 || !others.is_empty());
         let members = if sampled { members(table, &sample, &kept, &others) } else { Vec::new() };
         Axes {
@@ -54,7 +54,7 @@ impl Axes {
         }
     }
 
-    /// The columns whose best values are worth telling: the axes, and all parameters of a sample.
+    /// Returns the columns whose best values are listed: the axes, and all parameters of a sample.
     pub(crate) fn listed(&self) -> Vec<usize> {
         let mut listed = [self.columns.as_slice(), &self.members].concat();
         listed.sort_unstable();
@@ -63,7 +63,7 @@ impl Axes {
     }
 }
 
-/// The parameters of a sample: those that the sidecar names, else the columns that follow from those that stand for it.
+/// Returns the parameters of a sample, from the sidecar; without one, the columns that follow from the sample's columns.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let standing = || kept.iter().filter(|(column, _)| sample.contains(column));
     let is_member = |(column, levels): &&Varied| {
@@ -79,7 +79,7 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
     members
 }
 
-/// The kept columns that stand for a sample: those that the sidecar names, else those whose values look like one.
+/// Returns the kept columns that stand for a sample, from the sidecar; without one, the columns whose values look like a sample.
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {
@@ -90,7 +90,7 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
         }
         let is_alone = kept.len() == 1;
         if full(levels) {
-            // In a sample every column tells the rows apart, so that all others follow from the first.
+            // In a sample, every column has a different value in each row, so all others follow from the first.
             return !is_alone || (!others.is_empty() && !is_even(levels));
         }
         // A sample crossed with axes.
@@ -101,10 +101,10 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     kept.iter().filter(looks_sampled).map(|(column, _)| *column).collect()
 }
 
-/// The fewest points of a sample that is recognised without its sidecar, if it is crossed with axes.
+/// Smallest number of points at which a sample crossed with axes is recognised without its sidecar.
 const FEWEST: usize = 8;
 
-/// True if each of two columns follows from the other, but not their order, as in samples alone.
+/// Returns true if each of two columns follows from the other but their orders differ, as only in samples.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)
@@ -114,7 +114,7 @@ fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table:
     levels.follow(others) && !is_even(levels) && rank_correlation(one, two).abs() < 0.9
 }
 
-/// True for values with even steps or even ratios, as those of an axis often have.
+/// Returns true for values with even steps or even ratios, as axes often have.
 fn is_even(levels: &Levels) -> bool {
     let Values::Numbers(values) = &levels.values else { return false };
     let even = |place: &dyn Fn(f64) -> f64| {
@@ -153,7 +153,7 @@ mod tests {
         let axes = Axes::of(&crossed, 4);
         assert_eq!((&axes.columns, axes.sampled), (&vec![1, 3], true));
         assert_eq!((&axes.members, axes.listed()), (&vec![1, 2], vec![1, 2, 3]));
-        // The sidecar knows better: these are designs of a list.
+        // The sidecar takes precedence: these are designs of a list.
         crossed.sample = vec!["other".to_owned()];
         assert!(!Axes::of(&crossed, 4).sampled);
         crossed.sample = vec!["b".to_owned()];

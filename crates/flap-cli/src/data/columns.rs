@@ -7,21 +7,21 @@ use crate::console;
 use crate::failure::Failure;
 use crate::models;
 
-/// Columns of a file. Columns that the picture does not need have no cells.
+/// Columns of a file. Only the columns that are needed have cells.
 pub(crate) struct Table {
     pub(crate) columns: Vec<Column>,
-    /// Rows that are held.
+    /// Number of rows in the table.
     pub(crate) rows: usize,
-    /// Rows of the file.
+    /// Number of rows in the file.
     pub(crate) of: usize,
-    /// Parameters of the sample, if the sidecar tells them.
+    /// Parameters of the sample, if the sidecar lists them.
     pub(crate) sample: Vec<String>,
 }
 
 /// A column of a file.
 pub(crate) struct Column {
     pub(crate) name: String,
-    /// The unit in words; empty for none.
+    /// The unit as text; empty for none.
     pub(crate) unit: String,
     pub(crate) cells: Cells,
 }
@@ -29,45 +29,46 @@ pub(crate) struct Column {
 /// The cells of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cells {
-    /// A number per row; NaN for an empty cell.
+    /// One number per row; NaN for an empty cell.
     Numbers(Vec<f64>),
-    /// Per row the index of a word; [`NO_WORD`] for an empty cell.
+    /// For each row the index of a word; [`NO_WORD`] for an empty cell.
     Words { codes: Vec<u32>, words: Vec<String> },
     /// Not read.
     Unread,
 }
 
-/// Stands for an empty cell among words.
+/// The index that stands for an empty cell among words.
 pub(crate) const NO_WORD: u32 = u32::MAX;
 
 impl Table {
-    /// The position of a column that the user named.
+    /// Returns the position of a column that the user named.
     #[cfg(feature = "plots")]
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         find(self.columns.iter().map(|column| column.name.as_str()), name)
     }
 
-    /// The numbers of a column.
+    /// Returns the numbers of a column.
     pub(crate) fn numbers(&self, index: usize) -> Result<&[f64], Failure> {
         let column = &self.columns[index];
         match &column.cells {
             Cells::Numbers(values) => Ok(values),
             Cells::Words { .. } => {
                 let message = format!("column `{}` holds words, not numbers", column.name);
-                Err(Failure::usage(message).help("name a column of numbers; --where takes words too"))
+                Err(Failure::usage(message)
+                    .help("choose a column of numbers; only --where accepts words too"))
             }
             Cells::Unread => Err(Failure::Bug(format!("column `{}` was not read", column.name))),
         }
     }
 }
 
-/// The position of a column that the user named, now or by the former name of a parameter.
+/// Returns the position of a column by its name, or by the former name of a parameter.
 pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
     let found = names.clone().position(|known| known == name);
     found.or_else(|| renamed(names.clone(), name)).ok_or_else(|| unknown(names, name))
 }
 
-/// The position of the column of a parameter that has, or had, another name than the user knows.
+/// Returns the position of a parameter's column if the file and the user have different names for it, one of them a former name.
 pub(crate) fn renamed<'n>(mut names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Option<usize> {
     let parameters = models::all().iter().flat_map(|model| model.parameters());
     for parameter in parameters.filter(|parameter| !parameter.former.is_empty()) {
@@ -95,7 +96,7 @@ fn unknown<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Fail
     }
 }
 
-/// The names of the columns, as lines of help.
+/// Returns the names of the columns, as lines of help.
 pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
     console::help_lines(&format!("the columns are {}", text::listed(names, "column")))
 }
@@ -104,7 +105,7 @@ pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
 pub(crate) mod tests {
     use super::*;
 
-    /// A table of columns with a first one that counts.
+    /// Returns a table of columns after a first column that counts the rows.
     pub(crate) fn table(columns: &[(&str, &[f64])]) -> Table {
         let rows = columns[0].1.len();
         let column = |name: &str, values: Vec<f64>| Column {
@@ -117,7 +118,7 @@ pub(crate) mod tests {
         Table { columns: std::iter::once(first).chain(rest).collect(), rows, of: rows, sample: Vec::new() }
     }
 
-    /// Two axes, `f` of three values fastest, one that follows `v`, and one that is the same everywhere.
+    /// Returns a table with the axes `v` and `f` (fastest), a column that follows from `v`, and a constant column.
     pub(crate) fn grid() -> Table {
         table(&[
             ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]),

@@ -1,4 +1,4 @@
-//! Conditions on rows, checked row by row.
+//! Conditions of `--where`, which are checked row by row.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeSet;
@@ -29,28 +29,28 @@ enum Test {
     Comparison(Comparison),
 }
 
-/// The cell in a column is a number.
+/// The condition that a cell is a number.
 struct Number {
     column: usize,
     name: String,
     unit: String,
     wanted: f64,
-    /// True if the user wrote no unit.
+    /// True if the number was given without a unit.
     is_bare: bool,
     /// The number in the first row.
     first: OnceCell<f64>,
 }
 
-/// The cell in a column is a word.
+/// The condition that a cell is a word.
 struct Word {
     column: usize,
     name: String,
     wanted: String,
-    /// Other words in the column, as far as they are listed.
+    /// Other words in the column, up to the number that is listed.
     others: RefCell<BTreeSet<String>>,
 }
 
-/// Most words of a column that are listed.
+/// Largest number of words of a column that are listed.
 const MOST_WORDS: usize = 8;
 
 /// A comparison of columns.
@@ -59,12 +59,12 @@ struct Comparison {
     /// Names and units of all columns.
     names: Vec<String>,
     units: Vec<String>,
-    /// The numbers of the columns that it reads, in the first row.
+    /// The numbers in the first row, of the columns that the comparison uses.
     first: OnceCell<Vec<f64>>,
 }
 
 impl Filters {
-    /// The conditions on rows of `source`.
+    /// Parses the conditions on rows of `source`.
     pub(crate) fn of(filters: &[Filter], source: &Source) -> Result<Filters, Failure> {
         let test = |filter: &Filter| match filter {
             Filter::Equal(name, text) => {
@@ -90,7 +90,7 @@ impl Filters {
         filters.iter().map(test).collect::<Result<_, _>>().map(Filters)
     }
 
-    /// True if the row satisfies all conditions. A comparison with an empty cell does not hold.
+    /// Returns true if the row satisfies all conditions. A comparison with an empty cell is false.
     pub(crate) fn keep(&self, row: &StringRecord) -> Result<bool, Failure> {
         for test in &self.0 {
             let holds = match test {
@@ -118,7 +118,7 @@ impl Filters {
                     for column in expression.reads() {
                         values[column] = value(&names[column], cell(row, column))?;
                     }
-                    // NaN stands for a comparison with an empty cell.
+                    // An expression with an empty cell is NaN.
                     let holds = expression.value(&values) == 1.0;
                     first.get_or_init(|| values);
                     holds
@@ -131,7 +131,7 @@ impl Filters {
         Ok(true)
     }
 
-    /// Advice where no row satisfies the conditions: the units of the columns, and numbers and words that they have.
+    /// Returns advice if no row satisfies the conditions: units, numbers and words of the columns.
     pub(crate) fn advice(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for test in &self.0 {
@@ -164,7 +164,7 @@ impl Filters {
         lines
     }
 
-    /// Reads the rows of `source` that satisfy the conditions, of which there must be some, as [`Source::read_kept`] does.
+    /// Reads the rows of `source` that satisfy the conditions, as [`Source::read_kept`] does. At least one row must satisfy them.
     #[cfg(feature = "plots")]
     pub(crate) fn read(
         &self,
@@ -189,41 +189,41 @@ impl Filters {
     }
 }
 
-/// The question whether a number without a unit was meant to have a prefix; `usual` is a number of the column.
+/// Returns a question if a number without a unit may lack a prefix; `usual` is a number in the column.
 pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);
     Some(format!("a number without a unit is in {unit}: did you mean --where {name}='{text}'?"))
 }
 
-/// The unit of a column, with a number that it has; `None` without a unit.
+/// Returns the unit of a column, with a number from the column; `None` without a unit.
 fn in_unit(name: &str, unit: &str, usual: f64) -> Option<String> {
     let example =
         if usual.is_finite() { format!(", such as {}", shown_in(usual, unit)) } else { String::new() };
     (!unit.is_empty()).then(|| format!("{name} is in {unit}{example}; a number may have its unit"))
 }
 
-/// A number in a unit, with a prefix where the unit takes one: units such as mN have one already.
+/// Returns a number in a unit, with a prefix unless the unit has one already, such as mN.
 fn shown_in(number: f64, unit: &str) -> String {
     let prefixed = units::prefixed(number, unit);
     let is_read = units::parse_as(&prefixed, unit).is_ok();
     if is_read { prefixed } else { format!("{} {unit}", six_digits(number)) }
 }
 
-/// The text of a cell.
+/// Returns the text of a cell.
 fn cell(row: &StringRecord, column: usize) -> &str {
     row.get(column).unwrap_or_default()
 }
 
-/// True if a cell is the number that a user means, who writes fewer digits than files hold.
+/// Returns true if a cell is the number that the user gave, who may write fewer digits than the file has.
 pub(crate) fn is_same(value: f64, wanted: f64) -> bool {
     value == wanted || (value - wanted).abs() <= 1e-9 * wanted.abs().max(f64::MIN_POSITIVE)
 }
 
-/// The number that `text` is, in the unit of the column called `name`; `None` for a word.
+/// Parses `text` as a number in the unit of the column `name`; returns `None` for a word.
 ///
 /// # Errors
-/// `Usage` for a number with a unit of another kind, and for text that begins like a number and is none.
+/// `Usage` for a number with a unit of another kind, and for invalid text that begins like a number.
 pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, Failure> {
     if let Ok(number) = text.parse() {
         return Ok(Some(number));
@@ -238,7 +238,7 @@ pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, 
     }
 }
 
-/// The options of words that comparisons know.
+/// The words that comparisons of `status` accept.
 static STATUSES: LazyLock<Vec<&'static str>> =
     LazyLock::new(|| Status::ALL.into_iter().map(Status::name).collect());
 const BRANCHES: &[&str] = &["up", "down", "unstable"];
@@ -264,7 +264,7 @@ impl Scope for Names<'_> {
     }
 }
 
-/// The comparison that the user wrote as `text`, and that is `plain` without units.
+/// Parses the comparison `plain`, which has no units; `text` is the user's original for messages.
 fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message()));
@@ -273,7 +273,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
                 failure.help("write COLUMN=WORD")
             }
             ExpressionProblem::Expected("an operator") | ExpressionProblem::BadNumber(_) => failure
-                .help("a number stands beside a column, with its unit or without: drive_frequency > 95 Hz"),
+                .help("compare a number with a column, with or without its unit: drive_frequency > 95 Hz"),
             ExpressionProblem::UnknownName { nearest: None, .. } => {
                 failure.help(columns::listed(names.iter().map(String::as_str)))
             }
@@ -295,7 +295,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
     }
 }
 
-/// The value of a cell in a comparison; NaN if it is empty.
+/// Returns the value of a cell in a comparison; NaN if it is empty.
 fn value(name: &str, cell: &str) -> Result<f64, Failure> {
     let among = |options: &[&str]| options.iter().position(|option| *option == cell);
     let found = match name {

@@ -7,21 +7,21 @@ use flap_sweep::notation::text;
 
 use super::columns::{Cells, NO_WORD, Table};
 
-/// The different values of a column, and the value of each row.
+/// The different values of a column, and the value in each row.
 pub(crate) struct Levels {
-    /// Per row the index of its value.
+    /// For each row the index of its value.
     pub(crate) codes: Vec<usize>,
     pub(crate) values: Values,
 }
 
-/// Different values: numbers by rising value, words in the order of the file.
+/// Different values: numbers in rising order, words in the order of the file.
 pub(crate) enum Values {
     Numbers(Vec<f64>),
     Words(Vec<String>),
 }
 
 impl Levels {
-    /// The values of the column in these rows. Empty cells are a value of their own, the last.
+    /// Returns the values of the column in these rows. Empty cells count as one value, the last.
     pub(crate) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
         match &table.columns[column].cells {
             Cells::Numbers(values) => {
@@ -61,7 +61,7 @@ impl Levels {
         }
     }
 
-    /// Value number `place` as the user types it and as files have it.
+    /// Returns value number `place` in the form that users type and files contain.
     #[cfg(feature = "plots")]
     pub(crate) fn typed(&self, place: usize) -> String {
         match &self.values {
@@ -70,7 +70,7 @@ impl Levels {
         }
     }
 
-    /// True if the value of each row follows from its value in `other`.
+    /// Returns true if the value of each row follows from its value in `other`.
     pub(crate) fn follow(&self, other: &Levels) -> bool {
         let mut image = vec![usize::MAX; other.len()];
         self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {

@@ -10,19 +10,19 @@ use flap_sweep::table::labels;
 use super::columns;
 use crate::failure::Failure;
 
-/// Words behind a number that are no units.
+/// Words after a number that are not units.
 const WORDS: [&str; 3] = ["and", "or", "not"];
 
 /// A number with a unit in a comparison.
 struct Quantity<'t> {
-    /// Bytes of the number and of its unit.
+    /// Byte range of the number and its unit.
     number: Range<usize>,
     unit: Range<usize>,
-    /// The name that it is compared with.
+    /// The name that the number is compared with.
     with: Option<&'t str>,
 }
 
-/// The comparison `text` with its numbers in the units of the columns that they are compared with, and without units.
+/// Returns the comparison `text` without units: its numbers are converted to the units of the columns that they are compared with.
 ///
 /// # Errors
 /// `Usage` for a number with a unit that is compared with no column, or with a column of another kind.
@@ -38,7 +38,7 @@ pub(super) fn without_units(
             let quantity = &text[number.start..unit.end];
             let message = format!("--where {text}: `{quantity}` is not compared with a column");
             return Err(Failure::usage(message)
-                .help("a number with a unit stands beside a column: drive_frequency > 95 Hz"));
+                .help("compare a number with a unit with a column: drive_frequency > 95 Hz"));
         };
         let column = columns::find(names.iter().map(String::as_str), name)?;
         let column_unit = unit_of(column);
@@ -46,7 +46,7 @@ pub(super) fn without_units(
             let failure = Failure::usage(format!("--where {text}: {}", error.message(name)));
             error.help().into_iter().fold(failure, Failure::help)
         })?;
-        // The cells of a measure are in its own unit, such as mN, and not in SI units.
+        // Cells of a measure are in the measure's unit, such as mN, instead of the SI unit.
         let value = value / units::parse_as(&format!("1 {column_unit}"), &column_unit).unwrap_or(1.0);
         plain += &text[copied..number.start];
         let _ = write!(plain, "{value:?}");
@@ -55,7 +55,7 @@ pub(super) fn without_units(
     Ok(plain + &text[copied..])
 }
 
-/// The comparison `text` with its units as they are printed: `µN·m/rad`.
+/// Returns the comparison `text` with its units as they are printed: `µN·m/rad`.
 #[cfg(feature = "plots")]
 pub(crate) fn printed(text: &str) -> String {
     let mut shown = String::new();
@@ -69,7 +69,7 @@ pub(crate) fn printed(text: &str) -> String {
     shown + &text[copied..]
 }
 
-/// The numbers with units in `text`, from left to right.
+/// Returns the numbers with units in `text`, from left to right.
 fn quantities(text: &str) -> Vec<Quantity<'_>> {
     let mut found = Vec::new();
     let mut from = 0;
@@ -98,7 +98,7 @@ fn quantities(text: &str) -> Vec<Quantity<'_>> {
     found
 }
 
-/// Bytes of the number that `text` begins with; 0 if it begins with something else.
+/// Returns the number of bytes of the number at the start of `text`; 0 if there is none.
 fn number(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let mut end = digits(0);
@@ -120,7 +120,7 @@ fn number(text: &str) -> usize {
     end
 }
 
-/// Bytes of the unit that `text` begins with; 0 if it begins with something else.
+/// Returns the number of bytes of the unit at the start of `text`; 0 if there is none.
 fn unit(text: &str) -> usize {
     let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
     let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));
@@ -131,7 +131,7 @@ fn unit(text: &str) -> usize {
     text.find(|letter| !is_part(letter)).unwrap_or(text.len())
 }
 
-/// The name that the text from `start` to `end` is compared with, on its left or on its right.
+/// Returns the name that the text from `start` to `end` is compared with, on its left or right.
 fn compared(text: &str, start: usize, end: usize) -> Option<&str> {
     let is_sign = |letter: char| "<>=!".contains(letter);
     let left = text[..start].trim_end().trim_end_matches(['-', '+']).trim_end();
@@ -150,7 +150,7 @@ fn compared(text: &str, start: usize, end: usize) -> Option<&str> {
     name.starts_with(|letter: char| letter.is_alphabetic() || letter == '_').then_some(name)
 }
 
-/// True for characters of names, and of numbers.
+/// Returns true for characters of names and numbers.
 fn is_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_' || letter == '.'
 }

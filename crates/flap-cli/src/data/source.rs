@@ -1,4 +1,4 @@
-//! Files of results: their columns are read as numbers and words.
+//! Reads files of results into columns of numbers and words.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -18,28 +18,28 @@ use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
 
-/// Most rows that are read: their numbers are held in memory.
+/// Largest number of rows that are read; their numbers are held in memory.
 const MOST_ROWS: usize = 20_000_000;
 
-/// An open file of results, of which the header is read.
+/// An open file of results whose header has been read.
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
-    /// Parameters of the sample, if the sidecar tells them.
+    /// Parameters of the sample, if the sidecar lists them.
     sample: Vec<String>,
     path: PathBuf,
     tells: bool,
 }
 
 impl Source {
-    /// Opens the results and reads their header. With `tells`, notes and warnings about them go to stderr.
+    /// Opens the results and reads their header. If `tells` is true, prints notes and warnings about them to stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
         Failure::not_results(path).map_or(Ok(()), Err)?;
         let opened = integrity::open(path, read.on_damage())?;
         job::require_checkpoint(path, &opened)?;
         let Opened { reader, sidecar, notes } = opened;
         if tells {
-            // Only results of sweeps have sidecars: motions and responses are drawn too.
+            // Only sweeps write sidecars, but motions and responses can be drawn too.
             let is_sweep =
                 ["point", "status"].iter().all(|name| reader.names().iter().any(|own| own == name));
             let is_told = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
@@ -58,17 +58,17 @@ impl Source {
         self.reader.names()
     }
 
-    /// The position of a column that the user named.
+    /// Returns the position of a column that the user named.
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         columns::find(self.names().iter().map(String::as_str), name)
     }
 
-    /// The unit of a column in words; empty for none.
+    /// Returns the unit of a column as text; empty for none.
     pub(crate) fn unit(&self, column: usize) -> String {
         self.units.of_column(&self.names()[column])
     }
 
-    /// Reads the next row into `row`; false if there is none left.
+    /// Reads the next row into `row`; returns false after the last row.
     pub(crate) fn next(&mut self, row: &mut StringRecord) -> Result<bool, Failure> {
         let found = self.reader.next(row).map_err(|error| {
             Failure::System(format!("cannot read {}: {error}", self.path.display()), Vec::new())
@@ -79,14 +79,15 @@ impl Source {
         Ok(found)
     }
 
-    /// The file.
+    /// Returns the path of the file.
     #[cfg(feature = "plots")]
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Reads the rows that `keep` keeps, with the cells of `wanted` columns. Of more than `most` such rows, it holds every second
-    /// one, or every fourth, and so on.
+    /// Reads the rows that `keep` accepts, with the cells of `wanted` columns.
+    ///
+    /// If there are more than `most` such rows, it keeps every second, fourth or eighth row, and so on.
     pub(crate) fn read_kept(
         mut self,
         wanted: impl Fn(usize) -> bool,
@@ -167,7 +168,7 @@ impl Gathered {
         }
     }
 
-    /// The first `rows` cells were numbers or empty, the next one is a word.
+    /// Converts the first `rows` cells, which were numbers or empty, to words because the next cell is a word.
     fn turn_to_words(&mut self, rows: usize) {
         let Cells::Numbers(values) = &self.cells else { return };
         let mut words = Vec::new();
@@ -185,14 +186,14 @@ fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -
     if let Some(code) = codes.get(cell) {
         return *code;
     }
-    // A file with four thousand million different words does not fit into memory.
+    // A file with more than four thousand million different words does not fit into memory.
     let code = u32::try_from(words.len()).unwrap_or(NO_WORD);
     words.push(cell.to_owned());
     codes.insert(cell.to_owned(), code);
     code
 }
 
-/// The plan of results, if their sidecar has one that can be used.
+/// Returns the plan of results, if their sidecar has a usable one.
 fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     let beside = sidecar_of(results);
     let plan = job::plan_of(&beside, sidecar?).ok();
@@ -205,7 +206,7 @@ fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     plan
 }
 
-/// The parameters of a plan's sample.
+/// Returns the names of the sampled parameters of a plan.
 fn sampled(plan: &Plan) -> Vec<String> {
     let parameters = plan.parameters();
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
@@ -213,7 +214,7 @@ fn sampled(plan: &Plan) -> Vec<String> {
     sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect()
 }
 
-/// The units of columns: those of the sidecar's plan, else those that models and endings of names tell.
+/// The units of columns: from the sidecar's plan, else from models and endings of names.
 struct Units(BTreeMap<String, String>);
 
 impl Units {

@@ -1,9 +1,9 @@
-//! Excluded points in words.
+//! Excluded points as text.
 
 use flap_sweep::notation::text::count;
 use flap_sweep::run::Unsatisfied;
 
-/// The number of excluded points, and for each condition the number of points that do not satisfy it.
+/// Returns the number of excluded points, and for each condition the number of points that do not satisfy it.
 pub(crate) fn text(excluded: u64, unsatisfied: &[Unsatisfied]) -> String {
     let points = count(excluded, "point") + if excluded == 1 { " is" } else { " are" };
     let each: Vec<String> = unsatisfied

@@ -1,4 +1,4 @@
-//! Files that commands make.
+//! Writes files that are complete or absent.
 
 use std::fs::{self, File};
 use std::io;
@@ -11,7 +11,7 @@ use flap_sweep::files::sidecar::Sidecar;
 use crate::console;
 use crate::failure::Failure;
 
-/// Stdout as a file.
+/// Returns stdout as a file.
 pub(crate) fn stdout() -> io::Result<File> {
     #[cfg(unix)]
     let owned = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
@@ -20,14 +20,15 @@ pub(crate) fn stdout() -> io::Result<File> {
     owned.map(File::from)
 }
 
-/// Makes a file as a whole: it is complete, or not there. An earlier file stays until then. `write` gives the sidecar of results.
-/// The inner result comes from `write`.
+/// Writes a file all or nothing. An earlier file remains until the new one is complete.
+///
+/// `write` returns the sidecar of results. The inner result comes from `write`.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
     write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,
 ) -> Result<Result<(), E>, Failure> {
-    // Holds the name while the rows are written beside it.
+    // Reserves the name while the rows are written beside it.
     let LockedFile { file: locked, unlocked } = output::create(results, overwrite)?;
     // A device or a pipe is written directly.
     if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {

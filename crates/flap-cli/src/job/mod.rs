@@ -1,4 +1,4 @@
-//! Work that commands share: running a plan into a file, opening results, and making files.
+//! Work that several commands share: running a plan into a file, opening results, and writing files.
 
 pub(crate) mod exclusion;
 mod make;

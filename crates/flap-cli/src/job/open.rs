@@ -1,4 +1,4 @@
-//! Results that commands read, and the plans in their sidecars.
+//! Opens results that commands read, and reads the plans in their sidecars.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -16,16 +16,15 @@ use crate::failure::{Failure, IGNORE_HELP};
 use crate::models;
 
 /// The help line for results without a sidecar.
-const SIDECAR_HELP: &str =
-    "the sidecar is the file FILE.meta.toml beside the results, which holds their grid";
+const SIDECAR_HELP: &str = "the sidecar FILE.meta.toml must be beside the results; it contains their grid";
 
-/// The plan of results, from the sidecar beside them.
+/// Returns the plan of results, from the sidecar beside them.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
     let sidecar = read_sidecar(results, on_damage)?;
     Ok((plan_of(&sidecar_of(results), &sidecar)?, sidecar))
 }
 
-/// The sidecar of results.
+/// Reads the sidecar of results.
 pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sidecar, Failure> {
     let path = sidecar_of(results);
     let sidecar = match Sidecar::read(&path) {
@@ -36,14 +35,14 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
         let is_missing =
             matches!(&error, SidecarError::Io { source, .. } if source.kind() == ErrorKind::NotFound);
         if is_missing && !results.exists() {
-            return Failure::usage(format!("{} does not exist", results.display()));
+            return Failure::missing(results);
         }
         let help = if matches!(error, SidecarError::Damaged { .. }) { IGNORE_HELP } else { SIDECAR_HELP };
         Failure::from(error).help(help)
     })
 }
 
-/// The plan in a sidecar, which was read from `path`.
+/// Returns the plan in a sidecar, which was read from `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(models::all()).map_err(|error| {
         let failure = Failure::usage(format!("{}: {error}", path.display()));
@@ -60,7 +59,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     })
 }
 
-/// Opens results for reading, and tells the user the notes on them.
+/// Opens results for reading, and prints warnings about them.
 pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     Failure::not_results(results).map_or(Ok(()), Err)?;
     let opened = integrity::open(results, read.on_damage())?;
@@ -71,7 +70,7 @@ pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     Ok(opened)
 }
 
-/// Requires that unfinished results have a header, which they get with their first checkpoint.
+/// Returns an error if unfinished results have no header, which is written at the first checkpoint.
 pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), Failure> {
     let is_unfinished = opened.notes.iter().any(|note| matches!(note, Note::Unfinished { .. }));
     if !is_unfinished || !opened.reader.names().is_empty() {
@@ -83,7 +82,7 @@ pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), 
     Err(failure.help(format!("if the sweep is not running, `flap results resume {results}` continues it")))
 }
 
-/// Requires that the sidecar of unfinished results describes the rows that their journal records.
+/// Returns an error if the sidecar of unfinished results does not describe the rows that their journal records.
 pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(), Failure> {
     let past = journal::read(&journal_of(results)).ok().flatten();
     let past = past.filter(|_| sidecar.state != State::Complete);
@@ -96,12 +95,12 @@ pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(
     }
 }
 
-/// Tells the user a note on results.
+/// Prints a note on results as a warning.
 pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
 }
 
-/// Opens results that have a sidecar, with the plan in it.
+/// Opens results that have a sidecar, and returns them with the plan in it.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
     Failure::not_results(results).map_or(Ok(()), Err)?;
     Format::of(results)?;
@@ -110,7 +109,7 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Ok((open(results, read)?, plan, sidecar))
 }
 
-/// Tells the user which rows of damaged results were left out.
+/// Prints a warning about the rows of damaged results that were left out.
 pub(crate) fn tell_missed(results: &Path, reader: &Reader) {
     if let Some(missed) = reader.missed() {
         console::warn(&format!("{}: {missed}", results.display()));

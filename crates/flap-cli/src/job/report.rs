@@ -14,7 +14,7 @@ use flap_sweep::table::layout::Layout;
 use super::exclusion;
 use crate::console::{self, shell_word};
 
-/// Tells the user the summary of the rows and their file.
+/// Prints the summary of the rows and the name of their file.
 pub(super) fn report(plan: &Plan, done: &Done) {
     let Done { summary, rows_before, seconds, place } = done;
     for InvalidPoint { point, reason } in &summary.invalid {
@@ -29,7 +29,7 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
-    // An interrupted sweep goes on first.
+    // An interrupted sweep must be continued first.
     if !summary.is_interrupted() {
         report_warnings(plan, done);
         report_unsettled(plan, done);
@@ -44,7 +44,7 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     }
 }
 
-/// Tells the user the numbers of rows to be read with care, with advice.
+/// Prints the numbers of rows with reduced accuracy or reliability, with advice.
 fn report_warnings(plan: &Plan, done: &Done) {
     let Warnings { inaccurate, negative_power, at_range_end } = done.summary.warnings;
     if inaccurate > 0 {
@@ -54,28 +54,28 @@ fn report_warnings(plan: &Plan, done: &Done) {
         let it = if inaccurate == 1 { "it" } else { "them" };
         console::say(&match &done.place {
             _ if !Layout::of(plan).has("error_estimate") => {
-                format!("{said}: lower rtol there, or name `error_estimate` in `columns`")
+                format!("{said}: lower rtol there, or add `error_estimate` to `columns`")
             }
             _ if is_rerun(plan) => {
                 let rtol = plan.solver().rtol;
                 format!(
-                    "{said} with rtol = {rtol:e}, see their error_estimate: lower --rtol further, or raise --accuracy"
+                    "{said} with rtol = {rtol:e} (see the column error_estimate): lower --rtol further, or raise --accuracy"
                 )
             }
             Some(place) => format!(
-                "{said}, see their error_estimate. This command runs {it} again: \
+                "{said} (see the column error_estimate). To run {it} again: \
                  flap results rerun {} --inaccurate --rtol 1e-10 --out {}",
                 shell_word(&place.to_string_lossy()),
                 beside(place, "accurate")
             ),
-            None => format!("{said}, see their error_estimate: lower rtol there"),
+            None => format!("{said} (see the column error_estimate): lower rtol there"),
         });
     }
     if negative_power > 0 {
         let rows = count(negative_power, "row");
         let verb = if negative_power == 1 { "has" } else { "have" };
         console::say(&format!(
-            "{rows} {verb} negative mean power: the model's air gives energy to the wing there (docs/models/direct-drive.md)"
+            "{rows} {verb} negative mean power: the air gives energy to the wing there (see the manual, Models, Direct drive)"
         ));
     }
     if at_range_end > 0 {
@@ -83,14 +83,14 @@ fn report_warnings(plan: &Plan, done: &Done) {
         let place =
             if at_range_end == 1 { "is at an end of its range" } else { "are at an end of their range" };
         console::say(&format!(
-            "{resonances} {place} (resonance_margin_hz is 0), where the largest value is no peak: \
+            "{resonances} {place} (resonance_margin_hz is 0), so it may not be a peak: \
              widen the range with from and to in [resonance]"
         ));
     }
 }
 
-/// Tells the user the number of points that did not settle, with the command that runs them longer. A rerun has run them longer
-/// already.
+/// Prints the number of points that did not settle, with a command that runs them longer. A rerun gets other advice, because it
+/// has already run them longer.
 fn report_unsettled(plan: &Plan, done: &Done) {
     let unsettled = done.summary.statuses.of(Status::Unsettled);
     if unsettled == 0 {
@@ -102,44 +102,44 @@ fn report_unsettled(plan: &Plan, done: &Done) {
     let longer = match &done.place {
         _ if is_rerun(plan) => {
             "Run them longer with --max-cycles only if the column residual is smaller than in the earlier rows. \
-             If it is not, lower --rtol or raise --settle-tol; a motion that stays unsettled is quasi-periodic or chaotic"
+             Otherwise lower --rtol or raise --settle-tol; a motion that stays unsettled is quasi-periodic or chaotic"
                 .to_owned()
         }
         Some(place) => format!(
-            "This command runs {it} longer: flap results rerun {} --status unsettled --max-cycles {} --out {}. \
+            "To run {it} longer: flap results rerun {} --status unsettled --max-cycles {} --out {}. \
              If the column residual does not fall with more periods, lower rtol or raise settle_tol",
             shell_word(&place.to_string_lossy()),
             cycles.saturating_mul(10),
             beside(place, "unsettled")
         ),
         None => format!(
-            "A larger max_cycles in [solver] runs {it} longer. \
+            "To run {it} longer, raise max_cycles in [solver]. \
              If the column residual does not fall with more periods, lower rtol or raise settle_tol"
         ),
     };
     console::say(&format!("{points} did not settle within {periods}. {longer}"));
 }
 
-/// True if the points were chosen from earlier results.
+/// Returns true if the points were chosen from earlier results.
 fn is_rerun(plan: &Plan) -> bool {
     matches!(plan.selection(), Selection::Listed(_))
 }
 
-/// The name of results with a word before the ending: `sweep.unsettled.csv` for `sweep.csv`.
+/// Returns the name of results with a word before the ending: `sweep.unsettled.csv` for `sweep.csv`.
 fn beside(results: &Path, word: &str) -> String {
     let name = results.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);
     shell_word(&results.with_file_name(format!("{stem}.{word}{ending}")).to_string_lossy())
 }
 
-/// Tells the user the number of curves and their file.
+/// Prints the number of curves and the name of their file.
 pub(super) fn report_curves(done: &Done) {
     let Done { summary, place, .. } = done;
     match place {
         Some(place) if !summary.is_interrupted() => {
             console::say(&format!("{} in {}", count(summary.ran, "curve"), place.display()));
         }
-        // Rows on stdout need no message.
+        // Without a file, the rows are the output.
         None if !summary.is_interrupted() => {}
         place => {
             let place = place.as_ref().map_or("stdout".to_owned(), |place| place.display().to_string());

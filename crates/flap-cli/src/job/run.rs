@@ -1,4 +1,4 @@
-//! The rows of a plan into a file or to stdout: the work that `sweep`, `resume` and `rerun` share.
+//! Runs a plan and writes its rows to a file or to stdout; `sweep`, `resume` and `rerun` share this work.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,8 +24,7 @@ use crate::print;
 use crate::progress::Bar;
 use crate::signals;
 
-/// Runs `plan`, writes its rows to `out`, and reports. `origin` names the earlier results that the points of a rerun are taken
-/// from.
+/// Runs `plan`, writes its rows to `out`, and prints a report. For a rerun, `origin` gives the earlier results of its points.
 pub(crate) fn run(
     plan: &Plan,
     out: PathBuf,
@@ -36,7 +35,7 @@ pub(crate) fn run(
     run_and_summarize(plan, out, begin, work, origin, OutputFormat::Table)
 }
 
-/// Runs `plan` as [`run`] does. Summaries of curves are printed in this format.
+/// Runs `plan` as [`run`] does, and prints summaries of curves in `format`.
 pub(crate) fn run_and_summarize(
     plan: &Plan,
     out: PathBuf,
@@ -65,7 +64,7 @@ pub(crate) fn run_and_summarize(
         Begun::Writing(writing) => writing,
         Begun::Complete { all_periodic } => {
             console::say(&format!(
-                "{place} is complete: nothing is left to run; the same command with --restart runs its points again"
+                "{place} is complete: nothing is left to run; use --restart to run its points again"
             ));
             return Ok(exit(all_periodic, work));
         }
@@ -76,8 +75,8 @@ pub(crate) fn run_and_summarize(
     let before = writing.before.clone();
     if let Some(lost) = writing.lost {
         if lost > 0 {
-            let again = if lost == 1 { "row is missing from" } else { "rows are missing from" };
-            console::say(&format!("{lost} {again} {place}, and computed again"));
+            let are = if lost == 1 { "row is" } else { "rows are" };
+            console::say(&format!("{lost} {are} missing from {place} and will be computed again"));
         }
         console::say(&format!("{} of {} points of {place} are done", before.done(), plan.selected()));
     }
@@ -90,7 +89,7 @@ pub(crate) fn run_and_summarize(
     Ok(ended(plan, &done, Some(&job.out), work))
 }
 
-/// Reports a job that ran, and gives the exit code.
+/// Prints the report of a job that ran, and returns the exit code.
 fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
     if plan.followed().is_some() {
         report_curves(done);
@@ -109,7 +108,7 @@ fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) ->
     complete(&done.summary, work)
 }
 
-/// The exit code of a run to the end.
+/// Returns the exit code of a run that was not interrupted.
 pub(crate) fn complete(summary: &Summary, work: &WorkArgs) -> Exit {
     exit(summary.all_periodic(), work)
 }
@@ -118,8 +117,9 @@ fn exit(all_periodic: bool, work: &WorkArgs) -> Exit {
     if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
 }
 
-/// Runs the plan with a progress bar, until a signal ends it. Where a parameter is followed, `verdicts`
-/// summarizes each curve.
+/// Runs the plan with a progress bar, until a signal stops it.
+///
+/// If the plan follows a parameter, `verdicts` summarizes each curve.
 pub(crate) fn work(
     plan: &Plan,
     options: &RunOptions,
@@ -180,7 +180,7 @@ fn write_curves(
     Ok(())
 }
 
-/// The next outcomes of a run, which stops after a signal.
+/// Returns the next outcomes of a run, which stops after a signal.
 fn next_batch<T: Send + 'static>(
     run: &mut Run<T>,
     bar: &mut Bar,

@@ -1,4 +1,4 @@
-//! Summaries of curves: a line for each, or rows for programs.
+//! Summaries of curves: one line for each curve, or rows for csv and json.
 
 use std::io;
 
@@ -17,9 +17,9 @@ use crate::table::assignment;
 pub(crate) enum Lines {
     /// Stdout. If its reader closes it, the run ends.
     Stdout,
-    /// Stdout, while rows go to a file. If its reader closes it, the run goes on.
+    /// Stdout, while rows go to a file. If its reader closes it, the run continues.
     StdoutBesideFile,
-    /// Stderr, because rows are on stdout.
+    /// Stderr, because the rows go to stdout.
     Stderr,
 }
 
@@ -27,7 +27,7 @@ pub(crate) enum Lines {
 pub(crate) struct Verdicts<'a> {
     format: OutputFormat,
     stream: Lines,
-    /// For programs, below [`Verdicts::names`].
+    /// Rows for csv and json, in the columns [`Verdicts::names`].
     pub(crate) rows: Vec<Vec<String>>,
     plan: &'a Plan,
     along: &'a Along,
@@ -37,7 +37,7 @@ pub(crate) struct Verdicts<'a> {
 }
 
 impl<'a> Verdicts<'a> {
-    /// For a plan that follows a parameter, of a model that measures its stroke; `None` of any other.
+    /// Returns summaries if the plan follows a parameter and its model measures the stroke; otherwise `None`.
     pub(crate) fn of(plan: &'a Plan, format: OutputFormat, stream: Lines) -> Option<Verdicts<'a>> {
         let along = plan.followed()?;
         let parameter = along.parameter(plan);
@@ -46,7 +46,7 @@ impl<'a> Verdicts<'a> {
         Some(Verdicts { format, stream, rows: Vec::new(), plan, along, parameter, stroke })
     }
 
-    /// Prints the line of a curve, or keeps its rows for programs.
+    /// Prints the line of a curve, or keeps its rows for csv and json.
     pub(crate) fn add(&mut self, curve: &Curve) -> io::Result<()> {
         let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
         if self.format != OutputFormat::Table {
@@ -68,13 +68,13 @@ impl<'a> Verdicts<'a> {
         }
     }
 
-    /// The columns for programs: the varied parameters, then a band of the followed parameter.
+    /// Returns the columns for csv and json: the varied parameters, then a band of the followed parameter.
     pub(crate) fn names(&self) -> Vec<&str> {
         let varied = self.plan.axes().varied().map(|index| self.plan.parameters()[index].name);
         varied.chain(["kind", "from", "to", "unit", "resolution", "jump_deg", "motions"]).collect()
     }
 
-    /// A row for each band of a curve; for a curve without bands, one for its whole range.
+    /// Returns one row for each band of a curve; for a curve without bands, one row for its whole range.
     fn cells(&self, design: &Point, verdict: &Verdict) -> Vec<Vec<String>> {
         let row = |kind: &str, [from, to]: [f64; 2], jump: Option<f64>, motions: String| {
             let values = self.plan.axes().varied();
@@ -108,7 +108,7 @@ impl<'a> Verdicts<'a> {
         bands.collect()
     }
 
-    /// The parameters that tell a design from others.
+    /// Returns the parameters that distinguish a design from others, as text.
     fn design(&self, design: &Point) -> String {
         let assignment = |index: usize| assignment(&self.plan.parameters()[index], design.values[index]);
         self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")

@@ -15,7 +15,7 @@ pub(super) enum Format {
     Png,
 }
 
-/// The bytes of a picture.
+/// Returns the bytes of a picture.
 pub(super) fn bytes(scene: Scene, format: Format) -> Result<Vec<u8>, String> {
     match format {
         Format::Svg => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
@@ -23,23 +23,23 @@ pub(super) fn bytes(scene: Scene, format: Format) -> Result<Vec<u8>, String> {
     }
 }
 
-/// The format that the ending of a name stands for.
+/// Returns the format that the ending of a name stands for.
 pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     match ending(out).as_str() {
         "svg" => Ok(Format::Svg),
         "png" => Ok(Format::Png),
         "html" | "htm" => {
             let failure = Failure::usage(format!(
-                "{}: --out writes pictures, which end in .svg or .png",
+                "{}: --out writes pictures, whose names end in .svg or .png",
                 out.display()
             ));
             Err(failure.help(format!("--html {} writes a page", out.display())))
         }
-        _ => Err(Failure::usage(format!("{}: pictures end in .svg or .png", out.display()))),
+        _ => Err(Failure::usage(format!("{}: names of pictures end in .svg or .png", out.display()))),
     }
 }
 
-/// The ending of a name in small letters; empty if there is none.
+/// Returns the ending of a name in lower case; empty if there is none.
 pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
@@ -47,12 +47,12 @@ pub(super) fn ending(path: &Path) -> String {
 /// Pixels per unit of a picture's size.
 const SCALE: u32 = 2;
 
-/// Most pixels of a picture that is drawn larger and averaged.
+/// Largest number of pixels of a picture that is drawn at double size and averaged.
 const MOST_PIXELS: f64 = 1e8;
 
-/// A picture as PNG, with [`SCALE`] times as many pixels each way as it has units.
+/// Returns a picture as PNG, with [`SCALE`] times as many pixels in each direction as it has units.
 ///
-/// It is drawn twice as large and averaged, for smooth lines and points.
+/// It is drawn at double size and averaged, so that lines and points are smooth.
 fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
     scene.elements = scene.elements.into_iter().flat_map(dashes).collect();
     let turned = take_turned(&mut scene);
@@ -69,7 +69,7 @@ fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
     if is_large { image.write() } else { image.halved().write() }
 }
 
-/// An image of rows of pixels, three or four bytes each.
+/// An image of rows of pixels with three or four bytes each.
 struct Image {
     width: usize,
     height: usize,
@@ -88,7 +88,7 @@ impl Image {
         Ok(Image { width: info.width as usize, height: info.height as usize, channels, bytes })
     }
 
-    /// Lays dark marks on white over the image, after a quarter turn to the left.
+    /// Adds dark marks on white to the image, after a quarter turn to the left.
     fn darken_turned(&mut self, marks: &Image) {
         for row in 0..self.height.min(marks.width) {
             for column in 0..self.width.min(marks.height) {
@@ -104,7 +104,7 @@ impl Image {
         }
     }
 
-    /// Every pixel the mean of two by two.
+    /// Returns the image at half size: every pixel is the mean of two by two.
     fn halved(&self) -> Image {
         let (width, height) = (self.width / 2, self.height / 2);
         let mut bytes = Vec::with_capacity(width * height * 3);
@@ -126,7 +126,7 @@ impl Image {
         Image { width, height, channels: 3, bytes }
     }
 
-    /// The bytes of the pixels' colours.
+    /// Returns the bytes of the pixels' colours.
     fn opaque(&self) -> Vec<u8> {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }
@@ -138,7 +138,7 @@ impl Image {
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::High);
-        // Flat colours repeat byte by byte.
+        // Areas of one colour repeat byte by byte, and compress best without a filter.
         encoder.set_filter(png::Filter::NoFilter);
         let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
         writer.write_image_data(&self.opaque()).map_err(|error| error.to_string())?;
@@ -147,7 +147,7 @@ impl Image {
     }
 }
 
-/// A dashed line as its dashes: the library begins its pattern anew at every point, so that lines of many points come out
+/// Returns the dashes of a dashed line. The library restarts the pattern at every point, so a line of many points would be
 /// solid.
 fn dashes(element: Primitive) -> Vec<Primitive> {
     const ON: f64 = 7.0;
@@ -190,13 +190,14 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
     pieces.into_iter().map(line).collect()
 }
 
-/// Takes the text that reads upwards out of a scene: the library draws turned letters without smooth edges, bolder than others. It comes back upright, in a scene that is as wide as the other is high: a
-/// quarter turn to the left brings it to its places.
+/// Takes the text that reads upwards out of a scene, and returns it upright in a scene as wide as the other is high.
+///
+/// The library draws rotated letters bold and without smooth edges. A quarter turn to the left moves the text to its place.
 fn take_turned(scene: &mut Scene) -> Option<Scene> {
     let mut turned = Scene::new(scene.height, scene.width);
     turned.text_color.clone_from(&scene.text_color);
     turned.font_family.clone_from(&scene.font_family);
-    // Of nested groups, where each begins.
+    // The offsets of nested groups.
     let mut groups = vec![(0.0, 0.0)];
     for element in &mut scene.elements {
         match element {
@@ -227,7 +228,7 @@ fn take_turned(scene: &mut Scene) -> Option<Scene> {
     (!turned.elements.is_empty()).then_some(turned)
 }
 
-/// The shift that a transformation `translate(x, y)` makes.
+/// Returns the shift of a transformation `translate(x, y)`.
 fn shift(transform: &str) -> Option<(f64, f64)> {
     let inside = transform.strip_prefix("translate(")?.strip_suffix(')')?;
     let (x, y) = inside.split_once([',', ' ']).unwrap_or((inside, "0"));
@@ -264,7 +265,7 @@ mod tests {
 
     #[test]
     fn marks_are_turned_to_the_left() {
-        // Two by one pixels: dark, then white. Turned to the left, dark is below.
+        // Two by one pixels: dark, then white. After the turn to the left, dark is below.
         let marks = Image { width: 2, height: 1, channels: 3, bytes: vec![0, 0, 0, 255, 255, 255] };
         let mut image = Image { width: 1, height: 2, channels: 4, bytes: vec![200; 8] };
         image.darken_turned(&marks);

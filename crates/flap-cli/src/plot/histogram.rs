@@ -1,4 +1,4 @@
-//! Histograms: the number of designs over a measure, with its percentiles.
+//! Histograms: the number of designs over a measure, with percentiles.
 
 use flap_sweep::picture::colours::{DARK, PLAIN};
 use flap_sweep::picture::sample::{Histogram, MARKED, histogram};
@@ -36,7 +36,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         notes.push(format!("{} of {} without a value", values.len() - designs, values.len()));
     }
     let largest = found.counts.iter().copied().max().unwrap_or(1) as f64;
-    // Room above the bars for the percentiles, a line of text for each.
+    // Space above the bars for the percentiles, one line of text for each.
     let room = (MARKED.len() as f64 + 0.6) * LINE / (size.height - 130.0).max(80.0);
     let ends = (found.edges[0], found.edges[found.edges.len() - 1]);
     let panel = Panel {
@@ -59,7 +59,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// A dashed line at each percentile, with its value above the bars, each in a line of text of its own.
+/// Draws a dashed line at each percentile, with its value above the bars, each in its own line of text.
 fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &Label) {
     let middle = frame.margin_left + frame.plot_width() / 2.0;
     let top = |line: usize| frame.margin_top + line as f64 * LINE;
@@ -76,13 +76,13 @@ fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &L
         } else {
             (x - 3.0 - width, x - 5.0, TextAnchor::End)
         };
-        // Lines of other percentiles end behind the text.
+        // The text covers the lines of other percentiles.
         ink::rectangle(scene, (left, top(line) + 2.0), (width, LINE - 2.0), "#ffffff");
         ink::text(scene, (at, top(line) + 13.0), &text, 12, anchor);
     }
 }
 
-/// The percentiles in a sentence.
+/// Returns the percentiles as a sentence.
 fn told(name: &str, designs: usize, found: &Histogram, label: &Label) -> String {
     let parts: Vec<String> = (MARKED.iter().zip(found.marked))
         .map(|(percent, value)| format!("{percent} % below {}", shown(value, label)))
@@ -90,7 +90,7 @@ fn told(name: &str, designs: usize, found: &Histogram, label: &Label) -> String 
     format!("{name} of {designs} designs: {}", parts.join(", "))
 }
 
-/// A value, which has the factor of the label already, with four digits and its unit.
+/// Returns a value, which is already multiplied by the label's factor, with four digits and its unit.
 fn shown(value: f64, label: &Label) -> String {
     format!("{} {}", super::label::digits(value, 4), label.unit).trim_end().to_owned()
 }

@@ -1,4 +1,4 @@
-//! The branches of a response as its parameter rises and falls.
+//! Pictures of the branches of a response while its parameter rises and falls.
 
 use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
 use flap_sweep::picture::colours::BISTABLE;
@@ -17,13 +17,13 @@ use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
-/// Most curves of a picture: more cannot be distinguished.
+/// Largest number of curves in a picture: more cannot be distinguished.
 const MOST_CURVES: usize = 10;
 
-/// The place of the unstable orbits in [`BRANCHES`].
+/// The index of the unstable orbits in [`BRANCHES`].
 const UNSTABLE: usize = 2;
 
-/// The branches of one design, in the order of [`BRANCHES`], with places in shown units.
+/// The branches of one design, in the order of [`BRANCHES`], in the units of the picture.
 struct Curve {
     name: String,
     branches: [Vec<(f64, f64)>; 3],
@@ -38,7 +38,7 @@ struct Jump {
     colour: String,
 }
 
-/// Draws column `y` over column `x`, a line for each branch.
+/// Draws column `y` over column `x`, with one line for each branch.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
     let lines = family(table, selection)?;
@@ -66,7 +66,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
                 Look::new(BRANCHES[kind].name, BRANCHES[kind].colour)
             };
             look.dashed = kind == UNSTABLE;
-            // The way down often lies on the way up, which must be seen below it.
+            // The branch down often coincides with the branch up, so the line below is wider.
             look.width = if selection.columns.by.is_some() { 1.8 } else { [4.0, 1.8, 1.6][kind] };
             jumps.extend(curve.jumps(kind, &look.colour));
             let lines = ink::line(&curve.with_gaps(kind), &look);
@@ -107,7 +107,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// The branches of a design, and the difference between its ways up and down.
+/// Returns the branches of a design, and the differences between its branches up and down.
 fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
     let (x, y) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
     let is_branch = words(table, "branch")?;
@@ -128,23 +128,23 @@ fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64))
     Ok(Curve { name: line.name.clone(), branches, compared })
 }
 
-/// The test whether the cell of a row in column `name` is a word.
+/// Returns a function that compares the cell of a row in column `name` with a word.
 fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> bool + 't, Failure> {
     let column = table.find(name)?;
     let Cells::Words { codes, words } = &table.columns[column].cells else {
         return Err(Failure::usage(format!("column `{name}` holds numbers, not words"))
-            .help("draw results that `flap respond --out` wrote"));
+            .help("draw the results of `flap respond --out`"));
     };
     Ok(move |row: usize, word: &str| words.get(codes[row] as usize).is_some_and(|known| known == word))
 }
 
 impl Curve {
-    /// The rows after which a branch jumps.
+    /// Returns the rows after which a branch jumps.
     fn after(&self, kind: usize) -> &[usize] {
         self.compared.jumps.get(kind).map_or(&[], Vec::as_slice)
     }
 
-    /// The points of a branch, with a gap where it jumps: nothing was computed between.
+    /// Returns the points of a branch, with a gap at each jump, where nothing was computed.
     fn with_gaps(&self, kind: usize) -> Vec<(f64, f64)> {
         let mut points = Vec::new();
         for (row, point) in self.branches[kind].iter().enumerate() {
@@ -156,7 +156,7 @@ impl Curve {
         points
     }
 
-    /// The jumps of a branch, halfway between the rows around them.
+    /// Returns the jumps of a branch, halfway between the rows around them.
     fn jumps(&self, kind: usize, colour: &str) -> impl Iterator<Item = Jump> {
         let points = &self.branches[kind];
         self.after(kind).iter().map(move |&row| Jump {
@@ -169,7 +169,7 @@ impl Curve {
 }
 
 impl Jump {
-    /// A thin dashed arrow.
+    /// Draws a thin dashed arrow.
     fn draw(&self, scene: &mut Scene, frame: &ComputedLayout) {
         const HEAD: f64 = 5.0;
         let (x, from, to) = (frame.map_x(self.x), frame.map_y(self.from), frame.map_y(self.to));
@@ -184,7 +184,7 @@ impl Jump {
     }
 }
 
-/// The note about bands with two stable motions.
+/// Returns the note about bands with two stable motions.
 fn bistable(bands: &[(f64, f64)], x: &Label) -> Option<String> {
     let ends = |&(low, high): &(f64, f64)| format!("{} to {}", digits(low, 6), digits(high, 6));
     let listed: Vec<String> = bands.iter().map(ends).collect();

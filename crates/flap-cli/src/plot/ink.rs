@@ -8,7 +8,7 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-/// The colour of line number `index` of `count`. Ordered ones go from dark to light.
+/// Returns the colour of line number `index` of `count`. Ordered lines go from dark to light.
 pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     match colours::shade(index, count) {
         Some(share) if ordered => sequential(share),
@@ -16,17 +16,18 @@ pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     }
 }
 
-/// A colour for `share` of the way from the smallest to the largest value: even in lightness, dark to light.
+/// Returns the colour at `share` of the way from the smallest to the largest value; the lightness rises evenly.
 pub(super) fn sequential(share: f64) -> String {
     ColorMap::Viridis.map(share)
 }
 
-/// A text for the library's labels, in which dollars begin formulas and control characters would make no XML.
+/// Returns a text for the library's labels: dollar signs, which begin formulas, and control characters, which XML forbids,
+/// are escaped or removed.
 pub(super) fn plain(text: &str) -> String {
     printable(text).replace('$', "\\$")
 }
 
-/// A line through points, with gaps where there is no number. Points that stand alone, and those of short lines, have a
+/// Returns a line through points, with gaps where there is no number. Single points, and the points of short lines, have a
 /// mark.
 pub(super) fn line(points: &[(f64, f64)], look: &Look) -> Vec<Plot> {
     let whole = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
@@ -70,7 +71,7 @@ pub(super) struct Look {
     pub(super) colour: String,
     pub(super) width: f64,
     pub(super) dashed: bool,
-    /// A mark at every point.
+    /// True for a mark at every point.
     pub(super) marks: bool,
 }
 
@@ -80,7 +81,7 @@ impl Look {
     }
 }
 
-/// Points without a line.
+/// Returns points without a line.
 pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64) -> Plot {
     let mut plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
     if !name.is_empty() {
@@ -92,13 +93,13 @@ pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64)
 /// The width of the line of a ring.
 pub(super) const RING_WIDTH: f64 = 0.8;
 
-/// Rings, through which one sees what is below them.
+/// Returns rings, through which points below stay visible.
 pub(super) fn rings(points: &[(f64, f64)], colour: &str, size: f64) -> Plot {
     let plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
     Plot::Scatter(plot.with_marker_opacity(0.0).with_marker_stroke_width(RING_WIDTH))
 }
 
-/// A dashed line between two places of a picture.
+/// Draws a dashed line between two places of a picture.
 pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colour, width): (&str, f64)) {
     scene.add(Primitive::PolyLine {
         points: vec![from, to],
@@ -108,7 +109,7 @@ pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colou
     });
 }
 
-/// A text that begins, ends or is centred at a place.
+/// Draws a text that begins, ends or is centred at a place.
 pub(super) fn text(scene: &mut Scene, (x, y): (f64, f64), content: &str, size: u32, anchor: TextAnchor) {
     let content = content.to_owned();
     scene.add(Primitive::Text { x, y, content, size, anchor, rotate: None, bold: false, color: None });
@@ -119,7 +120,7 @@ pub(super) fn rectangle(scene: &mut Scene, (x, y): (f64, f64), (width, height): 
     scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity: None });
 }
 
-/// The frame around the plot, where something was drawn over it.
+/// Draws the frame around the plot again, after something was drawn over it.
 pub(super) fn frame_lines(scene: &mut Scene, frame: &ComputedLayout) {
     scene.add(Primitive::Rect {
         x: frame.margin_left,

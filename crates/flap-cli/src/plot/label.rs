@@ -1,4 +1,4 @@
-//! Labels of columns with values: the unit suits the size of the values.
+//! Labels of columns, in units that suit the size of the values.
 
 use flap_sweep::table::labels;
 
@@ -8,7 +8,7 @@ use crate::data::levels::{Levels, Values};
 /// A column's label, and the unit in which its numbers are shown.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
-    /// The name in words: `Lift, mean`.
+    /// The name as text: `Lift, mean`.
     pub(super) words: String,
     /// The printed unit: `mN`, `µN·m/rad`; empty for none.
     pub(super) unit: String,
@@ -17,25 +17,25 @@ pub(super) struct Label {
 }
 
 impl Label {
-    /// The label of column `name` in `unit`, with numbers no larger than `largest`.
+    /// Returns the label of column `name` in `unit`, for numbers up to `largest`.
     pub(super) fn new(name: &str, unit: &str, largest: f64) -> Label {
         let labels::Scale { factor, unit: shown } = labels::scale(unit, largest);
         Label { words: labels::with_unit(name, unit).words, unit: shown, factor }
     }
 
-    /// Name and unit: `Lift, mean (mN)`.
+    /// Returns name and unit: `Lift, mean (mN)`.
     pub(super) fn text(&self) -> String {
         labels::titled(&self.words, &self.unit)
     }
 
-    /// A value in the unit that is shown: `70 V`.
+    /// Returns a value in the unit that is shown: `70 V`.
     pub(super) fn value(&self, value: f64) -> String {
         format!("{} {}", short(value * self.factor), self.unit).trim_end().to_owned()
     }
 }
 
 impl Table {
-    /// The label of a column, in a unit that suits its largest number.
+    /// Returns the label of a column, in a unit that suits its largest number.
     pub(super) fn label(&self, index: usize) -> Label {
         let column = &self.columns[index];
         let largest = match &column.cells {
@@ -50,7 +50,7 @@ impl Table {
 }
 
 impl Levels {
-    /// Value number `place` as text, with its unit.
+    /// Returns value number `place` as text, with its unit.
     pub(super) fn text(&self, place: usize, label: &Label) -> String {
         match &self.values {
             Values::Numbers(values) => label.value(values[place]),
@@ -59,19 +59,19 @@ impl Levels {
     }
 }
 
-/// A number with six digits at most.
+/// Returns a number with at most six digits.
 pub(super) fn short(value: f64) -> String {
     digits(value, 6)
 }
 
-/// The numbers with four digits, or with as many more as tell them apart, six at most.
+/// Returns the numbers with four digits, or with up to six where four do not distinguish them.
 pub(super) fn distinct(values: &[f64]) -> Vec<String> {
     let texts = |most: u8| values.iter().map(|&value| digits(value, most)).collect::<Vec<_>>();
     let is_distinct = |texts: &Vec<String>| texts.windows(2).all(|two| two[0] != two[1]);
     [4, 5].map(texts).into_iter().find(is_distinct).unwrap_or_else(|| texts(6))
 }
 
-/// A number with so many digits at most, from 1 to 6; those before the point are all there.
+/// Returns a number with at most this many digits, from 1 to 6; digits before the decimal point are never dropped.
 pub(super) fn digits(value: f64, most: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_nan() { "none".to_owned() } else { value.to_string().replace("-0", "0") };

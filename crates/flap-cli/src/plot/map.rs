@@ -1,4 +1,4 @@
-//! A measure as the colour of cells over two parameters.
+//! Maps: a measure as the colour of cells over two parameters.
 
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
@@ -16,10 +16,10 @@ use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Most cells of a picture: more would exceed its pixels.
+/// Largest number of cells in a picture: more would exceed its pixels.
 const MOST_CELLS: usize = 500_000;
 
-/// A coloured cell: its sides, in shown units, and its value.
+/// A coloured cell: its sides in the units of the picture, and its value.
 struct Cell {
     x: [f64; 2],
     y: [f64; 2],
@@ -68,14 +68,14 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
 }
 
 impl Grid {
-    /// The same with the axes exchanged.
+    /// Returns the grid with its axes exchanged.
     fn turned(self) -> Grid {
         let cells = self.cells.into_iter().map(|cell| Cell { x: cell.y, y: cell.x, ..cell });
         Grid { cells: cells.collect(), x: self.y, y: self.x }
     }
 }
 
-/// Cells of a grid, in which every value of `x` meets every value of `y`.
+/// Returns the cells of a grid, in which every value of `x` is combined with every value of `y`.
 fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let [across, up] =
         [selection.columns.x, selection.columns.y].map(|column| side(table, selection, column));
@@ -101,8 +101,9 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
     Ok(Grid { cells: values.into_iter().enumerate().map(cell).collect(), x: across.axis, y: up.axis })
 }
 
-/// Cells of curves along the first of `columns`, one for each value of the second. Each curve has values of its own, and its
-/// cells end halfway between them.
+/// Returns the cells of curves along the first of `columns`, one curve for each value of the second.
+///
+/// Each curve has its own values, and its cells end halfway between them.
 fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
     let side = side(table, selection, across)?;
@@ -131,7 +132,7 @@ fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usiz
     Ok(Grid { cells, x: Axis::linear(label.text(), range), y: side.axis })
 }
 
-/// The ends of the cells along an axis, and the cell of each row.
+/// The boundaries of the cells along an axis, and the index of the cell of each row.
 struct Side {
     edges: Vec<f64>,
     codes: Vec<usize>,
@@ -139,7 +140,7 @@ struct Side {
 }
 
 fn side(table: &Table, selection: &Selection, column: usize) -> Result<Side, Failure> {
-    // Words have no place on an axis.
+    // Words have no position on an axis.
     table.numbers(column)?;
     let Levels { codes, values: Values::Numbers(values) } = Levels::of(table, column, &selection.rows) else {
         return Err(Failure::Bug("numbers without values".to_owned()));
@@ -165,10 +166,10 @@ fn check_count(count: usize, shown: &str) -> Result<(), Failure> {
 fn several(table: &Table, selection: &Selection) -> Failure {
     let [x, y] = [selection.columns.x, selection.columns.y].map(|column| table.columns[column].name.as_str());
     let message = format!("several rows have the same {x} and {y}");
-    Failure::usage(message).help("choose one value of each other parameter with --where")
+    Failure::usage(message).help("choose one value of each of the other parameters with --where")
 }
 
-/// The ends of the cells: halfway between their values, and as far outside the first and the last.
+/// Returns the boundaries of the cells: halfway between their values, and at the same distance beyond the first and the last.
 fn edges(values: &[f64], log: bool) -> Vec<f64> {
     let to = |value: f64| if log { value.ln() } else { value };
     let from = |place: f64| if log { place.exp() } else { place };
@@ -183,8 +184,9 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
     std::iter::once(ends.0).chain(between).chain([ends.1]).map(from).collect()
 }
 
-/// The cells as rectangles. Neighbours overlap a little, so that no background shines through between them; `ends` are the
-/// right and the lower end of the axes, over which no cell goes.
+/// Returns the cells as rectangles. Neighbours overlap a little, so that no background is visible between them.
+///
+/// `ends` has the right and the lower end of the axes, which no cell crosses.
 fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
     for cell in cells {

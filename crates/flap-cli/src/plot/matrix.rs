@@ -1,4 +1,4 @@
-//! The control effectiveness of a vehicle: numbers in the colours of their shares.
+//! The control matrix of a vehicle: numbers on colours that show their relative size.
 
 use flap_sweep::picture::colours::MISSING;
 use flap_sweep::study::control::COMPONENTS;
@@ -17,16 +17,16 @@ use crate::args::Size;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::failure::Failure;
 
-/// The names of the columns of force and torque.
+/// Names of the columns of force and torque.
 const NAMES: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
-/// The share of an input's largest change below which a change is nearly nothing.
+/// A change with a smaller share of its input's largest change is drawn as nearly zero.
 const LEAST: f64 = 1e-3;
 
-/// The share beyond which a colour is so dark that its number is white.
+/// At a larger share, the colour is so dark that its number is white.
 const DARK: f64 = 0.6;
 
-/// The size of the numbers.
+/// The font size of the numbers.
 const SIZE: u32 = 12;
 
 /// Draws the change of force and torque per unit of each input.
@@ -74,7 +74,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
             share: share(change),
         }));
     }
-    // Numbers lie above the colours of neighbours.
+    // Numbers are drawn above the colours of neighbours.
     for cell in &cells {
         cell.fill(&mut scene, &shades);
     }
@@ -87,7 +87,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// A cell: the change of a component, and its share of the largest of its input.
+/// A cell: the change of a component, and its share of the input's largest change.
 struct Cell {
     sides: [f64; 2],
     ends: [f64; 2],
@@ -116,7 +116,7 @@ impl Cell {
         });
     }
 
-    /// The change in three digits, or in as few as fit.
+    /// Returns the change with three digits, or with as few as fit.
     fn text(&self) -> String {
         let Cell { sides, change, share, .. } = *self;
         if change.is_nan() {
@@ -132,13 +132,13 @@ impl Cell {
     }
 }
 
-/// An input with the unit that its changes are per.
+/// Returns an input with the unit that its changes are per.
 fn name(input: &str, unit: &str) -> String {
     let words = labels::with_unit(input, unit);
     if words.unit.is_empty() { words.words } else { format!("{}, per {}", words.words, words.unit) }
 }
 
-/// The words of a column; of one without words, none in each row.
+/// Returns the words of a column; if it has no words, `None` for each row.
 fn words(table: &Table, column: &str) -> Result<Vec<String>, Failure> {
     let text = |code: &u32, words: &[String]| {
         if *code == NO_WORD { String::new() } else { words[*code as usize].clone() }

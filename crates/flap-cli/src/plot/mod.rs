@@ -1,4 +1,4 @@
-//! `flap plot`: pictures and pages of results.
+//! `flap plot`: draws results as pictures, and writes pages to explore them.
 
 mod encode;
 mod histogram;
@@ -50,15 +50,15 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
         picture(args, out)?;
     }
     if let Some(html) = &args.html {
-        // Once is enough to tell what a user should know.
+        // Warnings about the results are printed once.
         let bytes = page::page(args, &heading(args), out.is_none())?;
         write(html, args.overwrite.force, bytes.as_bytes())?;
-        console::say(&format!("a page in {}: open it in a browser", html.display()));
+        console::say(&format!("page in {}: open it in a browser", html.display()));
     }
     Ok(Exit::Done)
 }
 
-/// Draws into the file `out`.
+/// Draws a picture into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
     let source = Source::open(&args.results, &args.read, true)?;
@@ -87,13 +87,13 @@ fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failu
     }
 }
 
-/// The heading: the one asked for, or the file's name. XML has no place for control characters.
+/// Returns the heading: `--title`, or the file's name. Control characters, which XML forbids, are removed.
 fn heading(args: &PlotArgs) -> String {
     let name = || args.results.file_name().map(|name| name.to_string_lossy().into_owned());
     printable(&args.title.clone().or_else(name).unwrap_or_default())
 }
 
-/// The name of a picture of `results`, in the working directory.
+/// Returns the name for a picture of `results`, in the working directory.
 fn default_name(results: &Path) -> PathBuf {
     let name = results.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let (stem, _) = Format::split_ending(&name);
@@ -104,13 +104,13 @@ fn require_html(html: &Path) -> Result<(), Failure> {
     match encode::ending(html).as_str() {
         "html" | "htm" => Ok(()),
         _ => Err(Failure::usage(format!(
-            "{}: --html writes pages, which end in .html or .htm",
+            "{}: --html writes pages, whose names end in .html or .htm",
             html.display()
         ))),
     }
 }
 
-/// Writes a file, all of it or nothing.
+/// Writes a file all or nothing.
 fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     let written = job::make(path, force, |mut file| file.write_all(bytes).map(|()| None))?;
     written.map_err(|error: std::io::Error| Failure::cannot_write(path, &error))

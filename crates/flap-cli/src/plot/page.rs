@@ -1,4 +1,4 @@
-//! One page for a browser, to choose columns, filter rows and read their values. It contains its rows, code and style.
+//! A page to choose columns, filter rows and read their values in a browser. It contains its rows, code and style.
 
 mod data;
 
@@ -17,10 +17,10 @@ use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
-/// Most rows of a page: a browser draws them again and again while the user drags.
+/// Largest number of rows in a page: while the user drags, a browser draws them many times.
 const MOST_ROWS: usize = 1 << 17;
 
-/// The page of results. With `tells`, warnings about the results go to stderr.
+/// Returns the page of results. If `tells` is true, prints warnings about the results to stderr.
 pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
     let source = Source::open(&args.results, &args.read, tells)?;
     let request = Request::of(&source, args)?;
@@ -36,7 +36,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     Ok(flap_live::page::results(heading, &data))
 }
 
-/// The first view: that of the picture with the same arguments, if there is one.
+/// Returns the first view: the picture with the same arguments, if there is one.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (args.values().into_iter())
         .map(|(name, text)| {
@@ -50,14 +50,14 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
     });
     let columns = match drawn {
         Ok(columns) => columns,
-        // A page can always show something; what was asked for must be possible.
+        // The page always has a view. Only an explicitly selected kind must be possible.
         Err(failure) if args.kind.is_some() => return Err(failure),
         Err(_) => {
             let numbers = || (0..table.columns.len()).filter(|&column| table.numbers(column).is_ok());
             let x = request.x.or(numbers().next());
             let y = request.y.or(numbers().nth(1)).or(x);
             let (Some(x), Some(y)) = (x, y) else {
-                return Err(Failure::usage("no column of the file holds numbers"));
+                return Err(Failure::usage("no column of the file contains numbers"));
             };
             table.numbers(x)?;
             table.numbers(y)?;
@@ -78,7 +78,7 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
         PictureKind::Scatter => Kind::Scatter,
         PictureKind::Histogram | PictureKind::Tornado | PictureKind::Matrix => {
             let message = format!("--html cannot show a {}; use --out FILE.png", columns.kind.name());
-            return Err(Failure::usage(message).help("a page has lines, points, fronts and maps"));
+            return Err(Failure::usage(message).help("a page shows lines, points, fronts and maps"));
         }
         PictureKind::Hysteresis => {
             by = by.or(request.branch());
@@ -94,7 +94,7 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
     Ok(Start { kind, x: columns.x, y, by, color: columns.color, best, filters })
 }
 
-/// The value of a slice, as the file has it.
+/// Returns the value of a slice, as the file has it.
 fn filter(table: &Table, name: &str, text: &str) -> Result<Value, Failure> {
     let column = table.find(name)?;
     let rows = slices::filtered(table, &[(name.to_owned(), text.to_owned())])?;

@@ -1,4 +1,4 @@
-//! Panels: a pair of axes with its plots, title and legend.
+//! Panels: a pair of axes with plots, title and legend.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub(super) struct Axis {
     pub(super) words: Vec<String>,
 }
 
-/// A pair of axes with its plots.
+/// A pair of axes with plots.
 pub(super) struct Panel {
     pub(super) title: String,
     /// Smaller text below the title: slices, missing values.
@@ -31,14 +31,14 @@ pub(super) struct Panel {
     pub(super) plots: Vec<Plot>,
     /// Heading of the legend, if there is one.
     pub(super) legend: Option<String>,
-    /// Room on the right for a colour bar.
+    /// True if there is space on the right for a colour bar.
     pub(super) bar: bool,
 }
 
-/// The mean width of a letter, relative to the size of the text.
+/// The mean width of a letter, relative to the font size.
 pub(super) const LETTER: f64 = 0.56;
 
-/// The number of letters of a size that fit into a width.
+/// Returns the number of letters of a font size that fit into a width.
 fn letters(width: f64, size: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
@@ -50,18 +50,18 @@ fn letters(width: f64, size: f64) -> usize {
 }
 
 impl Axis {
-    /// A linear axis.
+    /// Returns a linear axis.
     pub(super) fn linear(label: String, range: (f64, f64)) -> Axis {
         Axis { label, range, log: false, words: Vec::new() }
     }
 
-    /// An axis of words, at 0, 1, 2, ….
+    /// Returns an axis of words, at 0, 1, 2, ….
     pub(super) fn of_words(label: String, words: Vec<String>) -> Axis {
         let range = (-0.5, words.len() as f64 - 0.5);
         Axis { words, ..Axis::linear(label, range) }
     }
 
-    /// The word at a place; empty between two.
+    /// Returns the word at a place; empty between two words.
     fn word(words: &[String], value: f64) -> String {
         let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
         (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())
@@ -69,12 +69,12 @@ impl Axis {
 }
 
 impl Panel {
-    /// A panel without headings, legend and colour bar.
+    /// Returns a panel without headings, legend and colour bar.
     pub(super) fn new(x: Axis, y: Axis, plots: Vec<Plot>) -> Panel {
         Panel { title: String::new(), notes: Vec::new(), x, y, plots, legend: None, bar: false }
     }
 
-    /// The library's description of the panel in a picture of `size`.
+    /// Returns the library's description of the panel in a picture of `size`.
     pub(super) fn layout(&self, size: Size) -> Layout {
         // Notes are centred over the plot, which is narrower than the picture.
         let notes_wrap = letters(0.72 * size.width, 12.0);
@@ -92,7 +92,7 @@ impl Panel {
             .with_tick_size(12)
             .with_body_size(12)
             .with_legend_box(false);
-        // The library looks at the ranges of the plots too, which may be none.
+        // The library also uses the ranges of the plots, which may be empty.
         (layout.x_range, layout.y_range) = (self.x.range, self.y.range);
         (layout.data_x_range, layout.data_y_range) = (Some(self.x.range), Some(self.y.range));
         "#e4e4e4".clone_into(&mut layout.theme.grid_color);
@@ -121,16 +121,16 @@ impl Panel {
         layout
     }
 
-    /// The panel as a picture of its own.
+    /// Returns the panel as a picture.
     pub(super) fn scene(self, size: Size) -> Scene {
         let layout = self.layout(size);
         self.scene_in(layout)
     }
 
-    /// The panel in a layout that is [`Panel::layout`] with additions.
+    /// Returns the panel in `layout`, which is [`Panel::layout`] with additions.
     pub(super) fn scene_in(mut self, layout: Layout) -> Scene {
         if self.plots.is_empty() {
-            // The library draws no ticks around nothing.
+            // Without data, the library draws no ticks.
             let ends = [(self.x.range.0, self.y.range.0), (self.x.range.1, self.y.range.1)];
             self.plots.push(Plot::Line(LinePlot::new().with_data(ends).with_color("none")));
         }
@@ -168,5 +168,5 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
     }
 }
 
-/// The width that a colour bar takes, with its ticks and label.
+/// The width of a colour bar with its ticks and label.
 pub(super) const BAR_MARGIN: f64 = 118.0;

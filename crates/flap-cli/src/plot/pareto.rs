@@ -18,7 +18,7 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Most corners of a front with a ring each: more would merge and hide the colours below.
+/// Largest number of corners of a front that have rings: more would merge and hide the colours below.
 const MOST_RINGS: usize = 40;
 
 /// The width of the front's line.
@@ -78,7 +78,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// The legend, with marks as they are in the picture.
+/// Returns the legend, with the same marks as in the picture.
 fn entries(front: &str) -> Vec<LegendEntry> {
     let entry = |label: &str, color: &str, shape: LegendShape| LegendEntry {
         label: ink::plain(label),
@@ -92,7 +92,7 @@ fn entries(front: &str) -> Vec<LegendEntry> {
     ]
 }
 
-/// Makes the line in the legend as that of the front is: as thin, and with a ring if `has_rings`.
+/// Makes the front's line in the legend as thin as in the picture, with a ring if `has_rings` is true.
 fn trace_in_legend(scene: &mut Scene, frame: &ComputedLayout, has_rings: bool) {
     let right = frame.margin_left + frame.plot_width();
     let centre = scene.elements.iter_mut().rev().find_map(|element| match element {
@@ -115,12 +115,12 @@ fn trace_in_legend(scene: &mut Scene, frame: &ComputedLayout, has_rings: bool) {
     }
 }
 
-/// A label that says which direction is better.
+/// Returns a label with the better direction.
 fn aimed(label: &Label, aim: Aim) -> String {
     format!("{}, {} is better", label.text(), if aim == Aim::Max { "more" } else { "less" })
 }
 
-/// The line that bounds the values which designs reach: from a corner on, it stays as good as that in the other measure.
+/// Returns the boundary of the values that designs reach, with a step at each corner.
 fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
     let mut line: Vec<(f64, f64)> = corners.first().copied().into_iter().collect();
     for two in corners.windows(2) {
@@ -133,10 +133,11 @@ fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
 /// The better direction: `true` if larger values are better.
 type Better = bool;
 
-/// The points that none of the others dominates, by rising first number. A point dominates another if it is at least as
-/// good in both numbers and better in one. Points with a NaN are none.
+/// Returns the points that no other point dominates, in rising order of the first number.
+///
+/// A point dominates another if it is at least as good in both numbers and better in one. Points with NaN are ignored.
 fn front(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
-    // More is better in both from here on.
+    // From here on, larger values are better in both numbers.
     let toward = |value: f64, more: Better| if more { value } else { -value };
     let place = |index: usize| (toward(points[index].0, better.0), toward(points[index].1, better.1));
     let known = |index: &usize| !points[*index].0.is_nan() && !points[*index].1.is_nan();
@@ -148,7 +149,7 @@ fn front(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
     let mut kept: Vec<usize> = Vec::new();
     for index in order {
         let (x, y) = place(index);
-        // Those before are at least as good in x; the last one kept is the best of them in y.
+        // All earlier points are at least as good in x, and the last kept point has the best y of them.
         let stands = kept.last().is_none_or(|&last| {
             let (best_x, best_y) = place(last);
             y > best_y || (y == best_y && x == best_x)
@@ -172,7 +173,7 @@ mod tests {
         assert_eq!(steps(&corners, Aim::Max), [(1.0, 1.0), (1.0, 3.0), (2.0, 3.0)]);
     }
 
-    /// By the definition, every pair.
+    /// Compares every pair, as in the definition.
     fn brute_force(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
         let at_least = |a: f64, b: f64, more: Better| if more { a >= b } else { a <= b };
         let dominates = |a: (f64, f64), b: (f64, f64)| {
@@ -184,7 +185,7 @@ mod tests {
             .collect()
     }
 
-    /// Points from a small grid, so that many share a number, some all.
+    /// Returns points from a small grid, so that many have equal numbers.
     fn points(count: usize, seed: u64) -> Vec<(f64, f64)> {
         let mut state = seed;
         let mut next = || {

@@ -1,4 +1,4 @@
-//! A measure over a parameter: one line for each value of another.
+//! Responses: a measure over a parameter, with one line for each value of another.
 
 use std::borrow::Cow;
 
@@ -14,10 +14,10 @@ use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Most lines of a picture: more cannot be distinguished.
+/// Largest number of lines in a picture: more cannot be distinguished.
 const MOST_LINES: usize = 16;
 
-/// Most points of a line.
+/// Largest number of points in a line.
 const MOST_POINTS: usize = 4000;
 
 /// The radius of points over words.
@@ -53,7 +53,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         rows += points.len();
         let colour = ink::line_colour(place, shown.len(), ordered(table, selection));
         if !words.is_empty() {
-            // Words have no order that a line could follow.
+            // Words have no order, so no line connects their points.
             plots.push(ink::points(&points, name, &colour, WORD_SIZE));
             drawn.extend(points);
             continue;
@@ -98,7 +98,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(panel.scene(size))
 }
 
-/// The places of the rows along column `x`, and for a column of words the words at 0, 1, 2, ….
+/// Returns the positions of the rows along column `x`, and for a column of words the words at 0, 1, 2, ….
 fn places(table: &Table, x: usize) -> Result<(Cow<'_, [f64]>, Vec<String>), Failure> {
     let Cells::Words { codes, words } = &table.columns[x].cells else {
         return Ok((Cow::Borrowed(table.numbers(x)?), Vec::new()));
@@ -113,7 +113,7 @@ pub(super) struct Line {
     pub(super) rows: Vec<usize>,
 }
 
-/// The chosen rows by the value of the column `by`; all of them if there is none.
+/// Groups the chosen rows by the value of the column `by`; if there is none, all rows form one line.
 pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, Failure> {
     let Some(by) = selection.columns.by else {
         return Ok(vec![Line { name: String::new(), rows: selection.rows.clone() }]);
@@ -122,13 +122,13 @@ pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, 
     if levels.len() * 3 > selection.rows.len() && levels.len() > MOST_LINES {
         let name = &table.columns[by].name;
         let message = format!(
-            "{} of {} rows have a {name} of their own, so that they form no lines",
+            "{} of {} rows have different values of {name}, so they form no lines",
             levels.len(),
             selection.rows.len()
         );
         return Err(Failure::usage(message).help("draw a sample with --kind scatter"));
     }
-    // The legend's heading has the unit.
+    // The unit is in the legend's heading.
     let label = table.label(by);
     let names = match &levels.values {
         Values::Numbers(values) => {
@@ -143,7 +143,7 @@ pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, 
     Ok(lines)
 }
 
-/// True if the lines have an order, as numbers have.
+/// Returns true if the lines have an order, as numbers have.
 pub(super) fn ordered(table: &Table, selection: &Selection) -> bool {
     selection.columns.by.is_some_and(|by| table.numbers(by).is_ok())
 }
@@ -151,6 +151,6 @@ pub(super) fn ordered(table: &Table, selection: &Selection) -> bool {
 fn several(table: &Table, selection: &Selection) -> Failure {
     let name = &table.columns[selection.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
-        "--by draws a line for each value of a column, --where chooses one value, --kind scatter draws points",
+        "use --by to draw a line for each value of a column, --where to choose one value, or --kind scatter to draw points",
     )
 }

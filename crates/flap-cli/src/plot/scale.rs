@@ -1,6 +1,6 @@
-//! Ranges of axes, their ticks, and how many points a line needs.
+//! Ranges of axes, their ticks, and the reduction of long lines.
 
-/// The smallest and the largest number, if there is one.
+/// Returns the smallest and the largest number; `None` if there is no number.
 pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     let finite = values.into_iter().filter(|value| value.is_finite());
     finite.fold(None, |range, value| {
@@ -9,15 +9,15 @@ pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)>
     })
 }
 
-/// The ranges of finite places and heights of points; `None` if there are no such places or no such heights.
+/// Returns the ranges of the finite coordinates of points; `None` if one range is empty.
 pub(super) fn extent(points: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
     Some([range(points.iter().map(|point| point.0))?, range(points.iter().map(|point| point.1))?])
 }
 
-/// A range with a margin of `share` on both sides, and never empty.
+/// Returns a range with a margin of `share` on both sides; the range is never empty.
 pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     let width = high - low;
-    // Numbers that are equal but for rounding are one number.
+    // Numbers that differ only by rounding count as equal.
     if width <= 1e-12 * high.abs().max(low.abs()) {
         let around = if high == 0.0 { 1.0 } else { 0.05 * high.abs() };
         return (low - around, high + around);
@@ -25,13 +25,13 @@ pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     (low - share * width, high + share * width)
 }
 
-/// The range of a vertical axis: from 0 if that is near, otherwise with margins.
+/// Returns the range of a vertical axis: from 0 if that is near, otherwise with margins.
 pub(super) fn from_zero((low, high): (f64, f64)) -> (f64, f64) {
     let (padded_low, padded_high) = padded((low, high), 0.05);
     if low >= 0.0 && low < 0.3 * high { (0.0, padded_high) } else { (padded_low, padded_high) }
 }
 
-/// The distance of ticks: 1, 2 or 5 times a power of ten, about `count` of them.
+/// Returns the distance of about `count` ticks: 1, 2 or 5 times a power of ten.
 pub(super) fn step((low, high): (f64, f64), count: f64) -> f64 {
     let rough = (high - low) / count;
     let ten = 10_f64.powf(rough.log10().floor());
@@ -39,7 +39,7 @@ pub(super) fn step((low, high): (f64, f64), count: f64) -> f64 {
     factor * ten
 }
 
-/// Ticks within the range.
+/// Returns the ticks within the range.
 pub(super) fn ticks(range: (f64, f64), step: f64) -> Vec<f64> {
     let (low, high) = range;
     let first = (low / step - 1e-9).ceil();
@@ -48,10 +48,10 @@ pub(super) fn ticks(range: (f64, f64), step: f64) -> Vec<f64> {
     (0..count).map(|i| (first + i as f64) * step).collect()
 }
 
-/// The text at a tick, with the decimals that `step` needs.
+/// Returns the text at a tick, with the decimals that `step` requires.
 pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     let largest = range.0.abs().max(range.1.abs());
-    // Of rounding: no tick is meant so close to 0.
+    // A tick so close to 0 is 0 with rounding errors.
     let value = if value.abs() < 1e-6 * step { 0.0 } else { value };
     if largest >= 1e6 || step < 1e-4 {
         return super::label::short(value);
@@ -61,7 +61,7 @@ pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// True if an axis is logarithmic: its values have even ratios and span a decade or more.
+/// Returns true if an axis is logarithmic: its values have even ratios and span a decade or more.
 pub(super) fn is_log(values: &[f64]) -> bool {
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
     if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {
@@ -71,8 +71,8 @@ pub(super) fn is_log(values: &[f64]) -> bool {
     values.windows(2).all(|two| ((two[1] / two[0]).ln() - step).abs() < 1e-6 * step)
 }
 
-/// At most about `most` of the points of a line, in their order: of each stretch its ends and its extremes, so that peaks
-/// stay.
+/// Returns at most about `most` points of a line, in their order: the ends and the extremes of each stretch, so that peaks
+/// remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();
@@ -92,7 +92,7 @@ pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     kept
 }
 
-/// `count` of the numbers from 0 up to `of`, evenly, the first and the last among them.
+/// Returns `count` of the numbers from 0 up to `of`, evenly spaced, including the first and the last.
 pub(super) fn even(of: usize, count: usize) -> Vec<usize> {
     if of <= count {
         return (0..of).collect();

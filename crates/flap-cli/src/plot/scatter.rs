@@ -1,4 +1,4 @@
-//! Scatters: two measures of every design, in the colours of a third.
+//! Scatter plots: two measures of every design, coloured by a third.
 
 use flap_sweep::picture::colours::{MISSING, PLAIN};
 use kuva::render::layout::ComputedLayout;
@@ -15,7 +15,7 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Draws column `y` over column `x`, in the colours of column `color`.
+/// Draws column `y` over column `x`, coloured by column `color`.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let points = Points::of(table, selection)?;
     let (drawn, all) = (points.shown.len(), points.places.len());
@@ -45,10 +45,10 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Most points of a picture besides a front.
+/// Largest number of points in a picture, without the points of a front.
 const MOST_POINTS: usize = 20_000;
 
-/// The radius of points without colours.
+/// The radius of uncoloured points.
 pub(super) const SIZE: f64 = 2.2;
 
 /// Number of shades of coloured points.
@@ -56,19 +56,19 @@ const SHADES: usize = 24;
 
 /// The points of a picture.
 pub(super) struct Points {
-    /// The rows with a place, and their places in shown units.
+    /// The rows with both coordinates, and their places in the units of the picture.
     rows: Vec<usize>,
     pub(super) places: Vec<(f64, f64)>,
     /// Ranges of the places.
     pub(super) extent: [(f64, f64); 2],
-    /// Those of `places` that are drawn.
+    /// Indices of the places that are drawn.
     pub(super) shown: Vec<usize>,
-    /// Rows without a place.
+    /// Number of rows without a place.
     pub(super) missing: usize,
 }
 
 impl Points {
-    /// The rows that have both columns.
+    /// Returns the rows that have values in both columns.
     pub(super) fn of(table: &Table, selection: &Selection) -> Result<Points, Failure> {
         let (across, up) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
         let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
@@ -84,13 +84,13 @@ impl Points {
         Ok(Points { rows, places, extent, shown, missing })
     }
 
-    /// The note about rows without a place, if there are some.
+    /// Returns the note about rows without a place; `None` if there are none.
     pub(super) fn note(&self) -> Option<String> {
         let all = self.rows.len() + self.missing;
         (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))
     }
 
-    /// The points as one plot, called `name`, or in the colours of the chosen column as several with their colour bar.
+    /// Returns the points as one plot called `name`, or coloured by the chosen column as several plots with their colour bar.
     pub(super) fn plots(
         &self,
         table: &Table,

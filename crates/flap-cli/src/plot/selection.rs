@@ -1,4 +1,4 @@
-//! The choice of kind, columns and rows for a picture: what the user requested, and what suits the file.
+//! Chooses the kind, the columns and the rows of a picture from the user's request and the file.
 
 use flap_sweep::picture::measures::{Role, usual};
 use flap_sweep::study::control::COMPONENTS;
@@ -17,10 +17,10 @@ use crate::failure::Failure;
 const NEEDED: [&str; 7] =
     ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch", "bistable"];
 
-/// The column of `flap vehicle` with the names of inputs.
+/// The column with the names of inputs in the output of `flap vehicle`.
 pub(super) const INPUT: &str = "input";
 
-/// The name in that column of the row of means.
+/// The name of the row of means in that column.
 pub(super) const MEAN: &str = "mean";
 
 /// The request of the user, as columns of the file.
@@ -31,19 +31,19 @@ pub(super) struct Request<'a> {
     pub(super) y: Option<usize>,
     pub(super) by: Option<usize>,
     pub(super) color: Option<usize>,
-    /// Columns that must have a value, with it and with their place.
+    /// Columns that must have a value, with the value.
     pub(super) values: Vec<(String, String)>,
     pub(super) filters: Vec<usize>,
-    /// The end of the leading parameters: the place of `status`, or of `branch`.
+    /// The end of the leading parameters: the index of `status`, or of `branch`.
     pub(super) end: usize,
     /// The measure over a parameter.
     pub(super) response: Option<usize>,
-    /// Benefit, cost and size of the motion: three different measures, as long as there are any.
+    /// Benefit, cost and size of the motion: three different measures, as far as the file has them.
     pub(super) three: [Option<usize>; 3],
 }
 
 impl<'a> Request<'a> {
-    /// Checks the columns that are asked for.
+    /// Checks the columns that the user requested.
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
         let names = source.names().to_vec();
@@ -74,51 +74,51 @@ impl<'a> Request<'a> {
         })
     }
 
-    /// The names of the columns.
+    /// Returns the name of a column.
     pub(super) fn name(&self, column: usize) -> &str {
         &self.names[column]
     }
 
-    /// The column of that name.
+    /// Returns the index of the column `name`.
     pub(super) fn place(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// True if the cells of a column are needed.
+    /// Returns true if the cells of a column are needed.
     pub(super) fn wants(&self, column: usize) -> bool {
         let [a, b, c] = self.three;
         let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
-        // Behind `branch` is the parameter that rises and falls.
+        // The column after `branch` is the followed parameter.
         some || self.filters.contains(&column)
             || column <= self.end + 1
             || self.matrix().is_some()
             || NEEDED.contains(&self.names[column].as_str())
     }
 
-    /// The column with the inputs of a vehicle, if the file has a line for each.
+    /// Returns the column with the inputs of a vehicle, if the file has one line for each.
     pub(super) fn matrix(&self) -> Option<usize> {
         let has = |name: &str| self.place(name).is_some();
         let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
         self.place(INPUT).filter(|_| is_matrix)
     }
 
-    /// The first of these columns that is not among those asked for.
+    /// Returns the first of these columns that the user did not request.
     pub(super) fn free(&self, preferred: [Option<usize>; 3]) -> Option<usize> {
         let asked = [self.x, self.y, self.color];
         preferred.into_iter().flatten().find(|column| !asked.contains(&Some(*column)))
     }
 
-    /// The column with the branch of each row of `flap respond`.
+    /// Returns the column with the branch of each row of `flap respond`.
     pub(super) fn branch(&self) -> Option<usize> {
         self.place("branch")
     }
 
-    /// The failure of a picture without a column that it needs.
+    /// Returns the failure of a picture without a required column.
     pub(super) fn unclear(&self, option: &str, why: &str) -> Failure {
         Failure::usage(format!("--{option} is not given, and {why}")).help(self.listed())
     }
 
-    /// The columns, as help.
+    /// Returns the columns, as a help line.
     pub(super) fn listed(&self) -> String {
         columns::listed(self.names.iter().map(String::as_str))
     }
@@ -129,22 +129,22 @@ pub(super) struct Columns {
     pub(super) kind: PictureKind,
     /// Column of the horizontal axis; of a tornado, the measure.
     pub(super) x: usize,
-    /// Column of the vertical axis; the same as `x` in a trajectory, a histogram and a tornado.
+    /// Column of the vertical axis; equal to `x` in a trajectory, a histogram and a tornado.
     pub(super) y: usize,
-    /// Column with one line for each of its values.
+    /// Column for whose values lines are drawn, one each.
     pub(super) by: Option<usize>,
     /// Column shown as colour.
     pub(super) color: Option<usize>,
 }
 
 impl Columns {
-    /// Columns without lines and colours.
+    /// Returns columns without lines and colours.
     pub(super) fn plain(kind: PictureKind, x: usize, y: usize) -> Columns {
         Columns { kind, x, y, by: None, color: None }
     }
 }
 
-/// The kind and the columns that are asked for, and usual ones where none is named.
+/// Returns the kind and the columns: from the request where given, otherwise the usual ones.
 pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let kind = kind(request, axes)?;
     match kind {
@@ -166,12 +166,12 @@ pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure
 const NO_MEASURES: &str = "the file has no measures";
 const NO_VALUES: &str = "no parameter has more than one value";
 
-/// The reason why a picture over axes has none.
+/// Returns the reason why a picture over axes cannot be drawn.
 fn no_values(axes: &Axes) -> &'static str {
     if axes.sampled { "a sample has no axes" } else { NO_VALUES }
 }
 
-/// Refuses a sample where there must be an axis: its designs form no lines and no cells.
+/// Returns an error if a sample has no axis for the picture: its designs form no lines and no cells.
 fn refuse_sample(request: &Request, axes: &Axes, columns: &[usize], form: &str) -> Result<(), Failure> {
     let stray = columns.iter().find(|&&column| axes.members.contains(&column) || column >= request.end);
     match stray.filter(|_| axes.sampled) {
@@ -187,7 +187,7 @@ fn refuse_sample(request: &Request, axes: &Axes, columns: &[usize], form: &str) 
 fn response(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let taken = [request.y, request.by];
     let free = || axes.columns.iter().copied().filter(|column| !taken.contains(&Some(*column)));
-    // Words are names of lines; they are across only if nothing else varies.
+    // Words are values of lines. They are on the horizontal axis only if nothing else varies.
     let number = || free().rfind(|column| !axes.words.contains(column));
     let x = request.x.or_else(|| frequency(request, axes)).or_else(number).or_else(|| free().next_back());
     let why = no_values(axes);
@@ -202,7 +202,7 @@ fn response(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
 fn map(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let free = |other: Option<usize>| {
         let taken = [other, request.color];
-        // Words have no cells.
+        // A column of words forms no cells.
         let is_free = move |column: &usize| !taken.contains(&Some(*column)) && !axes.words.contains(column);
         axes.columns.iter().copied().filter(is_free)
     };
@@ -235,7 +235,7 @@ fn pareto(request: &Request) -> Result<Columns, Failure> {
     Ok(Columns { color: request.color, ..Columns::plain(PictureKind::Pareto, x, y) })
 }
 
-/// The columns across and up, by default the cost and the benefit.
+/// Returns the horizontal and the vertical column; by default, the cost and the benefit.
 fn plane(request: &Request) -> Result<(usize, usize), Failure> {
     let [benefit, cost, motion] = request.three;
     let x = request.x.or_else(|| request.free([cost, motion, benefit]));
@@ -249,7 +249,8 @@ fn plane(request: &Request) -> Result<(usize, usize), Failure> {
 fn trajectory(request: &Request) -> Result<Columns, Failure> {
     for name in ["time_s", "stroke_deg", "pitch_deg"] {
         if request.place(name).is_none() {
-            let message = format!("a trajectory needs a column {name}, as `flap run --trajectory` writes it");
+            let message =
+                format!("a trajectory requires the column {name}, as in files of `flap run --trajectory`");
             return Err(Failure::usage(message).help(request.listed()));
         }
     }
@@ -259,7 +260,7 @@ fn trajectory(request: &Request) -> Result<Columns, Failure> {
 
 fn matrix(request: &Request) -> Result<Columns, Failure> {
     let Some(input) = request.matrix() else {
-        let message = "a matrix needs the columns input, unit, value and force and torque, as `flap vehicle --format csv` writes them";
+        let message = "a matrix requires the columns input, unit, value, and force and torque, as `flap vehicle --format csv` writes them";
         return Err(Failure::usage(message).help(request.listed()));
     };
     Ok(Columns::plain(PictureKind::Matrix, input, input))
@@ -267,7 +268,7 @@ fn matrix(request: &Request) -> Result<Columns, Failure> {
 
 fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let (Some(branch), Some(_)) = (request.branch(), request.place("bistable")) else {
-        let message = "a picture of hysteresis needs the columns `branch` and `bistable`, as `flap respond --out` writes them";
+        let message = "a picture of hysteresis requires the columns `branch` and `bistable`, as `flap respond --out` writes them";
         return Err(Failure::usage(message).help(request.listed()));
     };
     let x = request.x.unwrap_or(branch + 1);
@@ -277,7 +278,7 @@ fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
 }
 
-/// The column of the parameter that a response follows.
+/// Returns the column of the parameter that a response follows.
 fn followed(request: &Request) -> Option<usize> {
     request.branch().map(|branch| branch + 1)
 }
@@ -286,7 +287,7 @@ fn frequency(request: &Request, axes: &Axes) -> Option<usize> {
     request.place("drive_frequency").filter(|column| axes.columns.contains(column))
 }
 
-/// The kind that is asked for, else the one that suits.
+/// Returns the kind of the request, or a kind that suits the file.
 fn kind(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     let kind = match request.args.kind {
         Some(kind) => kind,
@@ -307,7 +308,7 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     if motion && request.x.is_none() && request.y.is_none() {
         return Ok(PictureKind::Trajectory);
     }
-    // A sample has no axes: its designs make points, not lines or cells.
+    // A sample has no axes: its designs form points, not lines or cells.
     if axes.sampled && request.by.is_none() {
         return Ok(if has_aims(request) { PictureKind::Pareto } else { PictureKind::Scatter });
     }
@@ -315,8 +316,8 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
         return Ok(of_columns(request, axes, x, y));
     }
     if request.end == 0 {
-        let message = "cannot tell what to draw: this is neither a sweep nor a motion";
-        return Err(Failure::usage(message).help("name columns with --x and --y").help(request.listed()));
+        let message = "no kind of picture suits this file: it is neither a sweep nor a motion";
+        return Err(Failure::usage(message).help("choose columns with --x and --y").help(request.listed()));
     }
     let frequency = request.place("drive_frequency").is_some_and(|column| axes.columns.contains(&column));
     let numbers = axes.columns.len() - axes.words.len();
@@ -325,12 +326,12 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     Ok(if lines && !colours { PictureKind::Response } else { PictureKind::Map })
 }
 
-/// The kind for two columns of a grid.
+/// Returns the kind for two columns of a grid.
 fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind {
     let is_parameter = |column: usize| (1..request.end).contains(&column);
     match (is_parameter(x), is_parameter(y)) {
         (true, true) => PictureKind::Map,
-        // Designs along one axis are a curve, of which a front says nothing.
+        // Designs along one axis form a curve, for which a front has no meaning.
         (false, false) if request.end > 0 && (axes.columns.len() > 1 || has_aims(request)) => {
             PictureKind::Pareto
         }
@@ -339,44 +340,49 @@ fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind
     }
 }
 
-/// True if the user said which direction is better.
+/// Returns true if the user set a better direction.
 fn has_aims(request: &Request) -> bool {
     request.args.x_aim.is_some() || request.args.y_aim.is_some()
 }
 
-/// Refuses options that this kind does not have.
+/// Returns an error if an option does not apply to this kind.
 fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
     use PictureKind::{Histogram, Hysteresis, Map, Pareto, Response, Scatter, Tornado};
     let strays = [
-        (request.by.is_some(), &[Response, Hysteresis][..], "--by needs", "--kind response or hysteresis"),
-        (request.color.is_some(), &[Map, Scatter, Pareto], "--color needs", "--kind map, scatter or pareto"),
-        (has_aims(request), &[Pareto], "--x-aim and --y-aim need", "--kind pareto"),
+        (request.by.is_some(), &[Response, Hysteresis][..], "--by requires", "--kind response or hysteresis"),
+        (
+            request.color.is_some(),
+            &[Map, Scatter, Pareto],
+            "--color requires",
+            "--kind map, scatter or pareto",
+        ),
+        (has_aims(request), &[Pareto], "--x-aim and --y-aim require", "--kind pareto"),
         (
             request.x.is_some(),
             &[Response, Map, Scatter, Pareto, Hysteresis, Histogram, Tornado],
-            "--x needs",
+            "--x requires",
             "another kind",
         ),
         (
             request.y.is_some(),
             &[Response, Map, Scatter, Pareto, Hysteresis],
-            "--y needs",
+            "--y requires",
             "another kind, which has an axis for it",
         ),
     ];
     if matches!(kind, Histogram | Tornado) && request.y.is_some() {
-        return Err(Failure::usage(format!("a {} has no --y; name its measure with --x", kind.name())));
+        return Err(Failure::usage(format!("a {} has no --y; choose its measure with --x", kind.name())));
     }
     match strays.iter().find(|(is_given, kinds, ..)| *is_given && !kinds.contains(&kind)) {
         Some((_, _, option, home)) => {
-            let message = format!("{option} {home}, and this picture is a {}", kind.name());
-            Err(Failure::usage(message).help("name the kind with --kind"))
+            let message = format!("{option} {home}, but this picture is a {}", kind.name());
+            Err(Failure::usage(message).help("choose the kind with --kind"))
         }
         None => Ok(()),
     }
 }
 
-/// All that a picture shows.
+/// The contents of a picture.
 pub(super) struct Selection {
     pub(super) columns: Columns,
     /// The better directions of x and y.
@@ -387,12 +393,12 @@ pub(super) struct Selection {
     /// True if the designs are a sample.
     pub(super) sampled: bool,
     pub(super) title: String,
-    /// Filters and slices in words.
+    /// Filters and slices as text.
     pub(super) notes: Vec<String>,
 }
 
 impl Selection {
-    /// The failure of a picture for which `column` has no number.
+    /// Returns the failure of a picture for which `column` has no number.
     pub(super) fn nothing(&self, table: &Table, column: usize) -> Failure {
         let (name, rows) = (&table.columns[column].name, self.rows.len());
         let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");
@@ -402,7 +408,7 @@ impl Selection {
     }
 }
 
-/// Selects kind, columns and rows.
+/// Chooses kind, columns and rows.
 pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<Selection, Failure> {
     let axes = Axes::of(table, request.end);
     let columns = columns(request, &axes)?;
@@ -412,7 +418,7 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
         && !filters.contains(&branch)
         && has_both_ways(table, branch)
     {
-        console::say("drawn: branch = up; --where branch=down chooses the other way");
+        console::say("drawn: branch = up; --where branch=down chooses the other branch");
         values.push(("branch".to_owned(), "up".to_owned()));
         filters.push(branch);
     }
@@ -443,15 +449,15 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     })
 }
 
-/// True if rows are on the way up and on the way down.
+/// Returns true if the file has rows of the branch up and of the branch down.
 fn has_both_ways(table: &Table, branch: usize) -> bool {
     let Cells::Words { words, .. } = &table.columns[branch].cells else { return false };
     ["up", "down"].iter().all(|way| words.iter().any(|word| word == way))
 }
 
-/// Refuses numbers whose differences are beyond the largest float: axes have no place for them.
+/// Returns an error if differences of the numbers exceed the largest float, so that no axis can show them.
 fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
-    /// The share of the largest float that margins and ticks need.
+    /// Margins and ticks need the rest of the float's range.
     const LARGEST: f64 = f64::MAX / 16.0;
     for column in [Some(columns.x), Some(columns.y), columns.color].into_iter().flatten() {
         let Cells::Numbers(values) = &table.columns[column].cells else { continue };
@@ -466,7 +472,7 @@ fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Fa
     Ok(())
 }
 
-/// A value that the user typed, in the unit that the picture shows.
+/// Returns a value that the user typed, in the unit of the picture.
 fn shown(table: &Table, column: usize, typed: &str) -> String {
     let Column { name, unit, .. } = &table.columns[column];
     match filter::number(name, unit, typed) {
@@ -475,19 +481,19 @@ fn shown(table: &Table, column: usize, typed: &str) -> String {
     }
 }
 
-/// The better directions of x and y.
+/// Returns the better directions of x and y.
 pub(super) fn aims(request: &Request, columns: &Columns) -> (Aim, Aim) {
     let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| Aim::of(request.name(column)));
     (aim(request.args.x_aim, columns.x), aim(request.args.y_aim, columns.y))
 }
 
-/// The axes that a picture has no place for.
+/// Returns the axes that the picture does not show.
 fn left(columns: &Columns, axes: &Axes) -> Vec<usize> {
     use PictureKind::{Histogram, Matrix, Pareto, Scatter, Tornado, Trajectory};
     let shown = [Some(columns.x), Some(columns.y), columns.by];
     let is_left = |column: &usize| match columns.kind {
         Pareto | Trajectory | Matrix => false,
-        // All designs of a grid; of a sample that is crossed with axes, all its points.
+        // All designs of a grid are drawn; for a sample crossed with axes, all points of the sample.
         Scatter | Histogram | Tornado => axes.sampled && !axes.sample.contains(column),
         _ => true,
     };

@@ -16,18 +16,18 @@ pub(super) struct Shades {
 }
 
 impl Shades {
-    /// The colours of numbers from the first to the second of `range`.
+    /// Returns the colours for numbers in `range`.
     pub(super) fn of(range: (f64, f64)) -> Shades {
         Shades { range }
     }
 
-    /// True for a diverging map, whose middle is zero.
+    /// Returns true for a diverging map, whose middle is zero.
     pub(super) fn is_signed(&self) -> bool {
         is_signed(self.range.0, self.range.1)
     }
 
-    /// The colour of a number: blue below and red above zero if there are both signs, where equal sizes are equally strong;
-    /// else even in lightness, dark to light.
+    /// Returns the colour of a number. With both signs, negative numbers are blue, positive numbers red, and equal sizes equally
+    /// strong. Otherwise the lightness rises evenly.
     pub(super) fn colour(&self, value: f64) -> String {
         let (low, high) = self.range;
         if self.is_signed() {
@@ -38,7 +38,7 @@ impl Shades {
     }
 }
 
-/// A label and the size of its letters, with which it fits into a length: smaller than usual, and cut if even that is too long.
+/// Returns a label and a font size that fit into a length: smaller than usual and, if necessary, cut.
 fn fitting(label: &str, length: f64) -> (String, u32) {
     const SIZES: [u32; 5] = [14, 13, 12, 11, 10];
     let fits = |letters: usize, size: u32| letters as f64 * f64::from(size) * LETTER <= length;
@@ -50,7 +50,7 @@ fn fitting(label: &str, length: f64) -> (String, u32) {
     (label.chars().take(kept).chain(['…']).collect(), SIZES[4])
 }
 
-/// Draws the colours from the smallest to the largest value on the right, and below them the label of `missing` values.
+/// Draws a colour bar on the right, and below it the label for `missing` values.
 pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis, missing: Option<&str>) {
     const SLICES: usize = 64;
     let (low, high) = axis.range;

@@ -1,11 +1,11 @@
-//! Choice of rows: filters, and slices through axes that a picture does not show.
+//! Choice of rows: filters, and slices along axes that a picture does not show.
 
 use crate::data::columns::{Cells, Column, Table};
 use crate::data::filter;
 use crate::data::levels::Levels;
 use crate::failure::Failure;
 
-/// The rows that have the values of `filters`.
+/// Returns the rows that have the values of `filters`.
 pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Vec<usize>, Failure> {
     let mut rows: Vec<usize> = (0..table.rows).collect();
     for (name, text) in filters {
@@ -14,7 +14,7 @@ pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Ve
             Cells::Numbers(values) => {
                 let Column { name, unit, .. } = &table.columns[column];
                 let wanted = filter::number(name, unit, text)?.ok_or_else(|| {
-                    let message = format!("`{name}` holds numbers, and `{text}` is not a number");
+                    let message = format!("`{name}` has numbers, and `{text}` is not a number");
                     Failure::usage(format!("--where {name}={text}: {message}"))
                 })?;
                 rows.iter().copied().filter(|&row| filter::is_same(values[row], wanted)).collect()
@@ -36,14 +36,14 @@ pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Ve
     Ok(rows)
 }
 
-/// The question whether a number without a unit was meant to have a prefix.
+/// Returns a question if a number without a unit may lack a prefix.
 fn slip(table: &Table, column: usize, text: &str) -> Option<String> {
     let Column { name, unit, .. } = &table.columns[column];
     let usual = *table.numbers(column).ok()?.first()?;
     filter::meant(name, unit, text.parse().ok()?, usual)
 }
 
-/// The values of a column, a dozen at most.
+/// Returns the values of a column, at most a dozen.
 fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     const MOST: usize = 12;
     let text = |place| levels.typed(place);
@@ -60,13 +60,13 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
 /// The rows with one value of each axis that the picture does not show.
 pub(super) struct Slice {
     pub(super) rows: Vec<usize>,
-    /// The values of those axes.
+    /// The value that was chosen for each of those axes.
     pub(super) taken: Vec<Taken>,
 }
 
-/// The value that was taken of an axis.
+/// The value that was chosen for an axis.
 pub(super) struct Taken {
-    /// The value as it is shown: `Drive voltage 70 V`.
+    /// The value with the axis's label: `Drive voltage 70 V`.
     pub(super) shown: String,
     /// The column.
     pub(super) name: String,
@@ -76,7 +76,7 @@ pub(super) struct Taken {
     pub(super) of: usize,
 }
 
-/// Takes the middle value of each of `axes`, which the picture does not show.
+/// Chooses the middle value of each of `axes`, which the picture does not show.
 pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Slice {
     let mut taken = Vec::new();
     for &axis in axes {

@@ -1,4 +1,4 @@
-//! Tornados of a sample: the rank correlation of each parameter with a measure.
+//! Tornado plots: the rank correlation of each parameter with a measure.
 
 use flap_sweep::picture::colours::{DARK, SERIES};
 use flap_sweep::picture::sample::correlations;
@@ -14,16 +14,16 @@ use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
-/// Most bars of a picture.
+/// Largest number of bars in a picture.
 const MOST_BARS: usize = 20;
 
-/// The height of a bar, of the distance between two.
+/// The height of a bar, relative to the distance between two bars.
 const THICK: f64 = 0.62;
 
-/// The size from which a bar has its number inside.
+/// A longer bar has its number inside.
 const LONG: f64 = 0.82;
 
-/// Draws the correlations of the parameters with column `x`, the largest on top.
+/// Draws the correlations of the parameters with column `x`, the largest at the top.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let measure = selection.columns.x;
     let values = table.numbers(measure)?;
@@ -42,9 +42,9 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let found = correlations(&columns, &values);
     if found.is_empty() {
-        let message =
-            "no parameter has several values in the rows that are drawn: there is nothing to compare";
-        return Err(Failure::usage(message).help("--where chooses rows; a tornado needs a sample or a grid"));
+        let message = "no parameter has several values in the selected rows: there is nothing to compare";
+        return Err(Failure::usage(message)
+            .help("select other rows with --where; a tornado requires a sample or a grid"));
     }
     let shown = &found[..found.len().min(MOST_BARS)];
     if shown.len() < found.len() {
@@ -54,7 +54,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
 
     let mut notes = selection.notes.clone();
     if selection.sampled {
-        // Of independent columns, 95 % of the correlations are smaller.
+        // For independent columns, 95 % of the correlations are smaller.
         let chance = 1.96 / (designs.max(2) as f64 - 1.0).sqrt();
         notes.push(format!("{designs} designs; sizes below {chance:.2} may be chance"));
     } else {
@@ -86,7 +86,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         let end = frame.map_x(size);
         let colour = SERIES[usize::from(size > 0.0)];
         ink::rectangle(&mut scene, (zero.min(end), middle - half), ((end - zero).abs(), 2.0 * half), colour);
-        // Beside the bar, or inside where it ends near the frame.
+        // Beside the bar, or inside the bar if it ends near the frame.
         let is_inside = size.abs() > LONG;
         let is_right = (size > 0.0) != is_inside;
         let (side, anchor) = if is_right { (5.0, TextAnchor::Start) } else { (-5.0, TextAnchor::End) };

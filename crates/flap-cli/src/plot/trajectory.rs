@@ -14,10 +14,10 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Most points of one line.
+/// Largest number of points in one line.
 const MOST_POINTS: usize = 8000;
 
-/// The angles: the beginning of their columns' names.
+/// The angles: the first parts of their columns' names.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
 /// Draws the motion beside its phase portrait.
@@ -79,13 +79,13 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(side_by_side(left, right, &selection.title, &notes, size))
 }
 
-/// Two panels below one title.
+/// Returns a scene with two panels below one title.
 fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: Size) -> Scene {
     let half = Size { width: size.width * 0.5, height: size.height - 60.0 };
     let layouts = vec![left.layout(half), right.layout(half)];
     let title =
         std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
-    // A long title gets smaller letters, for it has one line.
+    // The title has only one line, so a long title gets smaller letters.
     let letters = (size.width / (LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
     let letters = letters as u32;
@@ -98,7 +98,7 @@ fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: 
         .render()
 }
 
-/// Rates in degrees per millisecond from the differences of neighbours.
+/// Returns rates in degrees per millisecond, from the differences of neighbours.
 fn rates(time: &[f64], angles: &[f64]) -> Vec<f64> {
     let last = time.len() - 1;
     (0..time.len())

@@ -12,23 +12,23 @@ use crate::request::Refused;
 pub(crate) struct AnswerContext<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) options: RunOptions,
-    /// Raised by a newer request.
+    /// Set by a newer request.
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl AnswerContext<'_> {
-    /// [`Refused::Superseded`] if a newer request has come.
+    /// Returns [`Refused::Superseded`] if a newer request has arrived.
     pub(super) fn check_current(&self) -> Result<(), Refused> {
         if self.stop.load(Ordering::Relaxed) { Err(Refused::Superseded) } else { Ok(()) }
     }
 }
 
-/// The reason why a run gave no rows.
+/// Returns the reason why a run gave no rows.
 pub(super) fn failed(error: &RunError) -> Refused {
     Refused::Fault(error.to_string())
 }
 
-/// The reason why there is no motion.
+/// Returns the reason why there is no motion.
 pub(super) fn unfinished(reason: Unfinished) -> Refused {
     match reason {
         Unfinished::Interrupted => Refused::Superseded,

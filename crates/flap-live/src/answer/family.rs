@@ -1,4 +1,4 @@
-//! Lines of rows: those that a sweep of the same grid writes.
+//! Lines of rows, which equal the rows of a sweep of the same grid.
 
 use std::time::Instant;
 
@@ -9,7 +9,7 @@ use super::context::{AnswerContext, failed};
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
-/// The rows of a family, and the time that they took.
+/// The rows of a family, and the time of their computation.
 #[derive(Serialize)]
 pub(crate) struct Family {
     #[serde(flatten)]
@@ -17,7 +17,7 @@ pub(crate) struct Family {
     milliseconds: f64,
 }
 
-/// The rows of a family.
+/// Computes the rows of a family.
 pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Family, Refused> {
     let begun = Instant::now();
     let FamilyRequest { design, x, by } = request;

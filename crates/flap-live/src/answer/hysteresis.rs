@@ -1,4 +1,4 @@
-//! The response of a design as a parameter rises and falls.
+//! The response of a design while a parameter rises and falls.
 
 use flap_core::parameter::Parameter;
 use flap_sweep::plan::Along;
@@ -9,7 +9,7 @@ use super::context::{AnswerContext, failed};
 use crate::request::{HysteresisRequest, MOST_ROWS, Refused};
 use crate::rows::Rows;
 
-/// The rows of `flap respond`: up, then down.
+/// Computes the rows of `flap respond`: up, then down.
 pub(crate) fn hysteresis(context: &AnswerContext<'_>, request: &HysteresisRequest) -> Result<Rows, Refused> {
     let HysteresisRequest { design, x } = request;
     if x.n < 2 || 2 * x.n as usize > MOST_ROWS {

@@ -14,11 +14,11 @@ use crate::request::{MOST_ROWS, MotionRequest, Refused};
 pub(crate) struct Motion {
     columns: Vec<String>,
     meanings: Vec<String>,
-    /// A number that is not finite is null.
+    /// A number that is not finite is null in JSON.
     rows: Vec<Vec<f64>>,
 }
 
-/// The motion of a design.
+/// Computes the motion of a design.
 pub(crate) fn motion(context: &AnswerContext<'_>, request: &MotionRequest) -> Result<Motion, Refused> {
     let MotionRequest { design, samples } = request;
     if *samples < 2 || *samples as usize > MOST_ROWS {

@@ -1,4 +1,4 @@
-//! The numbers of a design beside the published ones, its natural frequencies, and the derivatives of a measure.
+//! The measures of a design and of the published design, their natural frequencies, and the derivatives of a measure.
 
 use std::sync::atomic::Ordering;
 
@@ -22,17 +22,17 @@ pub(crate) struct Numbers {
     row: Vec<Value>,
     /// The row of the published design.
     published: Vec<Value>,
-    /// The reason why the parameters are impossible, or why a sweep leaves the design out.
+    /// The reason why the parameters are impossible, or why a sweep excludes the design.
     reason: Option<String>,
-    /// Changed parameters whose values are far from those of the preset.
+    /// Warnings about changed parameters whose values are far from the preset's.
     warnings: Vec<String>,
     /// The natural frequencies, if the model has them.
     modes: Option<Vec<Mode>>,
-    /// Those of the published design.
+    /// The natural frequencies of the published design.
     published_modes: Option<Vec<Mode>>,
     /// Derivatives of a measure, the largest first.
     gradient: Option<Vec<Slope>>,
-    /// The reason why there are none.
+    /// The reason why there are no derivatives.
     gradient_reason: Option<String>,
 }
 
@@ -45,11 +45,11 @@ struct Mode {
 #[derive(Serialize)]
 struct Slope {
     parameter: String,
-    /// The change of the measure, in its unit, per per cent of the parameter.
+    /// The change of the measure, in its unit, per 1 % of the parameter.
     per_percent: f64,
 }
 
-/// The numbers of a design.
+/// Computes the numbers of a design.
 pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Result<Numbers, Refused> {
     let plan = context.opened.design(&request.design)?;
     let values = plan.point(0).values;
@@ -62,7 +62,10 @@ pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Resu
             if let Admission::Excluded(unsatisfied) = verdict {
                 let names = unsatisfied.iter().map(|&number| plan.conditions()[number].name.as_str());
                 let names: Vec<&str> = names.collect();
-                reason = Some(format!("a sweep leaves this design out: {} does not hold", names.join(", ")));
+                reason = Some(format!(
+                    "a sweep excludes this design, because it does not satisfy {}",
+                    names.join(", ")
+                ));
             }
             let mut row = plan.rows().run_point(&run, None);
             plan.add_own_measures(&values, &mut row.measures);
@@ -98,20 +101,23 @@ pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Resu
     })
 }
 
-/// The natural frequencies of a design.
+/// Returns the natural frequencies of a design.
 fn modes(plan: &Plan, values: &[f64]) -> Option<Vec<Mode>> {
     let modes = plan.simulator().experiments().ok()?.modes(values).ok()?;
     let modes = modes.into_iter().filter(|mode| mode.frequency.is_finite());
     Some(modes.map(|mode| Mode { name: mode.name, frequency_hz: mode.frequency }).collect())
 }
 
-/// The derivatives of a measure by all parameters that can change, or the reason why there are none.
+/// Returns the derivatives of a measure by all parameters that can change, or the reason why there are none.
 fn slopes(plan: &Plan, run: &PointRun<'_>, row: &Row, measure: &str) -> Result<Vec<Slope>, String> {
     let columns = plan.simulator().columns();
     let place = columns.iter().position(|column| column.name == measure);
     let place = place.ok_or_else(|| format!("there is no measure `{measure}` with derivatives"))?;
     if row.status != Status::Periodic {
-        return Err(format!("the motion is {}: only periodic ones have derivatives", row.status.name()));
+        return Err(format!(
+            "the motion is {}, and only periodic motions have derivatives",
+            row.status.name()
+        ));
     }
     let strongest = strongest::slopes(plan, plan.simulator(), run, row, place, &[]);
     let known = strongest.map_err(|reason| reason.to_string())?.known;

@@ -1,28 +1,28 @@
-//! A grid file as lines of Python.
+//! Translates a grid file into lines of Python.
 
 use flap_sweep::notation::text;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use crate::request::Refused;
 
-/// The lines that sweep a grid.
+/// Returns the lines that sweep a grid.
 pub(super) fn sweep(grid: &str) -> Result<String, Refused> {
     Ok(format!("import flapwing\n\ntable = flapwing.sweep({})\n", dictionary(grid)?))
 }
 
-/// The lines that follow the response of a grid along its axis `along`.
+/// Returns the lines that follow the response of a grid along its axis `along`.
 pub(super) fn respond(grid: &str, along: &str) -> Result<String, Refused> {
     let (grid, along) = (dictionary(grid)?, quoted(along));
     Ok(format!("import flapwing\n\ncurve = flapwing.respond({grid}, {along})\n"))
 }
 
 fn dictionary(grid: &str) -> Result<String, Refused> {
-    let document: DocumentMut = grid.parse().map_err(|_| Refused::Fault("a grid is no TOML".to_owned()))?;
+    let document: DocumentMut = grid.parse().map_err(|_| Refused::Fault("a grid is not TOML".to_owned()))?;
     Ok(table(document.as_table()))
 }
 
 fn table(table: &dyn TableLike) -> String {
-    // Empty tables say nothing.
+    // Empty tables are left out.
     let is_said = |item: &Item| item.as_table_like().is_none_or(|inner| !inner.is_empty());
     let entries = table.iter().filter(|(_, item)| is_said(item));
     let entries = entries.map(|(key, entry)| format!("{}: {}", quoted(key), item(entry)));
@@ -55,7 +55,7 @@ fn value(value: &Value) -> String {
     }
 }
 
-/// A text as a literal of Python, which knows the escapes of JSON.
+/// Returns a text as a literal of Python, which has the same escapes as JSON.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -1,4 +1,4 @@
-//! Texts to save: a grid file, a device, a line of Python.
+//! Texts to save: a grid file, a device file, lines of Python.
 
 use flap_sweep::grid;
 use serde::Serialize;
@@ -14,7 +14,7 @@ pub(crate) struct Saved {
     text: String,
 }
 
-/// The text that was asked for, checked as every grid file is.
+/// Returns the requested text, which is checked like every grid file.
 pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result<Saved, Refused> {
     let SaveRequest { kind, design, x, by, updown } = request;
     let followed = x.as_ref().filter(|_| *updown);

@@ -1,4 +1,4 @@
-//! Answers of the server: their headers, and the statuses of refusals.
+//! Answers of the server: their headers, and the HTTP statuses of refusals.
 
 use axum::Json;
 use axum::http::header::{
@@ -11,35 +11,35 @@ use serde_json::json;
 use crate::guard::Rejection;
 use crate::request::Refused;
 
-/// The page runs the code in itself, asks this server alone, and may stand in a notebook of this machine.
+/// The page runs only inline code, connects only to this server, and may be embedded in a notebook on this machine.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'self' http://localhost:* http://127.0.0.1:* vscode-webview:";
 
-/// Headers of every answer: nothing of it is kept or guessed, and no address with a token is passed on.
+/// Headers of every answer: browsers neither store it nor guess its type, and do not pass on addresses with a token.
 const HEADERS: [(HeaderName, &str); 3] =
     [(CACHE_CONTROL, "no-store"), (X_CONTENT_TYPE_OPTIONS, "nosniff"), (REFERRER_POLICY, "no-referrer")];
 
-/// The page.
+/// Returns the page as an answer.
 pub(super) fn page(page: String) -> Response {
     (HEADERS, [(CONTENT_SECURITY_POLICY, POLICY)], Html(page)).into_response()
 }
 
-/// An answer that is JSON already.
+/// Returns an answer from a text that is already JSON.
 pub(super) fn json(text: Vec<u8>) -> Response {
     (HEADERS, [(CONTENT_TYPE, "application/json")], text).into_response()
 }
 
-/// An answer that says why there is none.
+/// Returns an answer with an error message.
 pub(super) fn refusal(status: StatusCode, error: &str) -> Response {
     (status, HEADERS, Json(json!({ "error": error, "help": null }))).into_response()
 }
 
-/// The answer to a request that was refused.
+/// Returns the answer to a refused request.
 pub(super) fn refused(refused: Refused) -> Response {
     match refused {
         Refused::Malformed(error) => refusal(StatusCode::BAD_REQUEST, &error),
-        Refused::Superseded => refusal(StatusCode::CONFLICT, "a newer request has come"),
+        Refused::Superseded => refusal(StatusCode::CONFLICT, "a newer request replaces this one"),
         Refused::Fault(error) => refusal(StatusCode::INTERNAL_SERVER_ERROR, &error),
         Refused::Impossible { error, help, parameter } => {
             let body = json!({ "error": error, "help": help, "parameter": parameter });
@@ -48,7 +48,7 @@ pub(super) fn refused(refused: Refused) -> Response {
     }
 }
 
-/// The answer to somebody else than the page, which ends the connection: others may wait for its place.
+/// Returns the answer to a rejected request. It closes the connection, for which other requests may wait.
 pub(super) fn rejected(rejection: &Rejection) -> Response {
     let answer = match rejection {
         Rejection::WrongToken => {
@@ -56,7 +56,7 @@ pub(super) fn rejected(rejection: &Rejection) -> Response {
             refusal(StatusCode::UNAUTHORIZED, error)
         }
         Rejection::ForeignOrigin => {
-            let error = "this server answers its own page alone, at 127.0.0.1 or localhost and its own port";
+            let error = "this server answers only its own page, at 127.0.0.1 or localhost and its own port";
             refusal(StatusCode::FORBIDDEN, error)
         }
     };

@@ -1,5 +1,4 @@
-//! Connections: as many as the server can hold, each with limits on the time that a request takes to come, and on the time
-//! that a browser takes to read its answer.
+//! Connections, with a limit on their number, and limits on the times to receive a request and to send its answer.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,16 +12,16 @@ use tokio::sync::Semaphore;
 use tokio::time::sleep;
 use tokio_io_timeout::TimeoutStream;
 
-/// Longest time for the head of a request to come, for its body, and between two parts of an answer that are read.
+/// Longest time to receive the head of a request, to receive its body, and between two parts of an answer that are read.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Connections at the same time; others wait until one has ended.
+/// Largest number of connections at the same time; others wait until one has ended.
 const MOST_CONNECTIONS: usize = 128;
 
-/// Pause after a connection that could not be taken, as when too many files are open.
+/// Pause after a connection that could not be accepted, for example because too many files are open.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Answers connections by `routes`, for ever.
+/// Answers connections by `routes`, without end.
 pub(super) async fn serve(listener: TcpListener, routes: Router) {
     let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
@@ -37,7 +36,7 @@ pub(super) async fn serve(listener: TcpListener, routes: Router) {
             protocol.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
             let mut stream = TimeoutStream::new(stream);
             stream.set_write_timeout(Some(PATIENCE));
-            // A connection that fails concerns its browser alone, which asks again.
+            // An error in a connection affects only its browser, which repeats the request.
             let _ = protocol.serve_connection(TokioIo::new(Box::pin(stream)), service).await;
             drop(place);
         });

@@ -1,4 +1,4 @@
-//! The HTTP server of the live page, on this machine alone.
+//! The HTTP server of the live page, for this machine only.
 
 mod answers;
 mod connections;
@@ -22,15 +22,15 @@ use crate::guard::Guard;
 use crate::opened::Opened;
 use state::ServerState;
 
-/// Threads that wait for requests or compute; rows have workers besides.
+/// Number of threads that wait for requests or compute answers; rows have additional workers.
 const MOST_BLOCKING: usize = 16;
 
 /// Options of a server.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LiveOptions {
-    /// The port; 0 for a free one.
+    /// The port; 0 selects a free port.
     pub port: u16,
-    /// Threads and instructions of rows.
+    /// Threads and SIMD instructions for rows.
     pub run: RunOptions,
 }
 
@@ -40,15 +40,15 @@ pub enum StartError {
     /// The port cannot be opened.
     #[error("cannot listen on port {0} of 127.0.0.1: {1}")]
     Port(u16, #[source] io::Error),
-    /// The operating system gives no threads, or no random numbers.
+    /// The operating system provides no threads or no random numbers.
     #[error("cannot start the server: {0}")]
     System(String),
-    /// The file has mistakes without its points.
-    #[error("the design cannot stand without its points")]
+    /// If its points are left out, the file has mistakes.
+    #[error("the design is not valid without its points")]
     Design(Mistakes),
 }
 
-/// A running server. It ends when it is dropped.
+/// A running server, which stops when it is dropped.
 ///
 /// ```
 /// use flap_live::{LiveOptions, Server};
@@ -69,10 +69,10 @@ pub struct Server {
 }
 
 impl Server {
-    /// Starts a server of the live page for the first design of `plan`. Presets are looked up in `models`.
+    /// Starts a server of the live page for the first design of `plan`. `models` contains the presets.
     ///
     /// # Errors
-    /// [`StartError`] if the port is taken, the file has mistakes without its points, or the system gives no threads.
+    /// [`StartError`] if the port is in use, the file has mistakes without its points, or the system provides no threads.
     pub fn start(
         plan: Plan,
         models: &[&'static dyn Simulator],
@@ -97,10 +97,10 @@ impl Server {
         let (stop, stopped) = oneshot::channel();
         let serve = move || {
             runtime.block_on(async {
-                // A listener that the operating system has opened is refused by nothing here.
+                // An open listener is always accepted here.
                 let Ok(listener) = Listener::from_std(listener) else { return };
                 tokio::spawn(connections::serve(listener, routes::routes(Arc::clone(&state))));
-                // Sent by `stop`; an error says that the server has been dropped.
+                // `stop` sends the message; an error means that the server was dropped.
                 let _ = stopped.await;
             });
             state.stop();
@@ -111,20 +111,21 @@ impl Server {
         Ok(Server { address, stop: Some(stop), thread: Some(thread), process: std::process::id() })
     }
 
-    /// The address of the page, with its token.
+    /// Returns the address of the page, with its token.
     pub fn address(&self) -> &str {
         &self.address
     }
 
-    /// Ends the server: connections are closed, and work in hand is dropped. In a forked child of the process that started the
-    /// server, it does nothing: the server goes on in the parent.
+    /// Stops the server: closes connections and abandons current work.
+    ///
+    /// In a forked child of the process that started the server, this does nothing, and the server continues in the parent.
     pub fn stop(&mut self) {
         if self.process != std::process::id() {
-            // Waking or joining a thread of the parent from here would reach into its event loop, or panic.
+            // In a child, waking or joining a thread of the parent would use the parent's event loop, or panic.
             std::mem::forget((self.stop.take(), self.thread.take()));
             return;
         }
-        // The other end is there as long as the thread runs.
+        // The receiver exists as long as the thread runs.
         if let Some(stop) = self.stop.take() {
             let _ = stop.send(());
         }

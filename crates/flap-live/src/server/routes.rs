@@ -1,4 +1,4 @@
-//! The addresses of the server.
+//! The routes of the server.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use super::connections::PATIENCE;
 use super::state::{Kind, ServerState};
 use crate::request::Refused;
 
-/// Most bytes of a request.
+/// Largest size of a request in bytes.
 const MOST_BYTES: usize = 64 * 1024;
 
-/// The addresses: the page, and its requests.
+/// Returns the routes: the page and its requests.
 pub(super) fn routes(state: Arc<ServerState>) -> Router {
     Router::new()
         .route("/", any(page))
@@ -38,7 +38,7 @@ async fn page(
         return answers::rejected(&rejection);
     }
     if method != Method::GET && method != Method::HEAD {
-        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "the page is there for GET alone");
+        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "the page accepts only GET requests");
     }
     state.page().map_or_else(answers::refused, answers::page)
 }
@@ -52,7 +52,7 @@ async fn api(State(state): State<Arc<ServerState>>, Path(kind): Path<String>, re
         return answers::refusal(StatusCode::NOT_FOUND, "there is no such request");
     };
     if head.method != Method::POST {
-        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "requests are there for POST alone");
+        return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "requests must use POST");
     }
     match read(&head.headers, body).await {
         Ok(body) => answer(state, kind, body).await,
@@ -60,9 +60,9 @@ async fn api(State(state): State<Arc<ServerState>>, Path(kind): Path<String>, re
     }
 }
 
-/// The bytes of a request, or the answer to one that is too large or does not come.
+/// Reads the bytes of a request; returns an answer if the request is too large or incomplete.
 async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
-    let too_large = || answers::refusal(StatusCode::PAYLOAD_TOO_LARGE, "a request has 64 KiB at most");
+    let too_large = || answers::refusal(StatusCode::PAYLOAD_TOO_LARGE, "a request may have at most 64 KiB");
     let length = headers.get(CONTENT_LENGTH).and_then(|length| length.to_str().ok()?.parse::<usize>().ok());
     if length.is_some_and(|length| length > MOST_BYTES) {
         return Err(too_large());
@@ -70,19 +70,19 @@ async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
     match timeout(PATIENCE, to_bytes(body, MOST_BYTES)).await {
         Ok(Ok(body)) => Ok(body.into()),
         Ok(Err(_)) => Err(too_large()),
-        Err(_) => Err(answers::refusal(StatusCode::REQUEST_TIMEOUT, "the request did not come to its end")),
+        Err(_) => Err(answers::refusal(StatusCode::REQUEST_TIMEOUT, "the request was not completed in time")),
     }
 }
 
-/// The answer to a request, which another thread computes.
+/// Returns the answer to a request, which another thread computes.
 async fn answer(state: Arc<ServerState>, kind: Kind, body: Vec<u8>) -> Response {
-    // Dropped with this future if the page gives up.
+    // Dropped with this future if the page closes the connection.
     let cancel = match state.begin(kind, &body) {
         Ok(cancel) => cancel,
         Err(refused) => return answers::refused(refused),
     };
     let Ok(_permit) = state.permits.acquire().await else {
-        return answers::refusal(StatusCode::SERVICE_UNAVAILABLE, "the server ends");
+        return answers::refusal(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down");
     };
     let (worker, stop) = (Arc::clone(&state), cancel.flag());
     let worked = tokio::task::spawn_blocking(move || worker.answer(kind, &body, &stop)).await;

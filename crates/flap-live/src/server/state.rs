@@ -16,7 +16,7 @@ use crate::opened::Opened;
 use crate::page;
 use crate::request::{Refused, RequestOrder};
 
-/// Requests that are computed at the same time; others wait, so that memory is bounded.
+/// Largest number of requests that are computed at the same time. Others wait, so that memory is bounded.
 const MOST_AT_ONCE: usize = 4;
 
 /// The state that all requests share.
@@ -39,7 +39,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// The kind with this name in addresses.
+    /// Returns the kind with this name in addresses.
     pub(super) fn named(name: &str) -> Option<Kind> {
         let kinds = [Kind::Family, Kind::Point, Kind::Motion, Kind::Hysteresis, Kind::Save];
         kinds.into_iter().find(|kind| kind.name() == name)
@@ -56,7 +56,7 @@ impl Kind {
     }
 }
 
-/// The flag of a request. It is raised when the request is dropped, since nobody waits for the answer then.
+/// The flag of a request. It is set when the request is dropped, because nothing waits for the answer then.
 pub(super) struct CancelOnDrop(Arc<AtomicBool>);
 
 impl Drop for CancelOnDrop {
@@ -66,7 +66,7 @@ impl Drop for CancelOnDrop {
 }
 
 impl CancelOnDrop {
-    /// The flag, for the thread that computes.
+    /// Returns the flag, for the thread that computes.
     pub(super) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
@@ -82,14 +82,14 @@ impl ServerState {
         self.latest.stop();
     }
 
-    /// The page.
+    /// Returns the page.
     pub(super) fn page(&self) -> Result<String, Refused> {
         let data = serde_json::to_string(&Description::of(&self.opened));
         let data = data.map_err(|error| Refused::Fault(error.to_string()))?;
         Ok(page::live(&format!("{} · flap live", self.opened.plan().source().name), &data))
     }
 
-    /// Begins a request: older ones of its kind and page are cancelled.
+    /// Starts a request, and cancels older requests of its kind and page.
     pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<CancelOnDrop, Refused> {
         if let Kind::Save = kind {
             return Ok(CancelOnDrop(Arc::default()));
@@ -98,7 +98,7 @@ impl ServerState {
         self.latest.begin(&page, kind.name(), number).map(CancelOnDrop).ok_or(Refused::Superseded)
     }
 
-    /// The answer to a request, as JSON.
+    /// Returns the answer to a request, as JSON.
     pub(super) fn answer(&self, kind: Kind, body: &[u8], stop: &AtomicBool) -> Result<Vec<u8>, Refused> {
         let context = AnswerContext { opened: &self.opened, options: self.run, stop };
         match kind {

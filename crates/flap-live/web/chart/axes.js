@@ -70,7 +70,7 @@ const tickLabel = (value, precision, hasPower) => {
 /** Most letters of a label without a power of ten. */
 const MOST_LETTERS = 7;
 
-/** Labels of ticks: four digits, or as many more as tell neighbours apart. Long numbers have powers of ten. */
+/** Labels of ticks: four digits, or more if neighbours are equal with four. Long numbers have powers of ten. */
 export const tickLabels = (/** @type {number[]} */ values) => {
   const isLong = values.some((value) => tickLabel(Math.abs(value), 4, false).length > MOST_LETTERS);
   for (let precision = 4; ; precision++) {

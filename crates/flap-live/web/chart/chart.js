@@ -19,7 +19,7 @@ import { listenToTouch } from "./touch.js";
 
 /** @import { ChartOptions, Line, Mark, PlacedPoints, Range, Scene, Tick, UPlot, ZoomView } from "../types.d.ts" */
 
-/** Smallest width of a drag that zooms, in pixels. */
+/** Smallest width in pixels of a drag that zooms. */
 const LEAST_DRAG = 8;
 /** The number of uPlot for a logarithmic scale. */
 const LOGARITHMIC = 3;
@@ -94,7 +94,7 @@ export class Chart {
   /** Columns for uPlot: x, then y of each line, null where there is no value. @returns {any} */
   data() {
     const { x, y, extent } = this.scene;
-    // The ranges of points and cells are a line that is not seen.
+    // The ranges of points and cells are an invisible line.
     const lines = extent ? [...this.scene.lines, extent] : this.scene.lines;
     if (lines.length === 0) return [[0, 1]];
     const onAxis = (/** @type {Line["y"]} */ list) =>
@@ -190,7 +190,7 @@ export class Chart {
   }
 
   /**
-   * The series of a line. Values between two gaps are points even in lines without marks.
+   * The series of a line. A value between two gaps is drawn as a point, even if the line has no marks.
    *
    * @param {number} place
    * @param {number} width
@@ -214,7 +214,7 @@ export class Chart {
     if (this.plot && (this.plot.width !== width || this.plot.height !== height)) this.plot.setSize({ width, height });
   }
 
-  /** Paints with the inside of the axes as the edge. */
+  /** Paints only inside the axes. */
   paintInside(/** @type {() => void} */ paint) {
     const { ctx, bbox } = this.plot;
     ctx.save();
@@ -328,7 +328,7 @@ export class Chart {
    * Shows a part of the plane; null shows everything.
    *
    * @param {ZoomView | null} view
-   * @param {boolean} byUser true if `onView` is to hear of it
+   * @param {boolean} byUser true if `onView` is called
    */
   setView(view, byUser = false) {
     this.view = { x: view?.x ?? null, y: view?.y ?? null };

@@ -1,22 +1,22 @@
 // @ts-check
-// Gaps of lines: values of x without a settled motion. They are marks at the foot of the chart, a row for each status.
+// Gaps of lines: values of x without a settled motion. Each has a mark at the bottom of the chart; each status has a row.
 
 /** @import { Chart, Gap, Mark } from "../types.d.ts" */
 
-/** The distance of the first row of marks from the foot, and between two rows, in pixels. */
+/** Distance in pixels of the first row of marks from the bottom, and between two rows. */
 const FOOT = 6;
 const ROW_HEIGHT = 10;
-/** Largest distance of the pointer from a mark, in pixels. */
+/** Largest distance in pixels of the pointer from a mark. */
 const REACH = 7;
 
-/** The height of a row of marks above the foot, in pixels. */
+/** Height in pixels of a row of marks above the bottom. */
 export const gapHeight = (/** @type {number} */ row) => FOOT + row * ROW_HEIGHT;
 
-/** The statuses of gaps, one for each row of marks, from the foot upwards. */
+/** The statuses of gaps, one for each row of marks, from the bottom upwards. */
 export const gapStatuses = (/** @type {Gap[]} */ gaps) => [...new Set(gaps.map(({ status }) => status))];
 
 /**
- * The marks to paint, with pixels from the left and the row. One is painted where several would hide each other.
+ * The marks to paint, with pixels from the left and the row. Marks at the same pixel are painted once.
  *
  * @param {Pick<Chart, "plot" | "scene">} chart
  */
@@ -34,7 +34,7 @@ export const placedGaps = ({ plot, scene }) => {
 };
 
 /**
- * The mark of the gaps under the pointer; null if it is not at a mark of the foot.
+ * The mark of the gaps under the pointer; null if the pointer is not at such a mark.
  *
  * @param {Pick<Chart, "plot" | "scene">} chart
  * @param {number} left

@@ -5,7 +5,7 @@ import { nextMark } from "./marks.js";
 
 /** @import { Chart } from "../types.d.ts" */
 
-/** Zoom of a step of the wheel, zoom of a key, and the share of the chart that a key moves. */
+/** Zoom per step of the wheel, zoom per key press, and the share of the chart by which a key moves it. */
 const WHEEL_ZOOM = 1.2;
 const KEY_ZOOM = 1.25;
 const KEY_MOVE = 0.1;
@@ -13,14 +13,14 @@ const KEY_MOVE = 0.1;
 /** @type {Record<string, [number, number]>} */
 const ARROWS = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-/** Ctrl, Shift or Meta and the wheel zoom around the pointer. The wheel alone scrolls the page. */
+/** Zooms around the pointer for the wheel with Ctrl, Shift or Meta. The wheel alone scrolls the page. */
 const onWheel = (/** @type {Chart} */ chart, /** @type {WheelEvent} */ event, /** @type {[number, number]} */ at) => {
   if (!event.ctrlKey && !event.shiftKey && !event.metaKey) return;
   event.preventDefault();
   chart.zoomBy(event.deltaY + event.deltaX > 0 ? WHEEL_ZOOM : 1 / WHEEL_ZOOM, at, [0, 0]);
 };
 
-/** Keys: arrows go from mark to mark, Enter pins, + and - zoom, Shift and arrows move, Escape shows everything. */
+/** Keys: arrows move from mark to mark, Enter pins, + and - zoom, Shift and arrows move, Escape shows everything. */
 const onKey = (/** @type {Chart} */ chart, /** @type {KeyboardEvent} */ event) => {
   const [right, up] = ARROWS[event.key] ?? [0, 0];
   if ((right || up) && event.shiftKey) chart.zoomBy(1, [0.5, 0.5], [KEY_MOVE * right, KEY_MOVE * up]);

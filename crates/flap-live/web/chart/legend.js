@@ -32,7 +32,7 @@ const shades = (/** @type {ColourBar} */ bar) => {
   return element("span", { class: "shades" }, labelWithUnit(bar), " ", ends[0], ramp, ends[1], scale);
 };
 
-/** Writes the legend of a chart, unless it shows the same already. */
+/** Writes the legend of a chart, unless it already shows the same contents. */
 export const writeLegend = (/** @type {Chart} */ chart) => {
   const { lines, title, legend = [], bar, statuses = [] } = chart.scene;
   const entries = legendLines(lines);
@@ -65,7 +65,7 @@ export const writeLegend = (/** @type {Chart} */ chart) => {
 };
 
 /**
- * The entries of the legend in a picture: lines that are switched off have none.
+ * The entries of the legend in a picture. Lines that are switched off have no entry.
  *
  * @param {Scene} scene
  * @param {Set<string>} hidden
@@ -105,7 +105,7 @@ export const placedEntries = (entries, left, right, textWidth) => {
   let wasStatus = false;
   return entries.map((entry) => {
     const across = swatchWidth(entry);
-    // A tenth more: the letters of another program may be wider.
+    // The width has a margin of a tenth, because the font of another program may be wider.
     const width = across + 1.1 * textWidth(entry.name);
     const isStatus = Boolean(entry.shape);
     if (at > left && ((isStatus && !wasStatus) || at + width > right)) {

@@ -3,7 +3,7 @@
 
 /** @import { Line } from "../types.d.ts" */
 
-/** The group of a line, which the legend switches. */
+/** The group of a line, which the legend switches on and off. */
 export const groupOf = (/** @type {Pick<Line, "group" | "key">} */ line) => line.group ?? line.key;
 
 /** The first line of each group that has an entry in the legend. */
@@ -17,7 +17,7 @@ export const legendLines = (/** @type {Line[]} */ lines) => {
 };
 
 /**
- * The lines under the pointer: all but ghosts and lines that the legend has switched off.
+ * The lines that the pointer can mark: all lines except ghosts and lines that the legend has switched off.
  *
  * @param {Line[]} lines
  * @param {Set<string>} hidden
@@ -30,7 +30,7 @@ export const hasValue = (/** @type {Line} */ line, /** @type {number} */ place) 
 
 /**
  * The places of values between two gaps, which are drawn as points because no line leads to them; null if there are
- * none. `null` is a gap, `undefined` a place of other lines.
+ * none. `null` is a gap; `undefined` is a place that only other lines have.
  *
  * @param {(number | null | undefined)[]} values
  */
@@ -66,8 +66,8 @@ export const nearestPlace = (list, value) => {
 };
 
 /**
- * The range of an axis with values from `low` to `high`: a share `margin` more on both sides. With a margin of more
- * than 0.05 it begins at zero if the values come near zero.
+ * The range of an axis with values from `low` to `high`, with the share `margin` added on both sides. If the margin is
+ * more than 0.05 and the values come near zero, the range begins at zero.
  *
  * @param {number | null} low
  * @param {number | null} high

@@ -1,5 +1,5 @@
 // @ts-check
-// Marks of a chart: the place that the pointer or the keyboard has reached, and rows within a part of the plane.
+// Marks of a chart: the place that the pointer or the keyboard has selected, and rows within a part of the plane.
 
 import { gapAt } from "./gaps.js";
 import { hasValue, nearestPlace, reachableLines } from "./lines.js";
@@ -55,7 +55,7 @@ export const markAt = (chart, left, top) => {
 };
 
 /**
- * The mark of a line again after the line has changed: at the same x, or the nearest. Null if there is no value.
+ * The mark of a line after the line has changed: at the same x, or at the nearest one. Null if there is no value.
  *
  * @param {Scene} scene
  * @param {Mark | null} mark
@@ -68,7 +68,7 @@ export const renewedMark = ({ lines }, mark) => {
 };
 
 /**
- * The next mark along a line, or of the line above or below; null if nothing is drawn.
+ * The next mark along a line, or the mark of the line above or below; null if nothing is drawn.
  *
  * @param {Chart} chart
  * @param {number} right

@@ -1,5 +1,5 @@
 // @ts-check
-// Pictures of a chart to save. They are for papers: in the light scheme, and with the whole legend below.
+// Pictures of a chart to save. They are for papers: in the light scheme, with the whole legend below.
 
 import { styleColour } from "../shared/theme.js";
 import { gapHeight, placedGaps } from "./gaps.js";
@@ -11,8 +11,8 @@ import { MOST_CIRCLES, svgPicture } from "./svg.js";
 export const PICTURE_FONT = "12px system-ui, sans-serif";
 
 /**
- * Runs `work` while the chart has the colours of the light scheme. The window does not show it: `work` ends before the
- * next frame.
+ * Runs `work` while the chart has the colours of the light scheme. The window does not show them, because `work` ends
+ * before the next frame.
  *
  * @template T
  * @param {Chart} chart

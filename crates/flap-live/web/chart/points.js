@@ -6,13 +6,13 @@ import { styleColour } from "../shared/theme.js";
 
 /** @import { CellSet, Chart, PointSet, UPlot } from "../types.d.ts" */
 
-/** From this number on, points are painted as squares into an image, which is faster. */
+/** From this number of points on, points are painted as squares into an image, which is faster. */
 const MANY_POINTS = 4000;
-/** From this number on, selected points have dots in place of rings, which would hide each other. */
+/** From this number of points on, selected points have dots instead of rings, which would hide each other. */
 const MANY_RINGS = 2000;
 
 /**
- * The function from values of a scale to pixels of the canvas. It is faster than the method of the chart library.
+ * The function from values of a scale to pixels of the canvas. It is faster than the method of uPlot.
  *
  * @param {UPlot} plot
  * @param {"x" | "y"} scale
@@ -40,7 +40,7 @@ const cellCorners = (plot, { edgesX, edgesY, i, j }) => {
   return (/** @type {number} */ at) => [xs[i[at]], ys[j[at] + 1], xs[i[at] + 1], ys[j[at]]];
 };
 
-/** Paints points, and keeps their pixels for the search of the nearest one. */
+/** Paints points, and stores their pixels for the search of the nearest point. */
 export const paintPoints = (/** @type {Chart} */ chart, /** @type {PointSet} */ { x, y, colors, size }) => {
   const { plot } = chart;
   const { ctx, bbox } = plot;
@@ -82,7 +82,7 @@ export const paintCells = (/** @type {UPlot} */ plot, /** @type {CellSet} */ cel
   for (let at = 0; at < cells.rows.length; at++) {
     const [x1, y1, x2, y2] = corners(at);
     plot.ctx.fillStyle = unpackedColour(cells.colors[at]);
-    // Half a pixel more, so that no background shines through between neighbours.
+    // Half a pixel is added, so that no background is visible between neighbours.
     plot.ctx.fillRect(x1, y1, x2 - x1 + 0.5, y2 - y1 + 0.5);
   }
 };

@@ -8,7 +8,7 @@ import { groupOf, isolatedPoints, reachableLines } from "./lines.js";
 
 /** @import { CellSet, Gap, Line, PlacedEntry, PointSet, Scene, Tick } from "../types.d.ts" */
 
-/** Most points that are circles. A file with more is too large for other programs. */
+/** Largest number of points drawn as circles. A file with more is too large for other programs. */
 export const MOST_CIRCLES = 20000;
 
 /**
@@ -81,7 +81,7 @@ const cellTags = (/** @type {CellSet} */ { edgesX, edgesY, i, j, rows, colors },
   rows.map((_, at) => {
     const [x1, x2] = [toX(edgesX[i[at]]), toX(edgesX[i[at] + 1])];
     const [y1, y2] = [toY(edgesY[j[at] + 1]), toY(edgesY[j[at]])];
-    // A third of a pixel more, so that no background shines through between neighbours.
+    // A third of a pixel is added, so that no background is visible between neighbours.
     const size = { width: x2 - x1 + 0.3, height: y2 - y1 + 0.3 };
     return tag("rect", { x: x1, y: y1, ...size, fill: unpackedColour(colors[at]), ...INSIDE });
   });

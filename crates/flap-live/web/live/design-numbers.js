@@ -1,5 +1,5 @@
 // @ts-check
-// The numbers of the design beside those of the published design, and the derivatives of the measure.
+// The numbers of the design and of the published design, and the derivatives of the measure.
 
 import { byId, element } from "../shared/dom.js";
 import { differenceText, roundedNumber } from "../shared/format.js";
@@ -11,7 +11,7 @@ import { state } from "./state.js";
 
 /** @import { PointAnswer } from "../types.d.ts" */
 
-/** The measures that stand first, if the model has them. */
+/** The measures that are listed first, if the model has them. */
 export const MAIN_MEASURES = [
   "lift_to_weight",
   "force_up_mn",
@@ -31,7 +31,7 @@ export const MAIN_MEASURES = [
   "floquet_max",
   "error_estimate",
 ];
-/** Most bars of derivatives. */
+/** Largest number of bars of derivatives. */
 const MOST_BARS = 10;
 
 export const designNumbers = {
@@ -118,10 +118,10 @@ const showNumbers = (/** @type {PointAnswer} */ answer) => {
   byId("all-numbers").replaceChildren(...all.map(measureRow));
 };
 
-/** Shows bars of the derivatives, the largest first. A click on a bar leads to its parameter. */
+/** Shows bars of the derivatives, the largest first. A click on a bar shows its parameter. */
 const showDerivatives = (/** @type {PointAnswer} */ { gradient, gradient_reason: reason }) => {
   const { label, unit } = measureNamed(state.measure);
-  byId("gradient-title").textContent = `What moves ${label.toLowerCase()} (${unit ? `${unit} ` : ""}per %)`;
+  byId("gradient-title").textContent = `Effects on ${label.toLowerCase()} (${unit ? `${unit} ` : ""}per %)`;
   if (!gradient) {
     byId("gradient").textContent = reason ?? "";
     return;

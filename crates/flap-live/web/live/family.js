@@ -39,11 +39,11 @@ export const family = {
   lines: /** @type {ResponseLine[]} */ ([]),
   /** Lines of the fine family before the last one. */
   earlier: /** @type {ResponseLine[]} */ ([]),
-  /** Lines that are drawn pale: beside a fine family the earlier one, beside a coarse one the last fine one. */
+  /** Lines that are drawn pale: with a fine family the previous one, with a coarse family the last fine one. */
   ghosts: /** @type {ResponseLine[]} */ ([]),
   gaps: /** @type {ResponseGap[]} */ ([]),
   bands: /** @type {{ from: number, to: number }[]} */ ([]),
-  /** The last fine family, with texts of its design and of its view. */
+  /** The last fine family, with its design and its view as text. */
   fine: /** @type {{ lines: ResponseLine[], design: string, view: string } | null} */ (null),
 };
 
@@ -55,13 +55,13 @@ export const isFamilyFine = () => {
   return !family.isBusy && family.fine?.design === present;
 };
 
-/** True if the axes of an answer are still those of the page. */
+/** True if the axes of an answer are still the axes of the page. */
 const isWanted = (/** @type {ResponseAnswer} */ { kind, request: { x, by } }) => {
   if (kind !== (state.updown ? "hysteresis" : "family") || x.name !== state.x.name) return false;
   return kind === "hysteresis" || by?.name === state.by?.name;
 };
 
-/** Shows an error at the field of its parameter, or above the page. A lost connection has a message of its own. */
+/** Shows an error at the field of its parameter, or above the page. A lost connection has its own message. */
 const showError = (/** @type {ServerError | null} */ error) => {
   const isAtField = error !== null && isFieldError(error);
   showProblems(isAtField ? error : null);
@@ -69,7 +69,7 @@ const showError = (/** @type {ServerError | null} */ error) => {
 };
 
 /**
- * The rows of the design, with their request; null if there are none, or if they are no longer wanted.
+ * The rows of the design, with their request; null if there are none, or if they are not needed any longer.
  *
  * @param {"family" | "hysteresis"} kind
  * @param {number} n values of x
@@ -92,7 +92,7 @@ const requestRows = async (kind, n) => {
   }
 };
 
-/** Draws a coarse family as soon as possible: the newest one if several are wanted. */
+/** Draws a coarse family as soon as possible; if several are requested, only the newest. */
 export const requestCoarse = async () => {
   family.isStale = true;
   if (family.isBusy) return;
@@ -126,7 +126,7 @@ export const requestFine = async () => {
   if (answer) drawAnswer(answer, true);
 };
 
-/** Draws the last rows again, after a change of the axes alone. */
+/** Draws the last rows again, after a change of only the axes. */
 export const redrawFamily = () => {
   if (family.answer) drawAnswer(family.answer, family.isFine);
 };
@@ -198,10 +198,10 @@ const readout = (/** @type {Mark | null} */ mark) => {
   }
   if (family.bands.length > 0) {
     const ranges = family.bands.map(({ from, to }) => `${roundedNumber(from, 5)} and ${roundedNumber(to, 5)} ${unit}`);
-    return `Two motions between ${ranges.join("; ")}`;
+    return `Bistable between ${ranges.join("; ")}`;
   }
   if (family.gaps.length === 0) return "";
-  return `${family.gaps.length} of ${family.answer?.rows.length} points have no settled motion: the marks at the foot`;
+  return `${family.gaps.length} of ${family.answer?.rows.length} points have no settled motion: see the marks at the bottom`;
 };
 
 /** Writes the line below the chart. */
@@ -211,7 +211,7 @@ export const showReadout = (/** @type {Mark | null} */ mark) => {
 
 export const createFamilyChart = (/** @type {ChartOptions} */ options) => {
   family.chart = new Chart(byId("chart"), {
-    name: "Response family. Arrow keys go along the lines.",
+    name: "Response family. Arrow keys move along the lines.",
     onScheme: () => {
       if (family.answer) paintFamily();
     },

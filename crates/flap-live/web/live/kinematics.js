@@ -10,11 +10,11 @@ const overStroke = (/** @type {number[]} */ values, /** @type {number[]} */ stro
   return sum;
 };
 
-/** 1 if the pitch is positive while the stroke rises, else -1: the trailing edge follows the leading edge. */
+/** 1 if the pitch is positive while the stroke rises, else -1. The trailing edge follows the leading edge. */
 export const pitchSign = (/** @type {Signals} */ { stroke_deg: stroke, pitch_deg: pitch }) =>
   overStroke(pitch ?? [], stroke ?? []) < 0 ? -1 : 1;
 
-/** The sign with which drag points against the motion. */
+/** The sign that makes drag point against the motion. */
 export const dragSign = (/** @type {Signals} */ { stroke_deg: stroke, drag_mn: drag }) =>
   overStroke(drag ?? [], stroke ?? []) > 0 ? -1 : 1;
 

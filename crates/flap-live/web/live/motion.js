@@ -43,7 +43,7 @@ const motion = {
   pitchSign: 1,
   /** @type {Chart[]} */
   charts: [],
-  /** The moment that is shown, as a share of the cycle. */
+  /** The time that is shown, as a share of the cycle. */
   share: 0,
   isPlaying: true,
   /** The time of the last frame. */
@@ -73,10 +73,10 @@ export const requestMotion = async (design, title) => {
   }
 };
 
-/** The name of a signal in a legend: that of its column without the unit. */
+/** The name of a signal in a legend: the name of its column without the unit. */
 const signalName = (/** @type {string} */ column) => column.replace(/_(deg|mn|mw|ma)$/, "").replace(/_/g, " ");
 
-/** Makes as many charts as there are kinds of signals. */
+/** Creates one chart for each kind of signal. */
 const makeCharts = (/** @type {string[]} */ names) => {
   if (motion.charts.length === names.length) return;
   for (const chart of motion.charts) chart.destroy();
@@ -164,7 +164,7 @@ const drawLine = (pen, from, to, colour, width) => {
   pen.stroke();
 };
 
-/** Writes below a picture, unless the text is there already. */
+/** Writes a caption below a picture, unless it is already there. */
 const setCaption = (/** @type {string} */ id, /** @type {string} */ text) => {
   if (byId(id).textContent !== text) byId(id).textContent = text;
 };
@@ -193,7 +193,7 @@ const paintFromAbove = (now, stroke, wing) => {
   pen.fill();
   pen.beginPath();
   for (const [along, chord] of wingOutline(wing)) {
-    // From above, the chord is seen as its part in the stroke plane.
+    // Seen from above, the chord appears as its projection on the stroke plane.
     const across = chord * lean;
     pen.lineTo(
       root[0] + scale * (along * alongX - across * alongY),
@@ -257,7 +257,7 @@ const setPlaying = (/** @type {boolean} */ isPlaying) => {
   byId("play").textContent = isPlaying ? "Pause" : "Play";
 };
 
-/** Stops at a moment, which is a share of the cycle. */
+/** Stops at a time, which is given as a share of the cycle. */
 export const showMoment = (/** @type {number} */ share) => {
   setPlaying(false);
   motion.share = share;
@@ -265,7 +265,7 @@ export const showMoment = (/** @type {number} */ share) => {
 
 export const startMotion = () => {
   if (!hasMotion) {
-    const reason = isVehicle ? ": the numbers are those of several wings" : "";
+    const reason = isVehicle ? ": the design has several wings" : "";
     byId("motion").classList.add("without");
     byId("motion-of").textContent = `There is no single motion to show${reason}.`;
     return;

@@ -1,5 +1,5 @@
 // @ts-check
-// The design that was opened: its parameters, measures and first view, as the server has written them into the page.
+// The design that was opened: its parameters, measures and first view, as data that the server has written into the page.
 
 import { byId } from "../shared/dom.js";
 
@@ -14,13 +14,13 @@ const measures = new Map(opened.measures.map((measure) => [measure.name, measure
 export const hasParameter = (/** @type {string} */ name) => parameters.has(name);
 export const hasMeasure = (/** @type {string} */ name) => measures.has(name);
 
-/** The parameter with this name. The caller has made sure that there is one. */
+/** The parameter with this name, which must exist. */
 export const parameterNamed = (/** @type {string} */ name) => /** @type {Parameter} */ (parameters.get(name));
-/** The measure with this name. The caller has made sure that there is one. */
+/** The measure with this name, which must exist. */
 export const measureNamed = (/** @type {string} */ name) => /** @type {Measure} */ (measures.get(name));
 
-/** The parameters that the chart can vary: numbers that no formula gives. */
+/** The parameters that the chart can vary: numbers that are not computed by a formula. */
 export const variableParameters = opened.parameters.filter(({ kind }) => kind === "number" || kind === "following");
 
-/** True for several wings on a body: their rows have the sums of the wings, and there is no single motion. */
+/** True for a vehicle of several wings: its rows have the sums over the wings, and there is no single motion. */
 export const isVehicle = hasMeasure("torque_roll_unm");

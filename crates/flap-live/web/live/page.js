@@ -1,5 +1,5 @@
 // @ts-check
-// The live page: its start, and what follows a change.
+// The live page: its start, and the work after each change.
 
 import { readAddress } from "../shared/address.js";
 import { debounced } from "../shared/debounce.js";
@@ -29,7 +29,7 @@ import { drawWing } from "./wing.js";
 
 /** @import { Design, Mark } from "../types.d.ts" */
 
-/** Time without a change after which the page is refined: while a slider moves, and after a change, in milliseconds. */
+/** Times without a change, in milliseconds, after which the page is refined: while a slider moves, and after a change. */
 const SLIDER_REST = 150;
 const CHANGE_REST = 20;
 /** Time that the pointer stays at a mark before its motion is shown, in milliseconds. */
@@ -75,7 +75,7 @@ const showMarkMotion = debounced((/** @type {Mark | null} */ mark) => {
   requestMotion(design, mark.name ? `${place}, ${mark.name}` : place);
 }, MARK_REST);
 
-/** Takes over the address, as after a reload or the back button. */
+/** Applies the state in the address, after a reload or the back button. */
 const restore = () => {
   const found = readAddress();
   setMessage("address", foreignPresetWarning(found));
@@ -87,7 +87,7 @@ const restore = () => {
 };
 
 const showHeading = () => {
-  // The heading may be the path of a file: its name is enough.
+  // The heading may be the path of a file. Only the file's name is shown.
   const name = opened.title.split(/[\\/]/).pop() ?? "";
   Object.assign(byId("title"), { textContent: name, title: opened.title });
   document.title = name;
@@ -111,7 +111,7 @@ const listen = () => {
     const text = "The server does not answer. The page keeps its results and continues when the server is back.";
     setMessage("server", text);
   };
-  connection.onReplaced = () => setMessage("server", "Another server answers now: open the address that it printed.");
+  connection.onReplaced = () => setMessage("server", "Another server is running now: open the address that it printed.");
   connection.onRestored = () => {
     setMessage("server", "");
     update(true);
@@ -158,9 +158,9 @@ start();
 
 window.flapTestHook = {
   charts: [family.chart],
-  /** True if the picture and the numbers belong to the present design. */
+  /** True if the picture and the numbers belong to the current design. */
   isSettled: () => isFamilyFine() && areNumbersShown(),
-  /** The rows behind the picture: { columns, rows }. */
+  /** The rows in the picture: { columns, rows }. */
   rows: () => family.answer,
   showMoment,
 };

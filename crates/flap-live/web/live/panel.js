@@ -13,7 +13,7 @@ import { symbolElement } from "./symbol.js";
 /** @import { Parameter } from "../types.d.ts" */
 /** @import { ServerError } from "./server.js" */
 
-/** Groups that are open at first, unless they have this many parameters. */
+/** Groups that are open at first, unless they have at least `LARGE_GROUP` parameters. */
 const OPEN_GROUPS = ["drive", "hinge", "wing", "transmission", "actuator"];
 const LARGE_GROUP = 16;
 
@@ -63,7 +63,7 @@ const changeParameter = (name, value, isDone) => {
   panelEvents.onChange(isDone);
 };
 
-/** Takes over the text of a field: a number, or text with a unit, which the server reads. */
+/** Applies the text of a field: a number, or text with a unit, which the server converts. */
 const readField = (/** @type {string} */ name) => {
   const parameter = parameterNamed(name);
   const text = rowOf(name).field.value.trim();
@@ -108,7 +108,7 @@ const parameterRow = (/** @type {Parameter} */ parameter) => {
   const reset = element("button", { type: "button", title: "Reset", "aria-label": `Reset ${label}` }, "↺");
   const helpLabel = { "aria-expanded": "false", "aria-label": `Help on ${label}` };
   const helpButton = element("button", { type: "button", ...helpLabel }, "?");
-  const fit = fitted ? " The published value is a fit to one vehicle." : "";
+  const fit = fitted ? " The published value was fitted to one vehicle." : "";
   const help = element("p", { class: "help", hidden: true }, `${doc} Allowed: ${allowed}. Name: ${name}.${fit}`);
   const problem = element("p", { class: "problem", role: "alert", hidden: true });
   const labelElement = element("label", { for: `p-${name}` }, label);
@@ -191,11 +191,11 @@ export const showPanel = () => {
   for (const name of rows.keys()) showParameter(name);
 };
 
-/** True if an error is about a changed parameter, whose field shows it. */
+/** True if an error concerns a changed parameter, whose field shows it. */
 export const isFieldError = (/** @type {ServerError} */ { parameter }) =>
   parameter !== null && parameter in state.design && rows.has(parameter);
 
-/** Marks the fields whose text is not a number, and the field that the server has refused. */
+/** Marks the fields whose text is not a number, and the field whose value the server has refused. */
 export const showProblems = (/** @type {ServerError | null} */ error) => {
   for (const [name, { field, problem }] of rows) {
     const text = fieldProblems.get(name) ?? (error?.parameter === name ? error.text() : "");

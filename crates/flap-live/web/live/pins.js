@@ -1,5 +1,5 @@
 // @ts-check
-// Pinned designs, side by side.
+// Pinned designs, shown side by side.
 
 import { byId, element } from "../shared/dom.js";
 import { isFiniteNumber, labelWithUnit, roundedNumber } from "../shared/format.js";
@@ -13,7 +13,7 @@ import { saveState, state, valueIn, valueText } from "./state.js";
 /** @typedef {LiveState["pins"][number]} Pin */
 
 const MOST_PINS = 8;
-/** Most rows of measures. */
+/** Largest number of rows of measures. */
 const MOST_MEASURES = 7;
 
 /** Numbers of pinned designs by `pinKey`; null if there are none. @type {Map<string, PointAnswer | null>} */
@@ -21,7 +21,7 @@ const answers = new Map();
 
 const pinKey = (/** @type {Design} */ design) => JSON.stringify(Object.entries(design).sort());
 
-/** Pins the design. The oldest pin goes if there are too many. */
+/** Pins the design. If there are too many pins, removes the oldest one. */
 export const addPin = () => {
   if (state.pins.length === MOST_PINS) state.pins.shift();
   const taken = state.pins.map((pin) => pin.name);

@@ -1,5 +1,5 @@
 // @ts-check
-// Lines, gaps and bistable bands of a response, from the rows of the server.
+// Lines, gaps and bistable bands of a response, computed from the rows of the server.
 
 import { isFiniteNumber } from "../shared/format.js";
 
@@ -58,7 +58,7 @@ export const responseLines = ({ columns, rows }, { x, factor, y, by, nameOf }) =
     if (line.x.length > 1 && line.x[0] > line.x[1]) {
       for (const values of [line.x, line.y, line.rows]) values.reverse();
     }
-    // One list of x for all lines where they have the same: the chart then joins nothing.
+    // Lines with the same x share one list, so that the chart does not join them.
     const shared = list[0].x;
     if (line.x.length === shared.length && line.x.every((value, i) => value === shared[i])) line.x = shared;
   }
@@ -66,7 +66,7 @@ export const responseLines = ({ columns, rows }, { x, factor, y, by, nameOf }) =
 };
 
 /**
- * The ranges of x where the line "up" is bistable. The column `bistable` of its rows has the verdict of the server.
+ * The ranges of x where the line "up" is bistable, from the column `bistable` of its rows.
  *
  * @param {ResponseLine[]} lines
  */

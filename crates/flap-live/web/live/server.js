@@ -29,12 +29,12 @@ const numbers = new Map();
 /** @type {Map<string, AbortController>} */
 const running = new Map();
 
-/** The connection: whether the server answers, and what the page does when that changes. */
+/** The state of the connection: true if the server answers, and callbacks for changes. */
 export const connection = {
   isLost: false,
   onLost: () => {},
   onRestored: () => {},
-  /** Another server answers, which has another token. */
+  /** Called if another server with another token answers. */
   onReplaced: () => {},
 };
 
@@ -66,7 +66,7 @@ const waitForServer = () => {
 };
 
 /**
- * The answer to a request; null if a newer request has taken its place. Requests of different lanes do not cancel each
+ * The answer to a request; null if a newer request has replaced it. Requests of different lanes do not cancel each
  * other.
  *
  * @param {"family" | "hysteresis" | "point" | "motion" | "save"} kind

@@ -5,7 +5,7 @@
 
 /** @typedef {Pick<Parameter, "low" | "high" | "log" | "whole">} SliderScale */
 
-/** Steps of a slider. */
+/** Number of steps of a slider. */
 export const STEPS = 1000;
 
 /**

@@ -1,5 +1,5 @@
 // @ts-check
-// The state of the page: the design, the axes of the chart, the pins; and its text in the address.
+// The state of the page (design, axes of the chart, pins), and its text in the address.
 
 import { writeAddress } from "../shared/address.js";
 import { isFiniteNumber, shortNumber } from "../shared/format.js";
@@ -49,7 +49,7 @@ export const valueText = (parameter, value) => {
 };
 
 /**
- * Sets a parameter of the design. The value that was opened is no change.
+ * Sets a parameter of the design. If the value equals the opened value, the change is removed.
  *
  * @param {string} name
  * @param {number | string | null} value
@@ -59,7 +59,7 @@ export const setParameter = (name, value) => {
   else state.design[name] = value;
 };
 
-/** The warning for an address that was made with another preset; empty if there is no need of it. */
+/** The warning for an address that was made with another preset; empty if none is needed. */
 export const foreignPresetWarning = (/** @type {any} */ found) => {
   const preset = found && typeof found === "object" ? found.preset : undefined;
   if (typeof preset !== "string" || preset === opened.preset) return "";
@@ -77,7 +77,7 @@ const knownChanges = (/** @type {any} */ design) =>
 const isRange = (/** @type {unknown} */ range) =>
   range === null || (Array.isArray(range) && range.length === 2 && range.every(isFiniteNumber));
 
-/** Takes over the state in an address, except parameters and measures that this model does not have. */
+/** Applies the state in an address, except parameters and measures that this model does not have. */
 export const applyState = (/** @type {any} */ found) => {
   Object.assign(state, freshState());
   if (!found || typeof found !== "object") return;

@@ -1,5 +1,5 @@
 // @ts-check
-// Symbols of parameters as they are printed: letters with subscripts, Greek ones by their names.
+// Symbols of parameters: letters with subscripts, and Greek letters, which are given by name.
 
 import { element } from "../shared/dom.js";
 

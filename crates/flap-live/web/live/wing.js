@@ -1,5 +1,5 @@
 // @ts-check
-// A small picture of the wing, to scale.
+// A small picture of the wing to scale.
 
 import { byId, svgElement } from "../shared/dom.js";
 import { isFiniteNumber, roundedNumber } from "../shared/format.js";
@@ -9,7 +9,7 @@ import { wingOutline } from "./wing-outline.js";
 
 /** @import { Design, WingShape } from "../types.d.ts" */
 
-/** The size of the picture, the place of the wing's axis, and the room of the wing, in pixels. */
+/** Size of the picture, position of the wing's axis, and space for the wing, in pixels. */
 const PICTURE = { width: 280, height: 92, left: 24, top: 22, across: 235, down: 54 };
 
 /**

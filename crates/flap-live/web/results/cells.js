@@ -2,7 +2,7 @@
 // Cells of a map around the values of two columns.
 
 /**
- * The edges of cells around some levels: half-way between two of them, or at their geometric mean.
+ * The edges of cells around some levels: halfway between two levels, or at their geometric mean.
  *
  * @param {number[]} levels
  * @param {boolean} log
@@ -21,7 +21,7 @@ export const edgesAround = (levels, log) => {
 };
 
 /**
- * The cells of rows. The first of several rows at one place has the cell.
+ * The cells of rows. If several rows have the same place, the cell belongs to the first.
  *
  * @param {number[]} rows
  * @param {(row: number) => number} xOf

@@ -60,7 +60,7 @@ export const decodedColumn = (stored) => {
 };
 
 /**
- * The different values of a column, rising: of some rows, or of all.
+ * The different values of a column in rising order, in some rows or in all.
  *
  * @param {Column} column
  * @param {Iterable<number>} rows
@@ -75,7 +75,7 @@ export const levelsOf = (column, rows = column.cells.keys()) => {
   return [...levels].sort((a, b) => a - b);
 };
 
-/** A cell as text, in the unit of the page. */
+/** A cell as text, in the page's unit. */
 export const cellText = (/** @type {Column} */ column, /** @type {number} */ row) => {
   const value = column.cells[row];
   if (column.words) return Number.isNaN(value) ? "none" : column.words[value];
@@ -84,7 +84,7 @@ export const cellText = (/** @type {Column} */ column, /** @type {number} */ row
 
 const quoted = (/** @type {string} */ text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** A cell as in the file: all digits that the page has, in the unit of the file. */
+/** A cell as in the file: with all digits that the page has, in the file's unit. */
 const csvCell = (/** @type {Column} */ { cells, words, type }, /** @type {number} */ row) => {
   const value = cells[row];
   if (Number.isNaN(value)) return "";

@@ -13,7 +13,7 @@ const SCALES = /** @type {const} */ (["x", "y", "color"]);
 const MENUS = /** @type {const} */ (["kind", "x", "y", "by", "color", "best"]);
 const VIEWS = /** @type {const} */ ([0, 1]);
 
-/** What follows a change: `isStep` is true if the back button undoes it. */
+/** The callback after a change: `isStep` is true if the back button undoes the change. */
 export const controlEvents = { onChange: (/** @type {boolean} */ _isStep) => {} };
 
 const changed = () => {
@@ -69,11 +69,11 @@ export const showControls = () => {
     byId(`chart-${i}`).classList.toggle("active", shown.two && shown.active === i);
   }
   const slices = slicedParameters.map(sliceMenu);
-  byId("slices").replaceChildren(...(slices.length > 0 ? slices : ["none of few values"]));
+  byId("slices").replaceChildren(...(slices.length > 0 ? slices : ["no parameter with few values"]));
   showFilters();
 };
 
-/** Takes over the choice in a menu. */
+/** Applies the choice in a menu. */
 const choose = (/** @type {typeof MENUS[number]} */ name) => {
   const view = activeView();
   const { value } = byId(name);

@@ -1,5 +1,5 @@
 // @ts-check
-// The rows in the page.
+// The rows that the page contains.
 
 import { byId } from "../shared/dom.js";
 import { decodedColumn } from "./columns.js";

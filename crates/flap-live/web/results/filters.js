@@ -1,5 +1,5 @@
 // @ts-check
-// Filters: a column, two bounds to be typed, and a slider for each bound. Bounds do not cross.
+// Filters: a column, and two bounds, each with a text field and a slider. Bounds do not cross.
 
 import { byId, element } from "../shared/dom.js";
 import { shortNumber } from "../shared/format.js";
@@ -13,9 +13,9 @@ import { activeView, saveShown, shown } from "./state.js";
 const STEPS = 1000;
 
 export const filterEvents = {
-  /** A filter has another column, or is gone. */
+  /** Called after a filter was removed or has another column. */
   onChange: () => {},
-  /** A bound moves. */
+  /** Called while a bound moves. */
   onMove: () => {},
 };
 
@@ -82,7 +82,7 @@ const filterRow = (/** @type {Filter} */ filter, /** @type {number} */ number) =
       saveShown(true);
     };
     slider.oninput = () => {
-      // The ends of a slider are the smallest and the largest value exactly.
+      // At its ends, a slider selects exactly the smallest and the largest value.
       const at = Number(slider.value);
       const inside = least + (at / STEPS) * (most - least);
       set(side, at === 0 ? least : at === STEPS ? most : inside);

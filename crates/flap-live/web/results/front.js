@@ -1,7 +1,7 @@
 // @ts-check
 
 /**
- * The rows that no other row dominates, by falling merit of x.
+ * The rows that no other row dominates, from the best to the worst x.
  *
  * @param {Iterable<number>} rows
  * @param {(row: number) => number} xOf

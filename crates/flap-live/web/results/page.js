@@ -1,5 +1,5 @@
 // @ts-check
-// The page of results: its pictures, and what follows the pointer and the controls.
+// The page of results: its pictures, and its reactions to the pointer and the controls.
 
 import { Chart } from "../chart/chart.js";
 import { readAddress } from "../shared/address.js";
@@ -30,7 +30,7 @@ const drawView = (/** @type {number} */ i) => {
   return { without, problem };
 };
 
-/** Draws the rows that slices and filters leave. `isStep` is true for a change that the back button undoes. */
+/** Draws the rows that pass slices and filters. `isStep` is true for a change that the back button undoes. */
 const refresh = (/** @type {boolean} */ isStep) => {
   shown.rows = visibleRows();
   const parts = [`${shown.rows.length} of ${results.rows} rows shown`];
@@ -48,7 +48,7 @@ const refresh = (/** @type {boolean} */ isStep) => {
 };
 
 let isWaiting = false;
-/** Draws in the next frame, once for all changes until then. */
+/** Draws in the next frame, once for all changes before it. */
 const refreshSoon = () => {
   if (isWaiting) return;
   isWaiting = true;
@@ -60,7 +60,7 @@ const refreshSoon = () => {
   });
 };
 
-/** Marks rows in both pictures: those of a drag, or the row that was clicked. */
+/** Marks rows in both pictures: the rows of a drag, or the row that was clicked. */
 const markRows = (/** @type {number[]} */ selected, /** @type {number | null} */ pinned) => {
   Object.assign(shown, { selected: new Set(selected), pinned });
   for (const chart of charts) chart.select(markedRows());
@@ -69,7 +69,7 @@ const markRows = (/** @type {number[]} */ selected, /** @type {number | null} */
 
 const makeChart = (/** @type {0 | 1} */ i) =>
   new Chart(byId(`chart-${i}`), {
-    name: `Picture ${i + 1} of the rows. Arrow keys go from mark to mark.`,
+    name: `Picture ${i + 1} of the rows. Arrow keys move from mark to mark.`,
     onPoint: (mark) => {
       shown.hover = mark ? mark.row : null;
       showTip(shown.views[i]);
@@ -107,7 +107,7 @@ const listenToTools = () => {
   byId("svg").onclick = async () => download("picture.svg", await charts[shown.active].svg(), "image/svg+xml");
 };
 
-/** Takes over the address, as after a reload or the back button. */
+/** Applies the state in the address, after a reload or the back button. */
 const restore = () => {
   applyShown(readAddress());
   showControls();

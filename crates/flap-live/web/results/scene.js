@@ -1,5 +1,5 @@
 // @ts-check
-// Scenes for the chart from the rows that are shown: lines, points with a front, or a map.
+// Creates scenes for the chart from the rows that are shown: lines, points with a front, or a map.
 
 import { FEW_COLOURS, lineColour, packedColour, viridis } from "../shared/colours.js";
 import { shortNumber } from "../shared/format.js";
@@ -13,16 +13,16 @@ import { slicedParameters, sliceOf } from "./state.js";
 
 /** @import { Axis, Column, ResultsView, Scene } from "../types.d.ts" */
 
-/** A scene with a problem in words, or an empty text. @typedef {{ scene: Scene, problem: string }} Drawing */
+/** A scene, and a problem as text, which may be empty. @typedef {{ scene: Scene, problem: string }} Drawing */
 /** The number of a row. @typedef {(row: number) => number} NumberOf */
 
-/** Most lines of a picture, and most cells of a map. */
+/** Largest number of lines in a picture, and of cells in a map. */
 const MOST_LINES = 60;
 const MOST_CELLS = 400000;
-/** Pictures with fewer values have marks on their lines; pictures with more lines have thin ones. */
+/** Pictures with fewer values have marks on their lines; pictures with more lines have thin lines. */
 const FEW_VALUES = 400;
 const FEW_LINES = 12;
-/** Shades of a scale of colours. */
+/** Number of shades of a colour scale. */
 const SHADES = 256;
 const FRONT_COLOUR = "#d55e00";
 
@@ -56,7 +56,7 @@ const statusCounts = (/** @type {Iterable<number>} */ rows) => {
   return counts;
 };
 
-/** The colour of a row without a value: that of its status. */
+/** The colour of a row without a value, which depends on its status. */
 const missingColours = () => {
   const missing = packedColour(styleColour("--missing"));
   if (!statusColumn?.words) return () => missing;
@@ -97,21 +97,21 @@ const shading = (column, log, rows) => {
   return { colourOf, legend: [], bar: { label, unit, low: range[0], high: range[1], log } };
 };
 
-/** Some of a list, evenly chosen. */
+/** Some elements of a list, evenly spaced. */
 const evenly = (/** @type {Group[]} */ list, /** @type {number} */ most) => {
   if (list.length <= most) return list;
   return Array.from({ length: most }, (_, i) => list[Math.round((i * (list.length - 1)) / (most - 1))]);
 };
 
 /**
- * Rows of a line: its value of the lines' column, and its branch.
+ * Rows of one line: their value in the lines' column, and their branch.
  *
  * @typedef {{ key: string, value: number, branch: number, rows: number[] }} Group
  */
 
 /**
- * Rows in groups, a line each, by rising values. Each value of a parameter that neither an axis, nor the lines, nor a
- * slice holds has lines of its own.
+ * Rows in groups, one line each, in rising order of values. A parameter that is not an axis, not the lines' column and
+ * not fixed by a slice gives one line per value.
  *
  * @param {ResultsView} view
  * @param {Int32Array} rows
@@ -135,7 +135,7 @@ const groupsOf = (view, rows, by) => {
   return [...groups.values()].sort((a, b) => a.value - b.value);
 };
 
-/** A value of a column as a name. */
+/** The name of a value of a column. */
 const nameOf = (/** @type {Column} */ { words, factor, unit }, /** @type {number} */ value) =>
   words ? (words[value] ?? "none") : `${shortNumber(value * factor)} ${unit}`.trim();
 
@@ -213,7 +213,7 @@ const pointsDrawing = (view, rows, scene, xOf, yOf) => {
   scene.bar = shades?.bar ?? null;
   if (view.best) {
     const front = paretoFront(rows, xOf, yOf, view.best.split(",").map(Number)).sort((a, b) => xOf(a) - xOf(b));
-    const line = { key: "front", name: `not dominated (${front.length})`, color: FRONT_COLOUR, marks: true };
+    const line = { key: "front", name: `Pareto front (${front.length})`, color: FRONT_COLOUR, marks: true };
     scene.lines.push({ ...line, x: front.map(xOf), y: front.map(yOf), rows: front });
   }
   return { scene, problem: "" };
@@ -239,12 +239,12 @@ const mapDrawing = (view, rows, scene, xOf, yOf) => {
   const empty = count - cells.rows.length;
   scene.legend = [...legend, ...(empty > 0 ? [{ name: `no row (${empty} cells)`, color: "transparent" }] : [])];
   scene.bar = bar;
-  const problem = `${twice} rows share a cell with another, of which the first is drawn: choose slices`;
+  const problem = `${twice} rows have the same cell as an earlier row and are not drawn: choose slices`;
   return { scene, problem: twice > 0 ? problem : "" };
 };
 
 /**
- * The scene of a view, the number of rows without both values, and a problem in words or an empty text.
+ * The scene of a view, the number of rows without both values, and a problem as text, which may be empty.
  *
  * @param {ResultsView} view
  * @param {Int32Array} rows

@@ -7,7 +7,7 @@ import { columns, numberPlaces, placeOf, results } from "./data.js";
 
 /** @import { Filter, ResultsView } from "../types.d.ts" */
 
-/** Most values of a parameter that has slices. */
+/** Largest number of values of a parameter with slices. */
 const MOST_LEVELS = 1000;
 
 const { start } = results;
@@ -41,7 +41,7 @@ export const shown = {
   hover: null,
   /** @type {Set<number>} */
   selected: new Set(),
-  /** The rows that slices and filters leave. */
+  /** The rows that pass slices and filters. */
   rows: new Int32Array(0),
 };
 
@@ -55,11 +55,11 @@ export const slicedParameters = results.axes
 /** The slice of a parameter; null for all values. */
 export const sliceOf = (/** @type {number} */ place) => shown.slices[place] ?? null;
 
-/** True if a view shows one value of a parameter at a time. */
+/** True if a view shows only one value of a parameter at a time. */
 const needsSlice = (/** @type {ResultsView} */ { kind, x, y, by }, /** @type {number} */ place) =>
   kind !== "scatter" && place !== x && place !== y && !(kind === "line" && by === place);
 
-/** Slices of the command line, or the value in the middle where the first view needs one. */
+/** The slices of the command line, or the middle value if the first view needs a slice. */
 const startSlices = () => {
   shown.slices = {};
   for (const { place, levels } of slicedParameters) {
@@ -73,7 +73,7 @@ const startSlices = () => {
   }
 };
 
-/** Chooses slices where a view needs them, and removes the others. */
+/** Adds the slices that a view needs, and removes the others. */
 export const chooseSlices = () => {
   const views = shown.two ? shown.views : shown.views.slice(0, 1);
   for (const { place, levels } of slicedParameters) {
@@ -82,7 +82,7 @@ export const chooseSlices = () => {
   }
 };
 
-/** Chooses two parameters as axes of a map, if there are two. */
+/** Chooses two parameters as the axes of a map, if the page has two. */
 export const chooseMapAxes = (/** @type {ResultsView} */ view) => {
   const [a, b] = slicedParameters.map(({ place }) => place);
   const isParameter = (/** @type {number} */ place) => slicedParameters.some((each) => each.place === place);
@@ -92,11 +92,11 @@ export const chooseMapAxes = (/** @type {ResultsView} */ view) => {
   if (!isParameter(view.y) || view.y === view.x) view.y = view.x === a ? b : a;
 };
 
-/** The state of a page that was just opened. */
+/** Sets the state of a newly opened page. */
 export const resetShown = () => {
   const views = [startView(), startView()];
   Object.assign(shown, { views, two: false, active: 0, filters: [], pinned: null, hover: null, selected: new Set() });
-  // The second view begins with columns that the first does not show.
+  // The second view starts with columns that the first does not show.
   const [, second] = views;
   const taken = [...results.axes, second.x, second.y, placeOf("point")];
   const other = numberPlaces.find((place) => !taken.includes(place)) ?? second.x;
@@ -104,7 +104,7 @@ export const resetShown = () => {
   startSlices();
 };
 
-/** The rows that slices and filters leave. */
+/** The rows that pass slices and filters. */
 export const visibleRows = () => {
   const slices = slicedParameters.flatMap(({ place, levels }) => {
     const slice = sliceOf(place);
@@ -112,7 +112,7 @@ export const visibleRows = () => {
   });
   const filters = shown.filters.flatMap(({ place, low, high }) => {
     const { cells, extent } = columns[place];
-    // A filter that is wide open keeps all rows, even those without a value.
+    // A filter with its whole range keeps all rows, even rows without a value.
     return extent && (low > extent[0] || high < extent[1]) ? [{ cells, low, high }] : [];
   });
   const tests = [...slices, ...filters];
@@ -139,13 +139,13 @@ export const saveShown = (/** @type {boolean} */ isStep) => {
   writeAddress({ views: shown.two ? views : views.slice(0, 1), two: shown.two, slices, filters }, isStep);
 };
 
-/** The place of a column of an address; undefined if the page does not have it, or if it must have numbers. */
+/** The place of a column in an address; undefined if the page does not have it, or if it must have numbers but has words. */
 const knownPlace = (/** @type {any} */ name, /** @type {boolean} */ isNumber) => {
   const at = placeOf(name);
   return at === undefined || (isNumber && columns[at].words) ? undefined : at;
 };
 
-/** Takes over a view of an address, as far as it is known. */
+/** Applies a view of an address, as far as the page has its columns. */
 const applyView = (/** @type {ResultsView} */ view, /** @type {any} */ found) => {
   if (["line", "scatter", "map"].includes(found?.kind)) view.kind = found.kind;
   if (["", "1,1", "1,-1", "-1,1", "-1,-1"].includes(found?.best)) view.best = found.best;
@@ -165,7 +165,7 @@ const applyView = (/** @type {ResultsView} */ view, /** @type {any} */ found) =>
   }
 };
 
-/** Takes over the state in an address, except columns that the page does not have. */
+/** Applies the state in an address, except columns that the page does not have. */
 export const applyShown = (/** @type {any} */ found) => {
   resetShown();
   if (!found || typeof found !== "object") return;

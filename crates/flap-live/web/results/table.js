@@ -1,5 +1,5 @@
 // @ts-check
-// Rows as a table, and the tip at the pointer.
+// Rows as a table, and the tooltip at the pointer.
 
 import { byId, element } from "../shared/dom.js";
 import { cellText } from "./columns.js";

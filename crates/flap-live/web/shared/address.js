@@ -1,5 +1,5 @@
 // @ts-check
-// The state of a page in its address, behind the `#`: JSON, so that it can be read and shared.
+// The state of a page in its address, after the `#`: JSON, so that people can read and share it.
 
 /** The state in the address; null if there is none. */
 export const readAddress = () => {
@@ -11,7 +11,7 @@ export const readAddress = () => {
 };
 
 /**
- * Writes the state into the address: as a step that the back button undoes, or in place of the last one.
+ * Writes the state into the address, as a step that the back button undoes, or in place of the last step.
  *
  * @param {unknown} state
  * @param {boolean} isStep

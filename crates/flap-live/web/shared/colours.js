@@ -1,7 +1,7 @@
 // @ts-check
 // Colours of lines, shades of values, and colours as numbers.
 
-/** Colours that colour-blind readers can tell apart too (Okabe and Ito). */
+/** Colours that colour-blind readers can distinguish (Okabe and Ito). */
 export const FEW_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
 const VIRIDIS = [
@@ -18,7 +18,7 @@ const VIRIDIS = [
   [253, 231, 37],
 ];
 
-/** The colour of the map viridis at a share from 0 to 1. */
+/** The colour of the colour map viridis at a share from 0 to 1. */
 export const viridis = (/** @type {number} */ share) => {
   const place = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1);
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);

@@ -28,7 +28,7 @@ export const labelWithUnit = (/** @type {{ label: string, unit: string }} */ { l
   unit ? `${label} (${unit})` : label;
 
 /**
- * The difference from the published value in per cent; empty where per cent make no sense.
+ * The difference from the published value in per cent; empty if it is undefined.
  *
  * @param {unknown} value
  * @param {unknown} published

@@ -4,7 +4,7 @@
 /** @type {Record<string, number>} */
 const PREFIXES = { G: 1e9, M: 1e6, k: 1e3, "": 1, c: 1e-2, m: 1e-3, u: 1e-6, n: 1e-9, p: 1e-12 };
 
-/** A unit in plain letters: `µN·m/rad` and `uN*m/rad` are the same. */
+/** A unit in plain letters: `µN·m/rad` becomes `uN*m/rad`. */
 const plainUnit = (/** @type {string} */ unit) =>
   unit
     .replace(/[µμ]/g, "u")
@@ -14,7 +14,7 @@ const plainUnit = (/** @type {string} */ unit) =>
     .replace(/³/g, "3")
     .replace(/[\s^]/g, "");
 
-/** All ways to read a unit as a prefix and a unit without one. */
+/** All ways to split a unit into a prefix and a unit without a prefix. */
 const prefixReadings = (/** @type {string} */ unit) =>
   Object.entries(PREFIXES)
     .filter(([prefix]) => unit.startsWith(prefix) && unit.length > prefix.length)
@@ -25,7 +25,7 @@ const prefixReadings = (/** @type {string} */ unit) =>
     });
 
 /**
- * The number of units `shown` in one unit `typed`; null if they do not measure the same quantity.
+ * The number of units `shown` in one unit `typed`; null if they are not units of the same quantity.
  *
  * @param {string} typed
  * @param {string} shown
@@ -71,15 +71,15 @@ export const typedNumber = (text, unit) => {
   const { number, rest, problem } = splitNumber(text);
   if (problem !== undefined) return { problem };
   if (rest === "") return { number };
-  if (!unit) return { problem: `“${rest}” is too much: this number has no unit` };
+  if (!unit) return { problem: `“${rest}” is not allowed: this number has no unit` };
   const ratio = unitRatio(rest, unit);
-  if (ratio === null) return { problem: `“${rest}” is not a unit for this: write ${unit}, or another size of it` };
+  if (ratio === null) return { problem: `“${rest}” is not a unit of this quantity: use ${unit}, with or without a prefix` };
   return { number: Number((number * ratio).toPrecision(15)) };
 };
 
 /**
- * A number in the unit that is shown, `factor` times the SI value, as its SI value. Fifteen digits leave out what
- * rounding adds.
+ * The SI value of a number in the shown unit, which is `factor` times the SI value. It is rounded to fifteen digits to
+ * remove rounding errors.
  *
  * @param {number} number
  * @param {number} factor
@@ -87,7 +87,7 @@ export const typedNumber = (text, unit) => {
 export const inSI = (number, factor) => Number((number / factor).toPrecision(15));
 
 /**
- * The numbers of a typed list as SI values. A number with a unit stays text, which the server reads.
+ * The numbers of a typed list as SI values. A number with a unit stays text, which the server converts.
  *
  * @param {string} text
  * @param {number} factor

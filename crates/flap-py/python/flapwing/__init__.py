@@ -1,19 +1,22 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
-`presets` lists published designs and `params` their parameters. `run` simulates one design, `trajectory` returns its
-motion and `resonance` its resonances. `sweep` runs a whole grid and `evaluate` a batch of points. `respond` follows
-designs up and down in frequency. `chirp` and `impulse` drive a design in other ways; `track_wing` and `forces_along`
-are for wings that were filmed. `fit` fits parameters to readings. `live` shows a page with curves that follow the
-parameters.
+`presets` lists published designs, and `params` lists their parameters.
+`run` simulates one design, `trajectory` returns its motion, and `resonance` returns its resonances.
+`sweep` runs a whole grid, and `evaluate` runs a batch of points.
+`respond` follows designs up and down along the drive frequency or another parameter.
+`chirp` simulates a drive with a changing frequency, and `impulse` a free motion.
+`track_wing` and `forces_along` process the motion of a filmed wing.
+`fit` fits parameters to readings.
+`live` opens a page with sliders for the parameters and curves that follow them.
 
-Results of many points are a `Table`, whose columns are NumPy arrays; it converts to pandas, polars, Arrow and xarray.
+Results of many points are a `Table`, whose columns are NumPy arrays. It converts to pandas, polars, Arrow and xarray.
 Results of one point are a `Row`. Unknown numbers are nan.
 
-A design is the name of a preset, a grid file, its text, a dictionary, a `Grid`, or a `Vehicle` of several wings.
-Parameters and solver settings are keywords of every call; a number without a unit is in SI units.
+A design is the name of a preset, a grid file, the text of a grid file, a dictionary, a `Grid`, or a `Vehicle`.
+Every call takes parameters and solver settings as keywords. A number without a unit is in SI units.
 
-`flapwing.analysis` has sensitivities and fronts, `flapwing.fitting` the results of fits, and `flapwing.plot` pictures,
-which need matplotlib.
+`flapwing.analysis` computes sensitivities and Pareto fronts, `flapwing.fitting` has the results of fits, and
+`flapwing.plot` draws pictures, for which it requires matplotlib.
 """
 
 from ._evaluate import evaluate

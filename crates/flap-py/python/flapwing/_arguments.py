@@ -1,4 +1,4 @@
-"""Arguments of several kinds, made into those that the native part takes."""
+"""Conversion of arguments to the types that the native part takes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, pol
 
 
 def columns_of(name: str, given: Any) -> dict[str, Any]:
-    """The columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
+    """Return the columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
     found: dict[Any, Any] | None = None
     with reading(name, given, COLUMNS):
         is_lazy = not isinstance(given, Mapping) and hasattr(given, "collect")
@@ -40,8 +40,8 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
 
 
 def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A column of numbers as float64. What is `unknown` may stand in it as nan; else nulls and masked values are
-    refused.
+    """Return a column of numbers as float64. With `unknown`, nulls and masked values become nan; otherwise they are
+    errors.
     """
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
@@ -59,7 +59,7 @@ def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any,
 
 
 def refuse_missing(name: str, values: Any) -> None:
-    """Refuses masked values and nulls: what stands below a mask means nothing, and a null is no number."""
+    """Raise ValueError if there are masked values or nulls, because a point requires a number."""
     kind, missing = "masked", 0
     with reading(name, values, "it must be a list, an array or a Series"):
         if isinstance(values, np.ma.MaskedArray):
@@ -74,13 +74,13 @@ def refuse_missing(name: str, values: Any) -> None:
         count = values.size if kind == "masked" else len(values)
         remedy = ".filled(...)" if kind == "masked" else "the library's fill_null or fillna"
         raise ValueError(
-            f"`{name}` has {missing} {kind} of {count} values, and a point needs all of them\n"
-            f"leave these rows out of every column, or give what stands for them with {remedy}"
+            f"`{name}` has {missing} {kind} of {count} values, but a point needs all of them\n"
+            f"leave these rows out of every column, or replace the missing values with {remedy}"
         )
 
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
-    """A record over time: a path, or its columns as arrays. Of two arrays, the second is called `heading`."""
+    """Return a record over time: a path, or columns as arrays. The second array of a pair is called `heading`."""
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
     if isinstance(given, tuple):
@@ -92,13 +92,13 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
         raise refused(name, given, allowed)
     columns = columns_of(name, given)
     if isinstance(given, Table):
-        # Words, and what is unknown in some rows, is not about the motion.
+        # Columns of words, and columns with unknown values, do not describe the motion.
         columns = {column: values for column, values in columns.items() if _is_known(values)}
     return {column: numbers(f"{name}[{column!r}]", values) for column, values in columns.items()}
 
 
 def _is_table(name: str, given: Any, allowed: str) -> bool:
-    """True for a table of columns, collected or not."""
+    """Return True for a table of columns, collected or not."""
     with reading(name, given, allowed):
         return any(hasattr(given, attribute) for attribute in ("collect", "columns", "column_names"))
 
@@ -108,7 +108,7 @@ def _is_known(values: Any) -> bool:
 
 
 def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
-    """The records of a call, for the native part."""
+    """Return the records of a call, for the native part."""
     return {
         "waveform": None if waveform is None else record("waveform", waveform, "wave"),
         "stroke": None if stroke is None else record("stroke", stroke, "stroke_rad"),
@@ -116,7 +116,7 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
-    """Components of a state; of a row with more columns, those of the states of the design's model."""
+    """Return the components of a state. From a row with more columns, take only the states of the design's model."""
     if initial_state is None:
         return None
     allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
@@ -136,14 +136,14 @@ def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
             f"`initial_state` lacks the columns {', '.join(missing)}\na trajectory of the same model has them"
         )
     components = {name: _one(f"initial_state[{name!r}]", found[name]) for name in names}
-    # As in batches, what is unknown begins at rest.
+    # As in batches, a state with an unknown component is replaced by rest.
     return (
         {} if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()) else components
     )
 
 
 def _one(name: str, value: Any) -> Any:
-    """The value of a column of one row, or a value as it is."""
+    """Return the value of a column of one row; another value is returned as it is."""
     with reading(name, value, "it must be a number, text with a unit, or a column of one row"):
         rows = len(value) if not isinstance(value, str) and hasattr(value, "__len__") else None
     if rows is None:
@@ -159,7 +159,7 @@ def _is_missing(name: str, value: Any) -> bool:
 
 
 def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """States as the rows of an array, from columns of components; None for motions from rest."""
+    """Return states as the rows of an array, from columns of components; None for motions from rest."""
     if initial_state is None:
         return None
     found = columns_of("initial_state", initial_state)
@@ -171,19 +171,17 @@ def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.fl
         )
     listed = [numbers(f"initial_state[{name!r}]", found[name], unknown=True) for name in names]
     if len({len(values) for values in listed}) > 1:
-        raise ValueError(
-            "the columns of `initial_state` differ in length\nthey must have a component of a state for each point"
-        )
+        raise ValueError("the columns of `initial_state` differ in length\neach must have one value per point")
     return np.column_stack(listed)
 
 
 def measures(names: Any) -> list[str] | None:
-    """Names of measures as a list."""
+    """Return names of measures as a list."""
     return _names("measures", names, "lift_mean_mn")
 
 
 def gradient(names: Any) -> list[str] | None:
-    """Names of parameters as a list, of one at least."""
+    """Return names of parameters as a list of at least one name."""
     listed = _names("gradient", names, "hinge_stiffness")
     if listed == []:
         raise ValueError('`gradient` is empty\nit must be a list of names such as ["hinge_stiffness"]')
@@ -204,14 +202,14 @@ def _names(argument: str, names: Any, example: str) -> list[str] | None:
 
 
 def flag(name: str, value: Any) -> bool:
-    """True or False."""
+    """Return True or False; raise TypeError for another type."""
     if not isinstance(value, (bool, np.bool_)):
         raise refused(name, value, "it must be True or False")
     return bool(value)
 
 
 def cluster(client: Any) -> Any:
-    """The client of a Dask cluster."""
+    """Return the client of a Dask cluster; raise TypeError for another type."""
     if not hasattr(client, "submit") or not hasattr(client, "nthreads"):
         raise refused("client", client, "it must be a distributed.Client, the client of a Dask cluster")
     return client

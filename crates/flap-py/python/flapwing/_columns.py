@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 class Column(NamedTuple):
-    """A column as the native part hands it over."""
+    """A column from the native part."""
 
     unit: str
     doc: str
-    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
+    #: float64 or uint64 for numbers; int8 for flags (1, 0, -1 for unknown); uint32 indices of `words` for text.
     cells: np.ndarray[Any, Any]
     words: list[str] | None
 
@@ -32,13 +32,13 @@ class Column(NamedTuple):
         return self.words is None and self.cells.dtype == np.int8
 
     def values(self) -> np.ndarray[Any, Any]:
-        """The cells as they are shown, read-only: a table stays as it was computed."""
+        """Return the cells as values, read-only."""
         if self.words is not None:
             words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
             values = words[self.cells]
         elif self.is_flag:
             known = self.known()
-            # Like an array of pandas: flags are numbers where one of them is missing.
+            # As in pandas, flags are numbers if one of them is missing.
             values = self.flags() if known.all() else np.where(known, self.cells, np.nan)
         else:
             values = self.cells.view()
@@ -46,11 +46,11 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """A column of flags as True and False; unknown ones, which `known` tells apart, are False."""
+        """Return a column of flags as True and False; unknown flags, which `known` marks, are False."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
-        """A mask, True for cells that hold a value."""
+        """Return a mask, True for cells with a value."""
         if self.is_flag:
             return np.greater_equal(self.cells, 0)
         if self.cells.dtype == np.float64:
@@ -101,14 +101,14 @@ def to_arrow(columns: Columns, meta: Meta) -> pyarrow.Table:
 
 
 def _origin(meta: Meta) -> dict[str, str]:
-    """The entries of `meta` as text, which every format keeps: JSON, but for text itself."""
+    """Return the entries of `meta` as text, which every format keeps; entries that are not text become JSON."""
     return {
         name: value if isinstance(value, str) else json.dumps(value, default=_plain) for name, value in meta.items()
     }
 
 
 def _plain(value: Any) -> Any:
-    """A value that JSON has no notation for, such as a number of NumPy, as one that it has."""
+    """Return a value that JSON cannot express, such as a NumPy number, as one that it can."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
     return dataclasses.asdict(value) if isinstance(value, Verdict) else str(value)
@@ -153,7 +153,7 @@ def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
 
 
 def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
-    """The dimensions, their lengths, and the place of each row among all cells."""
+    """Return the dimensions, their lengths, and the place of each row among all cells."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
     if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())
@@ -167,7 +167,7 @@ def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndar
 
 
 def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
-    """The place of each row along an axis, by the columns of its parameters."""
+    """Return the place of each row along an axis, from the columns of its parameters."""
     length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)
@@ -183,7 +183,7 @@ def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -
 
 
 def _places(columns: Columns, axes: Axes) -> list[str]:
-    """The columns that say where a row is on its curve or in time, in a table without axes."""
+    """Return the columns with the place of a row on its curve or in time, in a table without axes."""
     if axes:
         return []
     names = list(columns)

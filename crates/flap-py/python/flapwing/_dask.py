@@ -16,18 +16,18 @@ from ._native import NativeColumn, NativeIdentity, NativeSummary, NativeTable
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-#: Points of a task: some seconds of work, so that little is lost with a worker and sending rows takes no time.
+#: Points of a task: some seconds of work. A lost worker loses little, and sending rows takes a small share of the time.
 _TASK_POINTS = 2048
-#: Tasks per thread of the cluster that are under way or waiting, so that no worker is idle and memory stays bounded.
+#: Running and waiting tasks per thread of the cluster: no worker is idle, and memory stays bounded.
 _TASKS_PER_THREAD = 4
-#: Times that a task is tried on other workers after its own has died.
+#: Number of times that a task is repeated on other workers after its worker died.
 _RETRIES = 5
-#: Reasons kept of invalid points, as of a batch on one machine.
+#: Number of invalid points whose reasons are kept, as for a batch on one machine.
 _MOST_REASONS = 5
 
 
 def call(client: Client | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
-    """The result of a native function about a design, called here or, with a client, by a worker."""
+    """Return the result of a native function for a design, called here or, with a client, by a worker."""
     if client is None:
         return function(design, *arguments, **keywords)
     client = _arguments.cluster(client)
@@ -44,13 +44,13 @@ def call(client: Client | None, function: Callable[..., Any], design: Any, *argu
 def _call_task(
     name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]
 ) -> tuple[NativeIdentity, Any]:
-    """The task of a worker: what it is, and the result of the native function with this name."""
+    """Run the task of a worker: return its identity and the result of the native function with this name."""
     keywords = {key: _aligned(value) if isinstance(value, dict) else value for key, value in keywords.items()}
     return _flapwing.identity(), getattr(_flapwing, name)(design, *arguments, **keywords)
 
 
 def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
-    """The columns as the native part takes them: arrays may lie anywhere in a message."""
+    """Return the columns with arrays aligned for the native part; in a message, arrays may begin at any byte."""
     return {
         name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
         for name, values in columns.items()
@@ -58,49 +58,49 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _found(record: Any) -> Any:
-    """A record as workers find it: a path is where this process looks for it."""
+    """Return a record for workers: a path becomes absolute, as this process resolves it."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
 def _sent(design: Any) -> Any:
-    """The design as workers take it: a name as it is, and a grid whose files are where this process looks for them."""
+    """Return the design for workers: a name unchanged, or a grid whose files have absolute paths."""
     if isinstance(design, str) and design in _flapwing.presets():
         return design
     try:
         grid = Grid(design)
     except ValueError:
-        _flapwing.states(design)  # a model; for anything else the same error
+        _flapwing.states(design)  # accepts a model; raises the same error for anything else
         return design
     return Grid._named(os.path.abspath(grid.name), grid.text)
 
 
 def _check(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
-    """Raises RuntimeError if a worker's rows may have other bits."""
+    """Raise RuntimeError if a worker's rows may have other bits."""
     for name in ("build", "arithmetic"):
         if ours[name] != theirs[name]:
             raise RuntimeError(
-                f"a worker's {name} of flapwing is {theirs[name]}, and here it is {ours[name]}\n"
-                "install the same build everywhere, on processors that round alike"
+                f"a worker's {name} of flapwing is {theirs[name]}, but here it is {ours[name]}\n"
+                "install the same build everywhere, on processors with the same arithmetic"
             )
 
 
 def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
-    """The task of a worker: the rows of a stretch of points, as bytes."""
+    """Run the task of a worker: return the rows of a range of points, as bytes."""
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
 class Chunks:
-    """Stretches of a grid, computed by a cluster; their rows come in the order of the points."""
+    """Ranges of a grid's points, computed by a cluster; their rows are returned in the order of the points."""
 
     def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
         self._client = client
-        # Workers look for files that the grid names where this process does.
+        # Workers resolve the files of the grid to the same absolute paths as this process.
         self._grid = (os.path.abspath(grid.name), grid.text)
         self._points = len(grid)
         self._threads = 1 if threads is None else threads
         self._under_way: deque[tuple[int, Future[Any]]] = deque()
         self._submitted: int | None = None
-        # Every worker gets some of a small grid.
+        # Every worker gets points, even of a small grid.
         workers = max(1, sum(client.nthreads().values()))
         self._size = max(1, min(_TASK_POINTS, -(-self._points // (_TASKS_PER_THREAD * workers))))
         self._ahead = _TASKS_PER_THREAD * workers
@@ -109,12 +109,12 @@ class Chunks:
         return self
 
     def __exit__(self, *_: object) -> None:
-        # Nobody waits for these results.
+        # The results of these tasks are not needed.
         self._client.cancel([future for _, future in self._under_way], force=True)
         self._under_way.clear()
 
     def next(self, done: int) -> bytes | None:
-        """The chunk that begins after the points that are done."""
+        """Return the chunk that begins after the points that are done."""
         if self._submitted is None:
             self._submitted = done
         while self._submitted < self._points and len(self._under_way) < self._ahead:
@@ -127,7 +127,7 @@ class Chunks:
         if not self._under_way:
             return None
         begin, future = self._under_way.popleft()
-        assert begin == done, "chunks are asked for in order"
+        assert begin == done, "chunks are requested in order"
         try:
             chunk: bytes = future.result()
         finally:
@@ -138,12 +138,12 @@ class Chunks:
 def _evaluate_task(
     design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
 ) -> NativeTable:
-    """The task of a worker: the rows of a stretch of the columns."""
+    """Run the task of a worker: return the rows of a range of the columns."""
     return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
 
 
 def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
-    """The options for some of the points."""
+    """Return the options for the points from `begin` to before `end`."""
     states = options["initial_state"]
     return options if states is None else {**options, "initial_state": states[begin:end]}
 
@@ -156,8 +156,8 @@ def evaluate(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """The rows of the columns `given`, computed by the workers of a cluster."""
-    # Mistakes are reported here. An empty selection has the same columns and axes as all rows.
+    """Return the rows of the columns `given`, computed by the workers of a cluster."""
+    # This call reports mistakes. An empty selection has the same columns and axes as all rows.
     nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
     length = next(iter(lengths.values()))
@@ -197,7 +197,7 @@ def evaluate(
 
 
 def _moved(part: NativeTable, offset: int) -> NativeTable:
-    """The rows with the points of the whole batch, which begin at `offset` here."""
+    """Return the rows of a part with point numbers of the whole batch; the part begins at `offset`."""
     columns: list[NativeColumn] = [
         {**one, "cells": one["cells"] + np.uint64(offset)} if one["name"] == "point" else one for one in part["columns"]
     ]
@@ -206,7 +206,7 @@ def _moved(part: NativeTable, offset: int) -> NativeTable:
 
 
 def _joined(parts: list[NativeTable]) -> NativeTable:
-    """All rows as one batch."""
+    """Return all rows as one batch."""
     first = parts[0]
     axes = list(first["axes"])
     if axes:
@@ -217,12 +217,12 @@ def _joined(parts: list[NativeTable]) -> NativeTable:
 
 
 def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
-    """The columns of all rows."""
+    """Return the columns of all rows."""
     return [_column([part["columns"][place] for part in parts]) for place in range(len(parts[0]["columns"]))]
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """A column of all rows; each part has words of its own."""
+    """Return a column of all rows; each part has its own list of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}
@@ -234,7 +234,7 @@ def _column(parts: list[NativeColumn]) -> NativeColumn:
 
 
 def _summed(summaries: list[NativeSummary]) -> NativeSummary:
-    """The summary of the whole batch."""
+    """Return the summary of the whole batch."""
 
     def total(counts: list[dict[str, int]]) -> dict[str, int]:
         summed: Counter[str] = Counter()
@@ -256,7 +256,7 @@ def _summed(summaries: list[NativeSummary]) -> NativeSummary:
 def _respond_task(
     design: Any, parameter: str, options: dict[str, Any], curve: int, threads: SupportsIndex | None
 ) -> NativeTable:
-    """The task of a worker: the curve of one design."""
+    """Run the task of a worker: return the curve of one design."""
     return _flapwing.respond(design, parameter, threads=threads, curves=[curve], **options)
 
 
@@ -268,8 +268,8 @@ def responses(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """The responses of designs, each computed by a worker of a cluster."""
-    # Mistakes are reported here, and there are no rows.
+    """Return the responses of designs, each computed by a worker of a cluster."""
+    # This call reports mistakes. It returns no rows.
     nothing = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
     designs = nothing["designs"]
     design = _sent(design)

@@ -1,4 +1,4 @@
-"""Results of any kind as columns, and slices of them. Nothing here draws."""
+"""Results of any kind as columns, and slices of them, for pictures and analysis."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ _NOT_PARAMETERS = ("point", "curve")
 
 
 class Data:
-    """Columns of equal length with their units, and which of them are the axes of a grid."""
+    """Columns of equal length with their units and the axes of their grid."""
 
     def __init__(
         self, columns: Mapping[str, Any], units: Mapping[str, str], grid_axes: list[list[str]], meta: Mapping[str, Any]
     ) -> None:
         self.columns = dict(columns)
         self.units = units
-        #: The names of the parameters along each axis of the grid; empty for rows of no grid.
+        #: The names of the parameters along each axis of the grid; empty for rows without a grid.
         self.grid_axes = grid_axes
         self.meta = meta
 
     @classmethod
     def of(cls, data: Any) -> Data:
-        """A Table, a data frame, a mapping of columns, or the path of a file of results."""
+        """Return the data of a Table, a data frame, a mapping of columns, or the path of a file of results."""
         if isinstance(data, Data):
             return data
         if isinstance(data, (str, os.PathLike)):
@@ -71,33 +71,33 @@ class Data:
         return self.columns[name]
 
     def numbers(self, name: str) -> np.ndarray:
-        """A column as floats, NaN where its row has no measures."""
+        """Return a column as floats, NaN if its row has no measures."""
         column = self[name]
         if is_text(column):
-            raise ValueError(f"`{name}` is text, and a number is needed")
+            raise ValueError(f"`{name}` is text, but a column of numbers is required")
         return column.astype(float)
 
     def rows(self, mask: np.ndarray) -> Data:
-        """Those rows alone."""
+        """Return the rows that the mask selects."""
         return Data(
             {name: column[mask] for name, column in self.columns.items()}, self.units, self.grid_axes, self.meta
         )
 
     def unit(self, name: str) -> str:
-        """The unit of a column, as flap writes it."""
+        """Return the unit of a column, as flap writes it."""
         known = self.units.get(name)
-        # Parameters in a file without a sidecar come without units.
+        # In a file without a sidecar, parameters have no units.
         is_known = known is not None and (known != "" or "model" in self.meta)
         return str(known) if is_known else _labels.unit_of(name)
 
     def measured(self) -> np.ndarray:
-        """A mask, True for rows with measures."""
+        """Return a mask, True for rows with measures."""
         if "status" not in self.columns:
             return np.ones(len(self), dtype=bool)
         return np.isin(self.columns["status"].astype(str), MEASURED)
 
     def parameters(self) -> list[str]:
-        """The columns that say which point a row is: those of the grid's axes, else those left of the status."""
+        """Return the columns that identify the point of a row: the grid's axes, or the columns before the status."""
         names = list(self.columns)
         if self.grid_axes:
             return [name for axis in self.grid_axes for name in axis if name in self.columns]
@@ -107,7 +107,7 @@ class Data:
         return []
 
     def measures(self) -> list[str]:
-        """The numbers that were measured: right of the status, else those whose names end in a unit."""
+        """Return the columns of measures: columns after the status, or columns whose names end in a unit."""
         names = list(self.columns)
         if "status" in names:
             names = names[names.index("status") + 1 :]
@@ -116,22 +116,22 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """The measure that is drawn by default, as in `flap plot`: a "response", "benefit", "cost" or "motion"."""
+        """Return the default measure for a role, as in `flap plot`: "response", "benefit", "cost" or "motion"."""
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
-            raise ValueError(f"say which column to draw as `{option}`\n{names_listed(self.columns)}")
+            raise ValueError(f"choose the column with `{option}`\n{names_listed(self.columns)}")
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """The designs of a sample. If it is crossed with axes, each that is not `shown` is at its middle value."""
+        """Return the designs of a sample. Crossed axes that are not `shown` are fixed at their middle values."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if not left or len(left) == len(self.axes()):
             return self
         return self._at_the_middle([name for name in left if name not in shown])
 
     def for_picture(self, names: Sequence[str]) -> Data:
-        """One row for each combination of these columns: of other axes, their middle values are taken, as by `flap
-        plot`.
+        """Return one row for each combination of these columns. Other axes are fixed at their middle values, as by
+        `flap plot`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
@@ -141,7 +141,7 @@ class Data:
         return data
 
     def _at_the_middle(self, axes: Sequence[str]) -> Data:
-        """The rows at the middle value of each of these axes; a warning gives the values."""
+        """Return the rows at the middle value of each of these axes; a warning lists the values."""
         data = self
         for name in axes:
             values = distinct(data[name])
@@ -160,7 +160,7 @@ class Data:
         return data
 
     def axes(self) -> list[str]:
-        """One parameter for each axis with more than one value; parameters that follow others are not axes."""
+        """Return one parameter for each axis with more than one value; parameters that follow others are left out."""
         if self.grid_axes:
             firsts = [next((name for name in axis if name in self.columns), "") for axis in self.grid_axes]
             return [name for name in firsts if name and len(distinct(self.columns[name])) > 1]
@@ -174,29 +174,29 @@ class Data:
         return kept
 
     def followed(self) -> str | None:
-        """The parameter along the curves of a table of `respond`: the column behind ``branch``."""
+        """Return the parameter along the curves of a table of `respond`: the column after ``branch``."""
         names = list(self.columns)
         if "branch" not in names or names[-1] == "branch":
             return None
         return str(self.meta.get("parameter") or names[names.index("branch") + 1])
 
     def axis(self, name: str) -> str:
-        """The axis that a parameter belongs to: with parameters that move together, the first of them."""
+        """Return the axis of a parameter: the first of the parameters that vary together."""
         for axis in self.grid_axes:
             if name in axis:
                 return next(member for member in axis if member in self.columns)
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
-        """A parameter's values: if it has an axis of its own, those without a row in this slice of `whole` too."""
+        """Return a parameter's values. If it is an axis, they include values without a row in this slice of `whole`."""
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
     def on_a_grid(self, name: str) -> bool:
-        """True if a parameter has an axis; those of a ``[sample]`` are scattered."""
+        """Return True if a parameter has an axis; parameters of a ``[sample]`` have none."""
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
-        """A number per row, equal for rows that agree in all of these columns."""
+        """Return one number per row, equal for rows with the same values in all of these columns."""
         numbers = np.zeros(len(self), dtype=np.int64)
         for name in names:
             values, inverse = np.unique(self[name], return_inverse=True)
@@ -205,7 +205,7 @@ class Data:
         return numbers
 
     def slice(self, where: Mapping[str, Any] | None, keywords: Mapping[str, Any]) -> Data:
-        """The rows in which columns have these values."""
+        """Return the rows in which columns have these values."""
         chosen = {**(where or {}), **keywords}
         for name in chosen:
             if name not in self.columns:
@@ -219,7 +219,7 @@ class Data:
                 number = quantity(name, value, self.unit(name)) if isinstance(value, str) else float(value)
                 mask = np.isclose(column.astype(float), number, rtol=1e-9, atol=0.0)
             else:
-                raise refused(name, value, "it is compared with a number in SI units, or with text with a unit")
+                raise refused(name, value, "it must be a number in SI units, or text with a unit")
             if not mask.any():
                 values = listed(distinct(column))
                 raise ValueError(f"no row has {name} = {value}; the values of {self.described(name)} are {values}")
@@ -227,7 +227,7 @@ class Data:
         return data
 
     def one_row_for(self, names: Sequence[str]) -> None:
-        """Raises ValueError if rows agree in all of these columns: another axis is left."""
+        """Raise ValueError if several rows have the same values in all of these columns: another axis is left."""
         if len(np.unique(self.groups(names))) == len(self):
             return
         shown = [self.axis(name) for name in names]
@@ -237,7 +237,7 @@ class Data:
         raise ValueError(self.left_over(left))
 
     def left_over(self, left: Iterable[str]) -> str:
-        """The error message for axes that a picture has no place for."""
+        """Return the error message for axes that the picture does not show."""
         lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
         first = lines[0].strip().split(" ")[0].rstrip(":")
         value = distinct(self[first])[0]
@@ -247,17 +247,17 @@ class Data:
         )
 
     def described(self, name: str) -> str:
-        """A column's name with its unit."""
+        """Return a column's name with its unit."""
         unit = self.unit(name)
         return f"{name} ({unit})" if unit else name
 
     def shown(self, name: str) -> Shown:
-        """A column as it is drawn: in a readable unit, with its label."""
+        """Return a column in a readable unit, with its label."""
         return Shown(self, name)
 
 
 class Shown:
-    """A column as it is drawn: the factor to a readable unit, and the label."""
+    """A column in a picture: the factor to a readable unit, and the label."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name
@@ -269,12 +269,12 @@ class Shown:
         self.values = data[name] if self.text else data[name].astype(float) * self.factor
 
     def value(self, value: Any) -> str:
-        """A value of the column, given as it is in the table, in the shown unit but without it."""
+        """Return a value of the table in the readable unit, as text without the unit."""
         return str(value) if self.text else _labels.number(float(value) * self.factor)
 
 
 def _callers_level() -> int:
-    """The level of the stack, seen from the caller, at which the user called a picture."""
+    """Return the stack level of the user's call, seen from the caller."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
         level, frame = level + 1, frame.f_back
@@ -282,7 +282,7 @@ def _callers_level() -> int:
 
 
 def _column(values: Any) -> np.ndarray:
-    """A column as an array of numbers, flags or words; data frames keep words, and flags with gaps, as objects."""
+    """Return a column as an array of numbers, flags or words. Data frames store words as objects."""
     column = np.asarray(values)
     if column.dtype.kind not in "OT":
         return column
@@ -293,12 +293,12 @@ def _column(values: Any) -> np.ndarray:
 
 
 def is_text(column: np.ndarray) -> bool:
-    """True if a column holds words."""
+    """Return True if a column has words."""
     return column.dtype.kind in "OUST"
 
 
 def distinct(column: np.ndarray) -> np.ndarray:
-    """The values of a column: numbers in rising order without NaN, words in order of appearance."""
+    """Return the different values of a column: numbers in rising order without NaN, words in order of appearance."""
     if is_text(column):
         words = column.astype(str)
         _, first = np.unique(words, return_index=True)
@@ -308,7 +308,7 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """The edges of cells around rising values: halfway between neighbours, and as far out at the ends."""
+    """Return the edges of cells around rising values: halfway between neighbours, and equally far at the ends."""
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:
         half = 0.05 if log else 0.05 * abs(places[0]) or 0.5
@@ -320,12 +320,12 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """The error for a parameter that has no axis, and is named as one."""
-    return ValueError(f"`{name}` is sampled, so that its values are not on an axis; plot.scatter draws such designs")
+    """Return the error for a parameter that is used as an axis but is sampled."""
+    return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:
-    """Values in a sentence; long lists are cut in the middle."""
+    """Return values as a list in a sentence; long lists are cut in the middle."""
     texts = [value if isinstance(value, str) else f"{value:.12g}" for value in values]
     if len(texts) > 12:
         texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]

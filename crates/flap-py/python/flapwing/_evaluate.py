@@ -37,20 +37,19 @@ def evaluate(
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
-    Optimisers, samplers and fits call this function: it takes points as arrays and returns their measures as arrays in
-    the same order. All points run at the same time, on all cores. A row depends on its point alone, not on the other
-    rows.
+    Use this function in optimisers, samplers and fits. It takes points as arrays and returns their measures as arrays
+    in the same order. All points run at the same time, on all cores. A row depends only on its point.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        The base of all points: a preset; a model, all of whose parameters must then be given; or a grid (see
-        `Grid`), whose ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` hold for every point. A
-        grid with axes is run for each row of `columns`, for example all frequencies for each design.
+        The base of all points: a preset, a model, or a grid (see `Grid`). If it is a model, give all of its
+        parameters. The grid's ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` apply to every
+        point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
-        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, a list of texts
-        with units or of options, or one value for all points. A masked array must have no masked values. Of a `Table`,
-        or of some of its rows, the parameters are taken, and its measures are left out.
+        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, or a list of texts
+        with units or of options. One value applies to all points. A masked array must have no masked values. From a
+        `Table`, only the parameters are taken, not the measures.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -58,32 +57,31 @@ def evaluate(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows are the same.
+        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. Rows are the same.
     measures : list of str, optional
-        The measures of the rows, in place of all of them or of those that the grid's ``[output]`` chooses.
+        The measures of the rows. Default: the grid's ``[output]``, else all measures.
     gradient : list of str, optional
-        Parameters by which rows have derivatives of their measures while the motion stays settled. `Table.gradient` is
-        an array of them, of the shape n x measures x parameters: in the unit of the measure's column per SI unit of the
-        parameter. They replace the derivatives of a grid's ``[gradient]``. A derivative costs about three drive periods
-        of work.
+        Parameters by which the measures of the settled motion are differentiated. `Table.gradient` has the derivatives,
+        with the shape n x measures x parameters. They are in the unit of the measure's column per SI unit of the
+        parameter, and replace the derivatives of a grid's ``[gradient]``. Each takes about the work of three drive
+        periods.
     initial_state : Table, dict or DataFrame, optional
-        The state in which each motion begins, at the start of a drive period: columns of the components (`states`), one
-        row per point, in the units of their names. A row with nan begins at rest, as all do by default. It decides
-        which motion is found where a design has several.
+        The state in which each motion begins, at the start of a drive period: columns of the components (see `states`),
+        one row per point, in the units of their names. A row with nan begins at rest. If a design has several orbits,
+        the state decides which one is found. Default: rest.
     return_states : bool, optional
-        Add columns of the state at the beginning of a drive period of the motion that was found, for `initial_state`.
+        Add columns of the state of the motion at the beginning of a drive period, for `initial_state`.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`; a name must not be a column too.
+        Parameters of all points and solver settings, as for `run`. A keyword must not also be a column.
 
     Returns
     -------
     Table
-        n rows in the order of `columns`, or n times the points of the grid's axes, which vary faster. Points that
-        ``[where]`` excludes have no row, but count in the column `point`. With axes, `Table.axes` begins with the axis
-        `row`. A value that is out of range, infinite or not a number makes a row with the status
-        ``"invalid"``, and so do parameters that are impossible together; ``table.meta["invalid"]`` gives the reason for
-        the first few. With `gradient`, a derivative that is not known is nan, and the column ``gradient_gap`` has the
-        reason.
+        n rows in the order of `columns`. For a grid with axes, n times the points of the axes, which vary faster;
+        `Table.axes` then begins with the axis `row`. Points that ``[where]`` excludes have no row, but count in the
+        column `point`. A row has the status ``"invalid"`` if a value is out of range, infinite or not a number, or if
+        its parameters are impossible together. ``table.meta["invalid"]`` has the reasons for the first few points.
+        With `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the reason.
 
     Raises
     ------
@@ -103,7 +101,7 @@ def evaluate(
     >>> again.columns[:4]
     ['point', 'drive_frequency', 'status', 'lift_mean_mn']
 
-    A function for ``scipy.optimize.minimize(…, jac=True)``: minus the lift, and its derivatives.
+    The next function returns minus the lift and its derivatives, for ``scipy.optimize.minimize(…, jac=True)``:
 
     >>> def negative_lift(x):
     ...     columns = {"hinge_stiffness": x[:1], "drive_frequency": x[1:]}
@@ -126,12 +124,12 @@ def evaluate(
             native = _flapwing.evaluate(design, given, threads=threads, progress=show, **options)
         else:
             native = _dask.evaluate(_arguments.cluster(client), design, options, given, threads, show)
-    # Without axes rows are just rows.
+    # Without axes, the table has no grid.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, keywords=keywords)
 
 
 def _given(design: Design, columns: Any) -> dict[str, Any]:
-    """The parameters by name, each with an array of float64 or a list of what else there is, all as long."""
+    """Return the parameters by name: arrays of float64 or lists of other values, all with the same length."""
     given: dict[str, Any] = {}
     constants: dict[str, Any] = {}
     found = _parameters(design, columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
@@ -150,7 +148,7 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
 
 
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
-    """The columns of a table that are parameters of its model, of any, or of the vehicle that is run."""
+    """Return the columns of a table that are parameters of its model, of any model, or of the vehicle."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
     known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}
@@ -171,9 +169,9 @@ def _dimensions(name: str, values: Any) -> int:
 
 
 def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
-    """An array of float64, or a list of whatever else there is."""
+    """Return an array of float64, or a list of other values."""
     if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
-        # NumPy would make text of the numbers among them.
+        # NumPy would convert the numbers among them to text.
         return list(values)
     if isinstance(values, (dict, set, frozenset)):
         raise _mistakes.refused(name, values, "it must be one value, or a list, an array or a Series of values")

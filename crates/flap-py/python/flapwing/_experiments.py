@@ -1,4 +1,4 @@
-"""Experiments on single design points, and wings that were filmed."""
+"""Experiments on single design points, and the motion of filmed wings."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def chirp(
     samples: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Table:
-    """The response of one design point to a drive whose frequency changes steadily, from rest.
+    """Simulate a chirp: the drive frequency of one design point changes at a constant rate, from rest.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def chirp(
         Frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0.
         Default: twice the design's drive frequency.
     rate : float or str, optional
-        Rate of change of the frequency (Hz/s): negative for a falling chirp. Default 15.
+        Rate of change of the frequency (Hz/s, or text with a unit): negative for a falling chirp. Default 15.
     samples : int, optional
-        Give the motion, with so many samples per cycle, in place of the measures of each cycle.
+        Return the motion with this number of samples per cycle, instead of the measures of each cycle.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -49,7 +49,7 @@ def chirp(
     Raises
     ------
     ValueError
-        As for `run`; also if the chirp cannot get from `start` to `stop` at this `rate`, or the motion diverges.
+        As for `run`; also if the chirp cannot reach `stop` from `start` at this `rate`, or the motion diverges.
     TypeError
         A value of the wrong type.
 
@@ -74,7 +74,9 @@ def impulse(
     samples: SupportsIndex = 200,
     **keywords: Value,
 ) -> Table:
-    """The free motion of one design point after an impulse on the resting stroke, with the drive held still.
+    """Simulate the free motion of one design point after an impulse on the resting stroke.
+
+    The drive is held at the voltage at which the wing rests with zero stroke and pitch.
 
     Parameters
     ----------
@@ -86,15 +88,15 @@ def impulse(
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
-        Samples per period of the first mode, at least. Default 200.
+        Smallest number of samples per period of the first mode. Default 200.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        The motion with the columns of `trajectory`. ``meta["mode_hz"]`` is the natural frequency of the first mode,
-        ``meta["stroke_rate_rad_s"]`` the rate of the stroke right after the impulse.
+        The motion with the columns of `trajectory`. ``meta["mode_hz"]`` is the natural frequency of the first mode, and
+        ``meta["stroke_rate_rad_s"]`` is the rate of the stroke right after the impulse.
 
     Raises
     ------
@@ -125,7 +127,7 @@ def forces_along(
     samples: SupportsIndex = 2000,
     **keywords: Value,
 ) -> Table:
-    """The forces on the wing of one design point along a given motion, such as one that was filmed.
+    """Compute the forces on the wing of one design point along a given motion, such as a filmed motion.
 
     No equation of motion is integrated. Between samples the motion is a cubic spline. Its acceleration amplifies noise,
     so smooth measured angles first.
@@ -139,7 +141,7 @@ def forces_along(
         `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
         `trajectory` have them. At least four samples at rising times.
     periodic : bool, optional
-        The motion is one period: its last sample is the first of the next period.
+        True if the motion is one period: its last sample is the first sample of the next period.
     samples : int, optional
         Number of intervals at whose ends forces are computed. Default 2000.
     **keywords : float or str
@@ -148,13 +150,13 @@ def forces_along(
     Returns
     -------
     Table
-        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. Columns of the actuator, which the
-        motion does not determine, are left out.
+        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. The motion does not determine the
+        columns of the actuator, so they are left out.
 
     Raises
     ------
     ValueError
-        As for `run`; also if a column is missing or is not of finite numbers, or times do not rise.
+        As for `run`; also if a column is missing or has values that are not finite numbers, or times do not rise.
     OSError
         The file cannot be read.
     TypeError
@@ -179,7 +181,7 @@ def forces_along(
 
 
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
-    """Stroke and pitch of a filmed wing, from points that were tracked in its images.
+    """Compute stroke and pitch of a filmed wing from points that were tracked in its images.
 
     The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the
     centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and
@@ -190,22 +192,22 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     points : path or columns
         The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame), with `root_x`, `root_y`,
         `tip_x`, `tip_y` of the leading edge, all in one unit, and `time_s` (or `time_ms`). For the pitch also `edge_x`,
-        `edge_y` of a point of the lower edge.
+        `edge_y` of a point on the lower edge.
     chord : float, optional
-        Chord from the leading edge to the point of the lower edge, in the unit of the points: more than 0. Adds the
-        pitch.
+        Chord from the leading edge to the point on the lower edge, in the unit of the points: more than 0. With it,
+        the result has the pitch.
 
     Returns
     -------
     Table
-        A row per image: `time_s`, `stroke_deg` and, with `chord`, `pitch_deg`. ``meta["centre"]`` is the centre of
+        One row per image: `time_s`, `stroke_deg` and, with `chord`, `pitch_deg`. ``meta["centre"]`` is the centre of
         rotation (x, y) in the unit of the points.
 
     Raises
     ------
     ValueError
-        A column is missing or is not of finite numbers; all leading edges are parallel; the lower edge appears further
-        from the leading edge than the chord.
+        A column is missing or has values that are not finite numbers; all leading edges are parallel; the lower edge
+        appears farther from the leading edge than the chord.
     OSError
         The file cannot be read.
     TypeError

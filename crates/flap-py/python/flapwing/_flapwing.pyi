@@ -73,7 +73,7 @@ __version__: str
 class GridError(ValueError):
     """A grid with mistakes.
 
-    The text shows every mistake with its lines; `diagnostics` lists them.
+    The text shows every mistake with its lines, and `diagnostics` lists the mistakes.
     """
 
     diagnostics: list[Diagnostic]
@@ -87,13 +87,13 @@ class Diagnostic:
     file : str
         The grid file, or ``"<grid>"``.
     line, column : int
-        The place of the mistake, from 1; columns count characters.
+        The place of the mistake, counted from 1; columns are in characters.
     start, end : int
-        The same place in bytes of the text in UTF-8: first, and behind the last.
+        The same place as byte offsets in the UTF-8 text: the first byte, and the byte after the last.
     message : str
-        The mistake.
+        The message.
     notes, help : list of str
-        The allowed values, and ways to mend the mistake.
+        The allowed values, and ways to correct the mistake.
     """
 
     def __new__(
@@ -129,7 +129,7 @@ class Diagnostic:
 class Grid:
     """A design space: a checked grid file.
 
-    A grid is a sequence of design points, computed when asked for::
+    A grid is a sequence of design points, which are computed on access::
 
         grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
         len(grid)                       # 3
@@ -138,20 +138,20 @@ class Grid:
     Parameters
     ----------
     source : str, path, dict or Grid
-        A preset by its name; a grid file by its path; the text of one (a str with a line break or ``=``); or its entries
-        as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges, or columns of Arrow; a DataFrame
-        stands for the dictionary of its columns.
+        The name of a preset, the path of a grid file, the text of a grid file (a str with a line break or ``=``), or its
+        entries as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges or Arrow columns. A DataFrame
+        has the same meaning as the dictionary of its columns.
 
     Raises
     ------
     GridError
-        Mistakes in the grid: all of them, each with its line, what is allowed and the nearest name.
+        All mistakes in the grid, each with its line, the allowed values and the nearest name.
     ValueError
         There is no such preset.
     OSError
-        The file is not there or cannot be read.
+        The file does not exist or cannot be read.
     TypeError
-        `source`, or something in it, is of another type.
+        `source`, or a value in it, has another type.
     """
 
     def __new__(cls, source: Any, /) -> Grid: ...
@@ -162,12 +162,12 @@ class Grid:
     def __getitem__(self, key: slice, /) -> list[dict[str, float | str]]: ...
     @staticmethod
     def _named(name: str, text: str, /) -> Grid:
-        """The grid of a text that was read from the file `name`."""
+        """Return the grid of a text that was read from the file `name`."""
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]: ...
     @property
     def name(self) -> str:
-        """The path of the grid file, or ``"<grid>"``. Files that the grid names are in its folder."""
+        """The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to its folder."""
 
     @property
     def text(self) -> str:
@@ -175,7 +175,7 @@ class Grid:
 
     @property
     def preset(self) -> str:
-        """The name of the preset that parameters start from."""
+        """The name of the preset, which gives the values of all other parameters."""
 
     @property
     def model(self) -> str:
@@ -183,17 +183,17 @@ class Grid:
 
     @property
     def axes(self) -> list[dict[str, Any]]:
-        """The axes, the last of which varies fastest: one dictionary each, of the parameters that move together along it
-        with their values in SI units. An axis of a sample begins with the entry `sample`, numbers from 0.
+        """The axes; the last varies fastest. Each dictionary has the parameters that vary together along the axis, with their
+        values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
         """
 
     @property
     def varied(self) -> list[str]:
-        """The parameters that differ from point to point: those of the axes, then the derived ones."""
+        """The parameters that differ between points: parameters of the axes, then derived parameters."""
 
     def exclusions(self) -> Exclusions:
-        """Counts the points that the conditions of ``[where]`` exclude: among all points or, if there are more than a million,
-        among a million spread over the grid.
+        """Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, a million
+        points spread over the grid are checked.
 
         Returns
         -------
@@ -223,40 +223,40 @@ class Exclusions:
     def unsatisfied(self) -> dict[str, int]: ...
 
 def presets() -> list[str]:
-    """The names of the published parameter sets, each with its model.
+    """Return the names of the published parameter sets.
 
     Returns
     -------
     list of str
-        Names that `run` takes, such as ``"ozaki2018-large"``.
+        Names for `run`, such as ``"ozaki2018-large"``.
     """
 
 def params(design: Any, /) -> list[NativeParameter]:
-    """The parameters of a design or a model; see `flapwing.params`."""
+    """Return the parameters of a design or a model; see `flapwing.params`."""
 
 def measures(design: Any, /) -> list[NativeMeasure]:
-    """The measures of a design or a model; see `flapwing.measures`."""
+    """Return the measures of a design or a model; see `flapwing.measures`."""
 
 def uncertainty(design: Any, /) -> NativeUncertainty:
-    """The standard errors of the parameters of a design in SI units, by name, and the correlations of pairs of parameters."""
+    """Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs."""
 
 def origins(design: Any, /) -> NativeOrigins:
-    """The description of a design, empty if it has none, and the source of each parameter that has one."""
+    """Return the description of a design, which may be empty, and the sources of parameters by name."""
 
 def states(design: Any, /) -> list[str]:
-    """The names of the states of a design's or a model's equations of motion, with their units at the end."""
+    """Return the names of the states in the equations of motion of a design or a model, with their units at the end."""
 
 def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
-    """The value in SI units of a parameter of a preset or a model: of a number, or of text with a unit."""
+    """Return the value in SI units of a parameter of a preset or a model, from a number or text with a unit."""
 
 def parameter(model: str, parameter: str, /) -> str:
-    """The name of a parameter of a preset or a model, which may be given by its former name."""
+    """Return the name of a parameter of a preset or a model, also for its former name."""
 
 def quantity(name: str, text: str, unit: str, /) -> float:
-    """The number of `unit` in a text such as `"3 mm"`, which must measure the same."""
+    """Parse text such as `"3 mm"` and return the number in `unit`, which must be of the same kind."""
 
 def settings() -> list[str]:
-    """The names of the solver settings, in the order of the signature of `flapwing.run`."""
+    """Return the names of the solver settings, in the order of the signature of `flapwing.run`."""
 
 def run(
     design: Any,
@@ -268,7 +268,7 @@ def run(
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
 ) -> NativeRow:
-    """Runs one point; see `flapwing.run`."""
+    """Run one point; see `flapwing.run`."""
 
 def trajectory(
     design: Any,
@@ -284,7 +284,7 @@ def trajectory(
     stroke: str | dict[str, Any] | None = None,
     once: bool = False,
 ) -> NativeTable:
-    """Samples the motion of one point; see `flapwing.trajectory`."""
+    """Sample the motion of one point; see `flapwing.trajectory`."""
 
 @final
 class LiveServer:
@@ -298,7 +298,7 @@ class LiveServer:
         """The address of the page, with its token."""
 
     def stop(self) -> None:
-        """Ends the server."""
+        """Stop the server."""
 
 def resonance(
     design: Any,
@@ -313,7 +313,7 @@ def resonance(
     fit_cycles: SupportsIndex,
     spectrum_window: SupportsFloat | str,
 ) -> NativeResonances:
-    """Finds the resonances of one point; see `flapwing.resonance`."""
+    """Compute the resonances of one point; see `flapwing.resonance`."""
 
 def chirp(
     design: Any,
@@ -326,7 +326,7 @@ def chirp(
     rate: SupportsFloat | str,
     samples: SupportsIndex | None,
 ) -> NativeTable:
-    """Runs a chirp; see `flapwing.chirp`."""
+    """Simulate a chirp; see `flapwing.chirp`."""
 
 def impulse(
     design: Any,
@@ -338,7 +338,7 @@ def impulse(
     duration: SupportsFloat | str | None,
     samples: SupportsIndex,
 ) -> NativeTable:
-    """Follows the motion after an impulse; see `flapwing.impulse`."""
+    """Simulate the motion after an impulse; see `flapwing.impulse`."""
 
 def forces_along(
     design: Any,
@@ -350,16 +350,16 @@ def forces_along(
     periodic: bool,
     samples: SupportsIndex,
 ) -> NativeTable:
-    """Forces along a given motion; see `flapwing.forces_along`."""
+    """Compute the forces along a given motion; see `flapwing.forces_along`."""
 
 def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> NativeTable:
-    """Computes stroke and pitch; see `flapwing.track_wing`."""
+    """Compute stroke and pitch; see `flapwing.track_wing`."""
 
 def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
-    """Checks that a design takes these keywords and has these measures, with the messages of `evaluate`."""
+    """Check that a design accepts these keywords and has these measures, with the messages of `evaluate`."""
 
 def text_of(entries: dict[str, Any], /) -> str:
-    """The text of a grid file with these entries."""
+    """Return the text of a grid file with these entries."""
 
 def evaluate(
     design: Any,
@@ -374,9 +374,10 @@ def evaluate(
     return_states: bool = False,
     keywords: dict[str, Any] | None = None,
 ) -> NativeTable:
-    """Runs a batch of points; see `flapwing.evaluate`. `columns` has a one-dimensional array of float64, or a list of text,
-    for each parameter that varies, all as long. `initial_state` has a row of state
-    components per point, nan for a point at rest.
+    """Run a batch of points; see `flapwing.evaluate`.
+
+    `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
+    `initial_state` has one row of state components per point, nan for a point at rest.
     """
 
 def respond(
@@ -395,8 +396,9 @@ def respond(
     keywords: dict[str, Any] | None = None,
     curves: list[int] | None = None,
 ) -> NativeTable:
-    """Follows responses; see `flapwing.respond`. `curves` chooses designs by their numbers, rising; `designs` of the result is the
-    number of all.
+    """Follow responses; see `flapwing.respond`.
+
+    `curves` has the numbers of the designs to follow, in rising order. `designs` in the result is the total number of designs.
     """
 
 def sweep(
@@ -409,56 +411,61 @@ def sweep(
     progress: Callable[[int, int], object] | None = None,
     chunks: Callable[[int], bytes | None] | None = None,
 ) -> NativeTable:
-    """Runs a grid; see `flapwing.sweep`. `chunks` gives the rows of other processes: called with the number of points done,
-    it gives the bytes of the next chunk.
+    """Run a grid; see `flapwing.sweep`.
+
+    `chunks` returns rows of other processes: called with the number of points done, it returns the bytes of the next chunk.
     """
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
-    """Runs the points from `begin` to before `end`, and gives their rows as bytes that `sweep` takes as chunks."""
+    """Run the points from `begin` to before `end`, and return their rows as bytes, which are chunks for `sweep`."""
 
 def identity() -> NativeIdentity:
-    """The identity of this process, which decides the bits of its rows: `build`, a hash of the sources, and `arithmetic`."""
+    """Return the identity of this process, which determines the bits of its rows: `build` (a hash of the sources) and `arithmetic`."""
 
 def command(line: list[str]) -> int:
-    """Runs a command line, whose first word is the name of the program, and returns the exit code."""
+    """Run a command line and return the exit code. The first word is the name of the program."""
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable:
-    """Reads a result file; see `flapwing.read`."""
+    """Read a result file; see `flapwing.read`."""
 
 def words(name: str, unit: str, /) -> str:
-    """A column's name in words, without its unit: `lift_mean_mn` is "Lift, mean"."""
+    """Return a column's name in words, without its unit: `lift_mean_mn` gives "Lift, mean"."""
 
 def printed(unit: str, /) -> str:
-    """A unit as it is printed: `uN*m/rad` is "µN·m/rad", `mm^2` is "mm²", `deg` is "°"."""
+    """Return a unit for printing: `uN*m/rad` gives "µN·m/rad", `mm^2` gives "mm²", `deg` gives "°"."""
 
 def scale(unit: str, largest: float, /) -> tuple[float, str]:
-    """The factor to a readable unit, and that unit as it is printed, for values in `unit` of which `largest` is the largest."""
+    """Return the factor to a readable unit and the printed unit, for values in `unit` whose largest is `largest`."""
 
 def unit_of(name: str, /) -> str:
-    """The unit of a column: that of the parameter or measure with this name in any model, or of the derivative of one by another,
-    else the ending of the name; empty for none.
+    """Return the unit of a column, or empty text.
+
+    It is the unit of the parameter, measure or derivative with this name in any model, else the unit at the end of the name.
     """
 
 def split_unit(name: str, /) -> tuple[str, str]:
-    """A column's name without the unit that it ends in, and that unit; empty if there is none."""
+    """Return a column's name without the unit at its end, and the unit, which may be empty."""
 
 def better(name: str, /) -> int:
-    """The better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
+    """Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
 
 def colours() -> NativeColours:
-    """The colours of pictures: `series` is a list, `branches` has a colour for each branch, and `dark`, `plain`, `missing` and
-    `bistable` are one colour each.
+    """Return the colours of pictures.
+
+    `series` is a list, and `branches` has one colour for each branch. `dark`, `plain`, `missing` and `bistable` are single
+    colours.
     """
 
 def line_shades(count: int, /) -> list[float] | None:
-    """The place in the sequential map of each of `count` lines that have an order; None for a line alone."""
+    """Return the places of `count` ordered lines in the sequential colour map; None for a single line."""
 
 def is_signed(low: float, high: float, /) -> bool:
-    """True if numbers from `low` to `high` have both signs: then the map is a diverging one, with zero in its middle."""
+    """Return True if numbers from `low` to `high` have both signs, which requires a diverging map with zero in its middle."""
 
 def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None:
-    """The measure that is drawn if none is named: the usual one among `columns` for a part, which is "response", "benefit",
-    "cost" or "motion", and not in `taken`; None if there is none.
+    """Return the default measure among `columns` that is not in `taken`; None if there is none.
+
+    `role` is "response", "benefit", "cost" or "motion".
     """
 
 def ways(
@@ -466,14 +473,16 @@ def ways(
     down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     /,
 ) -> NativeWays:
-    """The bands in which the ways up and down of a response differ, and the rows of each after which it jumps to the other.
+    """Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
+
     `up` and `down` have the parameter, the measure, and the column `bistable`.
     """
 
 def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None:
-    """The ends of a histogram's bars, their heights, and the values at its percentiles; None if no value is finite."""
+    """Return the edges and heights of a histogram's bars, and its percentiles; None if no value is finite."""
 
 def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:
-    """The rank correlation of each parameter with a measure, by falling size, with the place of the parameter. Those that follow
-    an earlier parameter, and those without a correlation, are left out.
+    """Return the rank correlation of each parameter with a measure, and the index of the parameter, in falling order of size.
+
+    Parameters that follow an earlier parameter, and parameters without a correlation, are left out.
     """

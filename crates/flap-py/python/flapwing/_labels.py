@@ -1,4 +1,4 @@
-"""Labels of columns, and numbers as they are printed."""
+"""Labels of columns, and numbers as text for pictures."""
 
 from __future__ import annotations
 
@@ -27,25 +27,25 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def readable(values: object, unit: str) -> tuple[float, str]:
-    """The factor to a unit in which values are easy to read, and that unit as it is printed."""
+    """Return the factor to a unit in which values are easy to read, and that unit for printing."""
     sizes = np.abs(np.asarray(values, dtype=float))
     return scale(unit, float(np.max(sizes, initial=0.0, where=np.isfinite(sizes))))
 
 
 def label(name: str, unit: str | None = None) -> str:
-    """The label of an axis for a column.
+    """Return the label of an axis for a column.
 
     Parameters
     ----------
     name : str
         The column's name.
     unit : str, optional
-        Its unit, as in `Table.units`; by default what the ending of the name says.
+        Its unit, as in `Table.units`. Default: the unit at the end of the name.
 
     Returns
     -------
     str
-        The name in words, and the unit in parentheses if there is one.
+        The name in words, followed by the unit, if any, in parentheses.
 
     Examples
     --------
@@ -59,17 +59,17 @@ def label(name: str, unit: str | None = None) -> str:
 
 
 def titled(text: str, unit: str) -> str:
-    """Words and a unit, if there is one, in parentheses."""
+    """Return words, followed by the unit, if any, in parentheses."""
     return f"{text} ({unit})" if unit else text
 
 
 def lowered(text: str) -> str:
-    """Words within a sentence: with a small first letter."""
+    """Return words for use within a sentence: with a small first letter."""
     return text[:1].lower() + text[1:]
 
 
 def number(value: float) -> str:
-    """A number with up to four digits, without an exponent where that is short."""
+    """Return a number with up to four digits, without an exponent if that is short."""
     text = f"{value:.4g}"
     if "e" not in text:
         return text.replace("-", "−")
@@ -78,7 +78,7 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """A title in one line, two and so on."""
+    """Yield a title in one line, in two lines, and so on."""
     told = [title]
     yield title
     for width in range(len(title) - 1, 7, -1):

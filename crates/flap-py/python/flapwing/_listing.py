@@ -10,18 +10,18 @@ __all__ = ["measures", "params", "states"]
 
 
 def params(design: Design, /) -> dict[str, Parameter]:
-    """The parameters of a design, with their values, or of a model, without.
+    """Return the parameters of a design with their values, or of a model without values.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, such as ``"ozaki2018-large"``, a device, a grid or a `Vehicle` (of its first point), or a model, such
-        as ``"direct-drive"``.
+        A preset, such as ``"ozaki2018-large"``, a device, a grid, a `Vehicle`, or a model, such as
+        ``"direct-drive"``. A grid gives the values of its first point.
 
     Returns
     -------
     dict of str to Parameter
-        By name, in the order of the model's table. A vehicle's own parameters follow the parameters of its model.
+        Parameters by name, in the order of the model's table. Parameters of the vehicle follow the model's parameters.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
 
 
 def measures(design: Design, /) -> dict[str, Measure]:
-    """The measures in rows of a design or a model.
+    """Return the measures that the rows of a design or a model have.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Returns
     -------
     dict of str to Measure
-        By column, in the order of the rows.
+        Measures by column, in the order of the rows.
 
     Raises
     ------
@@ -69,17 +69,17 @@ def measures(design: Design, /) -> dict[str, Measure]:
 
 
 def states(design: Design, /) -> dict[str, State]:
-    """The states of the equations of motion of a design or a model: the components of `initial_state`.
+    """Return the states of the equations of motion of a design or a model: the components of `initial_state`.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        As for `params`. A vehicle has the states of each wing, with the wing's name in front.
+        As for `params`. A vehicle has the states of each wing, prefixed with the wing's name.
 
     Returns
     -------
     dict of str to State
-        By component, in the order of the state.
+        States by component, in the order of the state vector.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The live page: curves that follow the parameters that one drags, in the browser or in a notebook."""
+"""The live page in a browser or in a notebook: sliders for the parameters, and curves that follow them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ._types import Design, Value
 
 __all__ = ["Live", "live"]
 
-#: Code of the widget: the page in a frame.
+#: Code of the widget, which shows the page in a frame.
 _SCRIPT = """
 function render({ model, el }) {
   const frame = document.createElement("iframe");
@@ -32,7 +32,7 @@ export default { render };
 
 
 def _whole(name: str, value: Any) -> int:
-    """A whole number."""
+    """Return a whole number; raise TypeError for another type."""
     allowed = "it must be a whole number"
     if not hasattr(type(value), "__index__"):
         raise _mistakes.refused(name, value, allowed)
@@ -41,14 +41,14 @@ def _whole(name: str, value: Any) -> int:
 
 
 class Live:
-    """A running server of the live page; see `live`. It ends with `stop`, with its `with` block, or with Python.
+    """A running server of the live page; see `live`. `stop`, the end of its `with` block or the end of Python stops it.
 
     The server runs in the process that started it. In a forked child, `stop` and the end of a `with` block do nothing.
 
     Attributes
     ----------
     address : str
-        The address of the page, with its token: who has it can ask for rows.
+        The address of the page, with its token. Everybody who has the address can request rows.
     """
 
     def __init__(self, server: _flapwing.LiveServer) -> None:
@@ -67,14 +67,16 @@ class Live:
         self.stop()
 
     def _repr_html_(self) -> str:
-        """The page in a cell of a notebook."""
+        """Return the page as HTML for a cell of a notebook."""
         return (
             f'<iframe title="flap live" src="{html.escape(self.address)}" height="800" '
             'style="width: 100%; border: 0"></iframe>'
         )
 
     def widget(self, height: SupportsIndex = 800) -> Any:
-        """The page as a widget of a notebook (Jupyter, Visual Studio Code, marimo), which may stand in other widgets.
+        """Return the page as a widget of a notebook, for use alone or in other widgets.
+
+        It works in Jupyter, Visual Studio Code and marimo.
 
         Parameters
         ----------
@@ -84,12 +86,12 @@ class Live:
         Returns
         -------
         anywidget.AnyWidget
-            The widget. The notebook's browser must run on the machine of the server, or reach its port.
+            The widget. The notebook's browser must run on the same machine as the server, or reach its port.
 
         Raises
         ------
         ImportError
-            There is no anywidget: ``pip install anywidget``.
+            anywidget is not installed: ``pip install anywidget``.
         ValueError
             A height of 0 or less.
         """
@@ -97,7 +99,7 @@ class Live:
             import anywidget
             import traitlets
         except ImportError:
-            raise ImportError("the widget needs anywidget: pip install anywidget") from None
+            raise ImportError("the widget requires anywidget: pip install anywidget") from None
         pixels = _whole("height", height)
         if pixels <= 0:
             raise ValueError(f"`height` is {pixels}\nit must be more than 0")
@@ -110,7 +112,7 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """End the server. The page then shows that the server is gone."""
+        """Stop the server. The page then shows that the server does not answer."""
         self._server.stop()
 
 
@@ -123,17 +125,17 @@ def live(
     threads: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Live:
-    """Starts the live page of a design: curves follow the parameters while one drags them.
+    """Start the live page of a design, on which you move sliders and curves follow.
 
-    It is the page of the command ``flap live``. In a notebook the result shows the page in its cell. The server answers
-    this machine alone, reads no files and writes none.
+    It is the page of the command ``flap live``. In a notebook, the result shows the page in its cell. The server
+    answers only this machine, and neither reads nor writes files.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, a device or a grid. Of a grid with several points the page begins with the first, and shows its axes.
+        A preset, a device or a grid. For a grid with several points, the page begins with the first and shows the axes.
     port : int, optional
-        Port of the server, from 1 to 65535. Default 0: a free one.
+        Port of the server, from 1 to 65535. Default 0: a free port.
     open_browser : bool, optional
         Open the page in a browser. Default False.
     threads : int, optional
@@ -149,9 +151,9 @@ def live(
     Raises
     ------
     ValueError, GridError, TypeError
-        As for `run`; also a port that is none.
+        As for `run`; also for an invalid port.
     OSError
-        The port is taken.
+        The port is in use.
 
     Examples
     --------
@@ -161,7 +163,7 @@ def live(
     """
     number = _whole("port", port)
     if not 0 <= number <= 65535:
-        raise ValueError(f"`port` is {number}\nit must be from 1 to 65535, or 0 for a free one")
+        raise ValueError(f"`port` is {number}\nit must be from 1 to 65535, or 0 for a free port")
     page = Live(_flapwing.LiveServer(design, dict(keywords), port=number, threads=threads))
     if open_browser:
         webbrowser.open(page.address)

@@ -1,4 +1,4 @@
-"""Errors of arguments: values of a wrong type, objects whose own code fails, and names that are not known."""
+"""Errors of arguments: values of a wrong type, objects that raise while they are read, and unknown names."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-#: Names that the error lists.
+#: Largest number of names in an error message.
 _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """A name that is not known: a KeyError, as of a dictionary, and a ValueError, as of other arguments."""
+    """An unknown name: a KeyError, as for a dictionary, and a ValueError, as for other arguments."""
 
     def __str__(self) -> str:
-        # A KeyError would show its message in quotes, on one line.
+        # Without this, a KeyError shows its message in quotes on one line.
         return str(self.args[0])
 
 
 def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
-    """The error for a `name` that is none of the `known` ones: first the nearest of them, then the first few."""
+    """Return the error for a `name` that is not in `known`, with the nearest known name and the first few names."""
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)
     hint = f", did you mean `{near[0]}`?" if near else ""
@@ -27,7 +27,7 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def listed(names: Iterable[str]) -> str:
-    """The first few of the names that there are."""
+    """Return the first few names as text."""
     every = list(names)
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
     return (
@@ -36,13 +36,13 @@ def listed(names: Iterable[str]) -> str:
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
-    """The error for a value of the wrong type, in two lines."""
+    """Return the error for a value of the wrong type, in two lines."""
     return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
 
 
 @contextmanager
 def reading(name: str, value: object, allowed: str) -> Iterator[None]:
-    """Makes a TypeError of what the code of `value` raises while it is read. KeyboardInterrupt and its like pass."""
+    """Raise TypeError if `value` raises an exception while it is read. KeyboardInterrupt and similar ones pass."""
     try:
         yield
     except OverflowError as error:
@@ -52,7 +52,7 @@ def reading(name: str, value: object, allowed: str) -> Iterator[None]:
 
 
 def raised(error: BaseException) -> str:
-    """An exception in one line, for messages."""
+    """Return an exception as one line, for messages."""
     try:
         first = next(iter(str(error).splitlines()), "")
     except Exception:

@@ -15,7 +15,7 @@ class NativeColumn(TypedDict):
     name: str
     unit: str
     doc: str
-    #: float64 and uint64 as they are; int8 for flags (1, 0, -1 for unknown); uint32 places among `words` for text.
+    #: float64 or uint64 for numbers; int8 for flags (1, 0, -1 for unknown); uint32 indices of `words` for text.
     cells: np.ndarray[Any, Any]
     words: list[str] | None
 
@@ -29,18 +29,18 @@ class NativeSummary(TypedDict, total=False):
     unsatisfied: dict[str, int]
     cycles: int
     rhs_evals: int
-    #: The first few invalid points with the reason.
+    #: The first few invalid points with their reasons.
     invalid: list[tuple[int, str]]
 
 
 class NativeTable(TypedDict, total=False):
-    """A table: without `columns` if its rows are in a file."""
+    """A table. If its rows are in a file, it has no `columns`."""
 
     columns: list[NativeColumn]
     summary: NativeSummary
     axes: list[dict[str, Any]]
     meta: dict[str, Any]
-    #: The number of all designs of a response.
+    #: The total number of designs of a response.
     designs: int
     #: Units that a file records, by column.
     units: dict[str, str]
@@ -152,7 +152,7 @@ class NativeColours(TypedDict):
 
 
 class NativeWays(TypedDict):
-    """Bands in which two ways differ, and the rows of each after which it jumps to the other."""
+    """Bands in which two branches differ, and the rows of each branch after which it jumps to the other."""
 
     bands: list[tuple[float, float]]
     up: list[int]
@@ -160,7 +160,7 @@ class NativeWays(TypedDict):
 
 
 class NativeBars(TypedDict):
-    """A histogram: ends of the bars, their heights, and pairs of a percentage and the value at it."""
+    """A histogram: edges of the bars, heights of the bars, and pairs of a percentage and its percentile."""
 
     edges: Floats
     counts: Floats

@@ -38,38 +38,39 @@ def run(
     symmetry: bool | None = None,
     **parameters: Value,
 ) -> Row:
-    """Run one design point until its motion repeats with the drive, then measure one drive period.
+    """Run one design point until its motion repeats with the drive, and measure one drive period.
 
-    The design's parameters hold except those given as keywords::
+    Keywords replace parameters of the design::
 
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
 
-    The same call gives the same bits every time. Other Python threads go on meanwhile.
+    The same call always returns the same bits. Other Python threads continue during the call.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, one of `presets()`; or a grid, see `Grid`, as a path, text, dictionary or Grid; or a model, all of
-        whose parameters must then be given.
+        A preset, one of `presets()`; a grid (see `Grid`) as a path, text, dictionary or Grid; or a model. If it is a
+        model, give all of its parameters.
     point : int, optional
-        The index of a point in the grid. Needed if it has more than one.
+        The index of a point in the grid. Required if the grid has more than one point.
     initial_state : dict, Table or DataFrame, optional
-        The state at the start of the first drive period: components by the names of `states(…)`, each a number in SI
-        units or text with a unit, ``{"pitch": "10 deg"}``; those not given are zero. Or a row with the states among its
-        columns, such as ``trajectory(…)[-1:]``, the same as a DataFrame or a dictionary, or a row of a DataFrame; a row
-        with nan begins at rest. If the design has several orbits, it decides which is found. Default: rest.
+        The state at the start of the first drive period. Either components by the names of `states(…)`, such as
+        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Other components are zero. Or a row with the
+        states among its columns, such as ``trajectory(…)[-1:]``, also as a DataFrame, a dictionary or a row of a
+        DataFrame. A row with nan begins at rest. If the design has several orbits, the state decides which one is
+        found. Default: rest.
     waveform : path, tuple or columns, optional
-        One period of the drive in place of `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame) with
-        `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive period
-        unless `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
+        One period of the drive, which replaces `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame)
+        with `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive
+        period, unless `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
     stroke : path, tuple or columns, optional
-        One period of a prescribed stroke, likewise: `time_s` and `stroke_deg` (or `stroke_rad`), or a pair of arrays
-        (s, rad). For models with the parameter `stroke_mode`.
+        One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
+        pair of arrays (s, rad). It requires a model with the parameter `stroke_mode`.
     progress : bool or function, optional
-        As for `sweep`: a point is one step.
+        As for `sweep`; a point is one step.
     client : distributed.Client, optional
-        Run the point on a worker of a Dask cluster, which needs the same build of flapwing. The result is the same.
+        Run the point on a worker of a Dask cluster, which must have the same build of flapwing. The result is the same.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -77,26 +78,25 @@ def run(
         Absolute tolerance of the integrator, in units of each state's typical size: more than 0.
         Default rtol / 100.
     settle_tol : float, optional
-        The point has settled when its state changes by less than this from one drive period to the
-        next, in units of each state's typical size (of the motion's own size, if that is smaller):
-        more than 0. Default 1e-6.
+        The point has settled when its state changes by less than this from one drive period to the next: more than 0.
+        The unit is each state's typical size, or the size of the motion if it is smaller. Default 1e-6.
     max_cycles : int, optional
-        Drive periods after which the point counts as unsettled: 1 or more. Default 1000.
+        Number of drive periods after which the point counts as unsettled: 1 or more. Default 1000.
     max_steps : int, optional
         Largest number of integration steps in one drive period: 1 or more.
         Default 20000.
     accuracy : float, optional
-        Largest error_estimate and energy audit of a row: more than 0. A point whose row exceeds it is integrated
-        again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
+        Largest error_estimate and energy audit of a row: more than 0. A point that exceeds it is integrated again with
+        tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
     newton : bool, optional
-        True to find the orbit that the motion approaches by Newton's iteration. If False, the motion is integrated
-        until it settles on the same orbit, in more periods. Default True.
+        If True, the orbit that the motion approaches is found by Newton's iteration. If False, the motion is integrated
+        until it settles on the same orbit, which takes more periods. Default True.
     progressive : bool, optional
-        True to begin the search for the orbit at looser tolerances, and to end it at rtol. If False, the whole search
-        is at rtol: to the same orbit, for about twice the work. Default True.
+        If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
+        rtol. It finds the same orbit with about twice the work. Default True.
     symmetry : bool, optional
-        True to find and measure an orbit whose second half mirrors the first over half periods. If False, all periods
-        are whole: the same orbit, for more work. Default True.
+        If True, an orbit whose second half mirrors the first is found and measured over half periods. If False, over
+        whole periods. The orbit is the same, with more work. Default True.
     **parameters : float or str
         Parameters of the model by name: a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option if the parameter is a choice.
@@ -104,13 +104,13 @@ def run(
     Returns
     -------
     Row
-        The results; `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
+        The results. For example, `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
 
     Raises
     ------
     ValueError
         Unknown preset, parameter, option or unit; a value out of range, infinite or not a number; a grid with several
-        points, and no `point`. The message gives the nearest name and the allowed values.
+        points but no `point`. The message has the nearest name and the allowed values.
     TypeError
         A value of the wrong type, such as text for a tolerance or a number for an option.
     IndexError
@@ -154,26 +154,26 @@ def trajectory(
     client: Client | None = None,
     **keywords: Value,
 ) -> Table:
-    """The motion of one design point, sampled at equal times.
+    """Return the motion of one design point over time, at equally spaced times.
 
     Parameters
     ----------
     design, point
         As for `run`.
     cycles : int, optional
-        Drive periods. Default 2.
+        Number of drive periods. Default 2.
     samples : int, optional
-        Samples per drive period; the end of the last period is sampled too. Default 200. `cycles` times `samples` is
-        at most 5,000,000.
+        Samples per drive period, plus one at the end of the last period. Default 200. `cycles` times `samples` is at
+        most 5,000,000.
     from_rest : bool, optional
-        Begin at rest. By default the motion begins once it has settled.
+        If True, the motion begins at rest. By default, it begins after it has settled.
     initial_state : dict, Table or DataFrame, optional
         Begin in this state at the start of a drive period, see `run`.
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke, see `run`.
     once : bool, optional
-        Follow the waveform or the stroke once, from rest or from `initial_state`, instead of repeating it. It need not
-        be closed, and `cycles` does not count.
+        Follow the waveform or the stroke once, from rest or from `initial_state`, without repeating it. Its ends may
+        differ, and `cycles` has no effect.
     progress, client
         As for `run`.
     **keywords : float or str
@@ -183,7 +183,7 @@ def trajectory(
     -------
     Table
         ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: `time_s` (s), then the states and
-        signals of the model, named with their units. `docs` has their meanings, `meta` the origin of the motion.
+        signals of the model, named with their units. `docs` has their meanings, and `meta` the origin of the motion.
 
     Raises
     ------
@@ -231,7 +231,7 @@ def resonance(
     client: Client | None = None,
     **keywords: Value,
 ) -> Resonances:
-    """The resonances of one design point: of small motions, after an impulse, and under the drive.
+    """Compute the resonances of one design point: of small motions, after an impulse, and under the drive.
 
     Parameters
     ----------
@@ -239,7 +239,7 @@ def resonance(
         As for `run`.
     start, stop : float or str, optional
         Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke.
-        Default: half of the lower natural frequency to one and a half times the upper one.
+        Default: half of the lower and one and a half times the upper natural frequency.
     tolerance : float or str, optional
         Largest error of the peaks' frequencies (Hz, or text with a unit). Default 0.05.
     impulse : float or str, optional
@@ -248,7 +248,7 @@ def resonance(
     fit_cycles : int, optional
         Number of periods of the first mode to which the damped sine is fitted. Default 4.
     spectrum_window : float or str, optional
-        Length (s, or text with a unit) of the motion whose spectrum is taken. Default 1.
+        Length (s, or text with a unit) of the motion from which the spectrum is computed. Default 1.
     progress, client
         As for `run`.
     **keywords : float or str

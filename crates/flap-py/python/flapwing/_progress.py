@@ -1,4 +1,4 @@
-"""Progress of long work: a bar, or a function of the user."""
+"""Progress of long calls: a bar, or a function of the user."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """The function to call with the numbers of points done and of points in all; None for no progress."""
+    """Yield the function to call with the number of points done and the total number; None for no progress."""
     if callable(progress):
         yield progress
     elif not isinstance(progress, bool):
@@ -25,7 +25,7 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
         try:
             from tqdm.auto import tqdm
         except ImportError:
-            raise ImportError("progress=True needs tqdm: pip install tqdm, or give a function") from None
+            raise ImportError("progress=True requires tqdm: pip install tqdm, or give a function") from None
 
         with tqdm(unit=" points", unit_scale=True) as bar:
 
@@ -38,7 +38,7 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
 
 @contextmanager
 def one_step(progress: Progress) -> Iterator[None]:
-    """The progress of a single point: one step, when it is done."""
+    """Report the progress of a single point: one step at its end."""
     with shown(progress) as show:
         yield
         if show is not None:

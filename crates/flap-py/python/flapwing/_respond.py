@@ -32,29 +32,29 @@ def respond(
     client: Client | None = None,
     **keywords: Value,
 ) -> Table:
-    """Follow the motions of designs as a parameter rises and falls, and find hysteresis.
+    """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
 
-    The first point of each way starts at rest, every other from the settled motion of the point before it. Where the
-    way up and the way down settle to different motions, the design is bistable. Steps with an end of such a band in
-    them are halved, and so are steps in which the motion changes by more than a tenth, where a narrow band may be.
+    The first point of each branch starts at rest. Every other point starts from the settled motion of the point before
+    it. If the branches up and down settle to different motions, the design is bistable. A step is halved if a
+    bistable band ends in it, or if the motion changes by more than a tenth, since it may hide a narrow band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, or a grid (see `Grid`): each of its points, without the axis that is followed, is a design with a
+        A preset or a grid (see `Grid`). Each point of the grid, without the followed axis, is a design with its own
         curve.
     parameter : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional
-        Its first and last value and the step between them: in SI units, or with a unit. Default: the values of the
-        grid's axis.
+        First value, last value, and step between values: numbers in SI units, or text with units. Default: the values
+        of the grid's axis.
     tolerance : float or str, optional
         Longest step at the ends of bistable bands and where the response is steep. Default: a sixteenth of the shortest
         step.
     unstable : bool, optional
-        Continue the branches around the ends of bistable bands: adds the unstable orbits between them.
+        Continue the branches around the ends of bistable bands, which adds the unstable orbits between them.
     return_states : bool, optional
-        Add columns of the state at the beginning of a drive period of each motion, for `initial_state` of `evaluate`.
+        Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -62,17 +62,18 @@ def respond(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
         designs in all.
     client : distributed.Client, optional
-        Follow the designs on the workers of a Dask cluster, which need the same build of flapwing. Rows are the same.
+        Follow the designs on the workers of a Dask cluster, which must have the same build of flapwing. Rows are the
+        same.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        A row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
-        ``"unstable"``), the parameter that is followed, `status`, `bistable` (true where the ways up and down have
-        different motions), and the other columns of a sweep. `Table.verdicts` has the verdict on each design,
-        ``meta["parameter"]`` the parameter that was followed.
+        One row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
+        ``"unstable"``), the followed parameter, `status`, `bistable` (true if the branches up and down have different
+        motions), and the other columns of a sweep. `Table.verdicts` has the verdict on each design, and
+        ``meta["parameter"]`` the followed parameter.
 
     Raises
     ------

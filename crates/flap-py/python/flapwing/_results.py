@@ -1,4 +1,4 @@
-"""Results that are no tables: rows of single points, parameters, measures and states of a design, resonances."""
+"""Results other than tables: rows of single points, resonances, and parameters, measures and states of a design."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ __all__ = [
 
 
 def _same(one: Any, other: Any) -> bool:
-    """True for equal values, and for two that are unknown."""
+    """Return True for equal values, and for two unknown values."""
     return bool(one == other or (one != one and other != other))
 
 
 class _Result:
-    """A result that equals another one if all attributes do, whatever is unknown in them."""
+    """A result that equals another result if all attributes are equal; unknown values count as equal."""
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -41,8 +41,8 @@ class _Result:
 class Row(Mapping[str, Any]):
     """The results of one design point.
 
-    ``row["lift_mean_mn"]`` is a column of a table of results: a measure, or one of the attributes by its name.
-    ``dict(row)`` has all columns, in the same order for every point of a model.
+    ``row["lift_mean_mn"]`` is the value of a column: a measure, or one of the attributes below. ``dict(row)`` has all
+    columns, in the same order for every point of a model.
 
     Attributes
     ----------
@@ -51,10 +51,9 @@ class Row(Mapping[str, Any]):
         ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small to advance time); ``"invalid"`` (each
         parameter is in range, but together they are impossible).
     measures : dict of str to float
-        The measures, each named after its quantity, its kind of measure and its unit: ``stroke_pp_deg``,
-        ``lift_mean_mn``, ``power_mean_mw``; then the measures of the grid's ``[measure]``, of which conditions are
-        bool. All are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without power,
-        is nan.
+        The measures, named by quantity, kind of measure and unit: ``stroke_pp_deg``, ``lift_mean_mn``,
+        ``power_mean_mw``. Then the measures of the grid's ``[measure]``; conditions are bool. All are nan unless the
+        point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
     cycles : int
         Drive periods integrated, including the measurement.
     residual : float
@@ -63,16 +62,16 @@ class Row(Mapping[str, Any]):
     period : int
         Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
     floquet_max : float
-        Factor by which a small change of the motion grows or decays per orbit after a long time. nan if no orbit was
-        found, and for a wing at rest.
+        Largest magnitude of a Floquet multiplier: the factor by which a small change of the motion grows or decays per
+        orbit after a long time. nan if no orbit was found, and for a wing at rest.
     stable : bool or float
-        True if floquet_max is below 1, so that motions near the orbit approach it, and for a wing at rest. nan if no
+        True if floquet_max is below 1, so that motions near the orbit approach it. True for a wing at rest. nan if no
         orbit was found.
     error_estimate : float
-        Estimate of the largest relative error that the integration makes in stroke, pitch, mean lift and mean power;
-        infinite if it cannot be estimated. nan unless the point is periodic.
+        Estimate of the largest relative error of the integration in stroke, pitch, mean lift and mean power; infinite
+        if it cannot be estimated. nan unless the point is periodic.
     rhs_evals : int
-        Evaluations of the equations of motion.
+        Number of evaluations of the equations of motion.
     reason : str
         The cause if the point is invalid, else ``""``.
     """
@@ -106,11 +105,11 @@ class Row(Mapping[str, Any]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mapping):
             return NotImplemented
-        # Rows of the same point are equal, whatever is unknown in them.
+        # Rows of the same point are equal; unknown values count as equal.
         return list(self) == list(other) and all(_same(self[key], other[key]) for key in self)
 
     def _repr_html_(self) -> str:
-        """The columns, for notebooks."""
+        """Return the columns as HTML, for notebooks."""
         from html import escape
 
         cells = "".join(
@@ -119,7 +118,7 @@ class Row(Mapping[str, Any]):
         return f"<table>{cells}</table>"
 
 
-#: The columns of a row that are no measures.
+#: The columns of a row other than measures.
 _ATTRIBUTES = (
     "status",
     "cycles",
@@ -146,18 +145,18 @@ class Parameter(_Result):
     name : str
         Name in grids, on the command line and as a keyword.
     value : float or str
-        Value in the design, in SI units, or the name of an option. nan if it is not set and follows others, or if a
-        grid varies it.
+        Value in the design, in SI units, or the name of an option. nan if it is not set and follows other parameters,
+        or if a grid varies it.
     unit : str
         SI unit; ``""`` for pure numbers and options.
     symbol : str
         Symbol in the paper; ``""`` if it has none.
     doc : str
-        One line of meaning, with its source.
+        Meaning in one line, with its source.
     allowed : str
-        The allowed values, in words.
+        The allowed values, as text.
     options : tuple of str
-        Its options, if it is a choice; else empty.
+        Options of a choice; empty for other parameters.
     """
 
     name: str
@@ -170,7 +169,7 @@ class Parameter(_Result):
 
     @property
     def is_number(self) -> bool:
-        """True if the value is a number that is set."""
+        """True if the value is a number and is set."""
         return isinstance(self.value, float) and not math.isnan(self.value)
 
 
@@ -185,7 +184,7 @@ class Measure:
     unit : str
         Unit of the column; ``""`` for a pure number.
     doc : str
-        One line of meaning.
+        Meaning in one line.
     """
 
     name: str
@@ -214,14 +213,14 @@ class State:
 
 @dataclass(frozen=True)
 class DampedSine:
-    """The damped sine that fits the stroke after an impulse.
+    """The damped sine that was fitted to the stroke after an impulse.
 
     Attributes
     ----------
     frequency_hz : float
         Frequency (Hz).
     decay_1_s : float
-        Decay (1/s).
+        Decay rate (1/s).
     relative_rms : float
         Root mean square of the residuals, relative to the root mean square of the stroke.
     """
@@ -250,14 +249,14 @@ class DrivenPeak:
 
 @dataclass(frozen=True)
 class FrequencyGap:
-    """A range of drive frequencies without a periodic motion: a peak in it is not found.
+    """A range of drive frequencies without a periodic motion, in which a peak may be missed.
 
     Attributes
     ----------
     start_hz, stop_hz : float
         The ends of the range (Hz).
     status : str
-        The status of the motions in it.
+        The status of the motions in the range.
     """
 
     start_hz: float
@@ -272,7 +271,7 @@ class Resonances(_Result):
     Attributes
     ----------
     linear_hz : dict of str to float
-        Small undamped motions: frequency (Hz) by name of the mode.
+        Natural frequencies (Hz) of small undamped motions, by name of the mode.
     impulse_fit : DampedSine or None
         The damped sine through the stroke after the impulse. None if no damped sine fits.
     stroke_spectrum_hz, pitch_spectrum_hz : list of float
@@ -280,7 +279,7 @@ class Resonances(_Result):
     driven : list of DrivenPeak
         Peaks of the settled stroke over the drive frequency, the highest first.
     larger_at_hz : float
-        The end of the range (Hz) at which the stroke is larger than at any peak; nan if it is not.
+        The end of the range (Hz) at which the stroke is larger than at all peaks; nan if there is none.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """
@@ -296,14 +295,14 @@ class Resonances(_Result):
 
 @dataclass(frozen=True, eq=False)
 class BistableBand(_Result):
-    """A band of a parameter in which the ways up and down have different motions.
+    """A band of a parameter in which the branches up and down have different motions.
 
     Attributes
     ----------
     start, stop : float
         The ends of the band, in SI units.
     stroke_difference_deg : float
-        Largest difference of the stroke between both motions (deg, peak to peak); nan if everywhere one of them is not
+        Largest difference of the stroke between the two motions (deg, peak to peak); nan if the two are nowhere both
         periodic.
     """
 

@@ -32,20 +32,20 @@ def sweep(
     measures: Measures | None = None,
     **keywords: Value,
 ) -> Table:
-    """Run every point of a grid.
+    """Run every point of a grid and return the rows.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        The design space, see `Grid`; a preset has a single point. Its ``[output]`` chooses columns; the path in it is
-        not used.
+        The design space (see `Grid`); a preset has a single point. Its ``[output]`` chooses columns, but the path in it
+        is not used.
     out : path, optional
-        File for the rows, written as soon as they are computed, with the same bytes as by ``flap sweep --out``:
-        ``.csv``, ``.csv.zst`` or ``.parquet``. A sidecar beside it records the origin of the rows. By default rows are
-        kept in memory: about half a kilobyte each. If `out` has unfinished rows of the same grid, the sweep continues
-        them; if it has all of them, nothing is run. Any other file is an error, unless it is empty.
+        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed, with
+        the same bytes as by ``flap sweep --out``. A sidecar beside the file records the origin of the rows. If `out`
+        has unfinished rows of the same grid, the sweep continues them. If it has all rows, nothing is run. Any other
+        file is an error, unless it is empty. By default, rows are kept in memory: about half a kilobyte each.
     restart : bool, optional
-        Start over, and replace the results in `out`, which stay until the new ones are complete.
+        Start over, and replace the results in `out` when the new ones are complete.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -53,39 +53,39 @@ def sweep(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which need the same build of flapwing. Rows have the
-        same order and the same bytes as on one machine. If a worker dies, others run its points again. A worker whose
-        processor rounds differently is an error, because its rows could differ.
+        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. Rows have the same
+        order and the same bytes as on one machine. If a worker dies, other workers run its points again. A worker whose
+        processor has another arithmetic is an error, because its rows could differ.
     measures : list of str, optional
-        The measures of the rows, in place of the columns that the grid's ``[output]`` chooses.
+        The measures of the rows. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. They count as entries of the grid's ``[params]`` and
-        ``[solver]``, and `out` and its sidecar record them so.
+        Parameters of all points and solver settings, as for `run`. They have the same effect as entries of the grid's
+        ``[params]`` and ``[solver]``, and `out` and its sidecar record them in this form.
 
     Returns
     -------
     Table
-        One row per point in the order of the grid, less those that ``[where]`` excludes: `point`, the varied and
-        derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`, `floquet_max`, `stable`,
-        `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among those behind `status`. A point that
-        fails is a row with a status. With `out`, the rows are read from the file when they are first used.
+        One row per point in the order of the grid, without points that ``[where]`` excludes. Columns: `point`, the
+        varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
+        `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among the columns
+        after `status`. A point that fails has a row with its status. With `out`, the rows are read from the file at
+        their first use.
 
     Raises
     ------
     GridError
-        Mistakes in the grid: all of them, each with its line, the allowed values and the nearest name. It is a
-        ValueError.
+        All mistakes in the grid, each with its line, the allowed values and the nearest name. It is a ValueError.
     FileExistsError
-        `out` holds complete rows of another grid, or is another file, and `restart` is not given.
+        `out` has complete rows of another grid, or is another file, and `restart` is not given.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be continued: its unfinished rows are of another grid, or were changed. Unknown preset, parameter,
-        option, unit or measure; a keyword that the grid varies or derives.
+        `out` cannot be continued, because its unfinished rows belong to another grid or were changed. Unknown preset,
+        parameter, option, unit or measure; a keyword that the grid varies or derives.
     TypeError
         A value of the wrong type.
     KeyboardInterrupt
-        Ctrl-C. Rows in `out` are kept, and the same call continues them.
+        Ctrl-C was pressed. Rows in `out` are kept, and the same call continues them.
 
     Examples
     --------
@@ -111,11 +111,11 @@ def sweep(
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequence[str] | None) -> Grid:
-    """The grid of a design, with parameters and solver settings of keywords, and with these measures alone."""
+    """Return the grid of a design with parameters and solver settings from keywords, and with only these measures."""
     grid = design if isinstance(design, Grid) else Grid(design)
     if not keywords and measures is None:
         return grid
-    # Mistakes have the messages of other calls.
+    # Mistakes have the same messages as in other calls.
     _flapwing.check(grid, keywords=dict(keywords), measures=None if measures is None else list(measures))
     entries: dict[str, Any] = tomllib.loads(grid.text)
     settings = _flapwing.settings()
@@ -128,7 +128,7 @@ def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequ
         entries.setdefault("output", {})["columns"] = list(measures)
     overlaid = Grid._named(grid.name, _flapwing.text_of(entries))
     if [list(axis) for axis in overlaid.axes] != [list(axis) for axis in grid.axes]:
-        # Several [[zip]] tables with others between them: a dictionary does not keep such an order.
+        # A dictionary does not keep the order of several [[zip]] tables with other tables between them.
         raise ValueError(
             "keywords would change the order of the grid's axes\nwrite them into its [params] and [solver]"
         )
@@ -136,31 +136,31 @@ def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequ
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
-    """Read results that flap has written, and compare them with their checksums.
+    """Read results of flap and compare them with their checksums.
 
     Parameters
     ----------
     path : path
-        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``); or a table in CSV of another command,
-        such as ``flap run --trajectory``; or a table in Parquet of another program, with Zstandard, Snappy or no
-        compression. Units, meanings and the axes come from the sidecar beside the results, or from the metadata of
-        flap's own Parquet; without either, units come from the names of the columns. Of unfinished results the rows up
-        to the last checkpoint are read, with a warning.
+        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), a CSV table of another command, such as
+        ``flap run --trajectory``, or a Parquet table of another program (Zstandard, Snappy or no compression). Units,
+        meanings and axes are read from the sidecar beside the results, or from the metadata of flap's Parquet files.
+        Without both, units are taken from the names of the columns. If results are unfinished, the rows up to the last
+        checkpoint are read, with a warning.
     ignore_damage : bool, optional
-        Read damaged results as far as possible, with a warning. By default damage is an error.
+        If results are damaged, read the rows that can be read, with a warning. By default, damage is an error.
 
     Returns
     -------
     Table
         The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` is True if the checksums
-        agree, False for unfinished or damaged results, and without a sidecar with checksums.
+        agree. It is False for unfinished or damaged results, and for results without checksums.
 
     Raises
     ------
     OSError
         The file cannot be read.
     ValueError
-        The file is no table of results, or is damaged; the text locates the damage.
+        The file is not a table of results, or is damaged. The message locates the damage.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise _mistakes.refused("path", path, "it must be the path of a file of results")

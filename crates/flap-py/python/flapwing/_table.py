@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Table"]
 
-#: Rows that a notebook shows.
+#: Number of rows that a notebook shows.
 SHOWN_ROWS = 10
-#: Names of columns that are shown where there is one line for all.
+#: Number of column names that are shown in one line.
 SHOWN_NAMES = 8
 
 
-#: What chooses rows and columns, for messages.
+#: Allowed keys, for messages.
 _KEYS = (
     "columns are chosen by a name or a list of names, "
     "rows by a slice or by an array of one dimension: a mask or indices"
@@ -44,7 +44,7 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
 
 
 def _fixed(values: Any) -> np.ndarray[Any, Any]:
-    """Values as an array that cannot be changed: tables of parts of the rows share it."""
+    """Return values as a read-only array, which tables of parts of the rows share."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -53,27 +53,27 @@ def _fixed(values: Any) -> np.ndarray[Any, Any]:
 class Table:
     """Results as columns: one NumPy array each, all of the same length.
 
-    ``table["lift_mean_mn"]`` is a column, ``table[["drive_frequency", "lift_mean_mn"]]`` a table of some of the
-    columns, ``table[rows]`` one of some of the rows, by a slice, a mask or indices; ``len(table)`` is their number.
-    Iterating gives the names of the columns, as a DataFrame does. Columns are read-only:
-    ``table["lift_mean_mn"].copy()`` may be changed.
+    ``table["lift_mean_mn"]`` is a column. ``table[["drive_frequency", "lift_mean_mn"]]`` is a table of some of the
+    columns. ``table[rows]`` is a table of some of the rows, where `rows` is a slice, a mask or indices. ``len(table)``
+    is the number of rows. Iterating yields the names of the columns, as for a DataFrame. Columns are read-only; change
+    a copy, such as ``table["lift_mean_mn"].copy()``.
 
-    Columns are float64 with nan for unknown values (the measures of a point that is not periodic), uint64 for
-    counts, bool for flags, and text for options and words. If a flag of some row is unknown, its column is float64 too:
-    1 for True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects rows in both cases.
-    `units` has the units of the columns, `docs` their meanings.
+    Numbers are float64, with nan for unknown values such as the measures of a point that is not periodic. Counts are
+    uint64, flags are bool, options and words are text. If a flag of some row is unknown, its column is float64: 1 for
+    True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects rows in both cases. `units` has the
+    units of the columns, and `docs` their meanings.
 
     Attributes
     ----------
     axes : list of dict
-        The axes of the grid, the last of which varies fastest: for each, the parameters that move together along it
-        with their values, which are read-only. Empty for rows without a grid with axes.
+        The axes of the grid; the last varies fastest. Each dictionary has the parameters that vary together along the
+        axis, with their values, which are read-only. Empty if the rows have no grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds
-        `counts`, rows by status; `excluded` points, which have no row; `invalid`, the first few invalid points with the
-        reason; `keywords` of the call, which replace values of the grid. Tables of some of the rows or columns have
-        copies of them, with `rows` and `counts` of their own.
+        `counts` (number of rows by status), `excluded` (number of points without a row), `invalid` (the first few
+        invalid points with their reasons) and `keywords` (of the call, which replace values of the grid). Tables of
+        some of the rows or columns have copies of these entries, with their own `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -82,12 +82,12 @@ class Table:
     _path: str
 
     def __init__(self, *_: object) -> None:
-        raise TypeError("a Table comes from sweep, evaluate, respond, trajectory or read\ncall one of them")
+        raise TypeError("a Table is returned by sweep, evaluate, respond, trajectory or read\ncall one of them")
 
     @classmethod
     def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
-        """A table of native results of a call with these keywords; with a path, its columns are read from there when
-        first used.
+        """Return a table of native results of a call with these keywords. With a path, its columns are read from there
+        at their first use.
         """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:
@@ -113,7 +113,7 @@ class Table:
         return self._held
 
     def __getstate__(self) -> dict[str, Any]:
-        # A pickle holds the rows: where it is read, the file may be another or none.
+        # A pickle contains the rows, because the file may be missing or different where the pickle is read.
         return {"_held": self._columns, "axes": self.axes, "meta": self.meta}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -170,7 +170,7 @@ class Table:
             raise unknown("column", name, self._columns) from None
 
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
-        """Some of the rows. What `meta` counts is counted among them; the rest is about the call."""
+        """Return some of the rows. `meta` has new counts of rows; its other entries are about the call."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
         table = self._new(columns, self.axes, copy.deepcopy(self.meta))
         if "counts" in table.meta:
@@ -178,7 +178,7 @@ class Table:
         return table
 
     def keys(self) -> list[str]:
-        """The names of the columns, so that ``dict(table)`` has all of them."""
+        """Return the names of the columns, so that ``dict(table)`` has all columns."""
         return list(self._columns)
 
     @property
@@ -206,15 +206,15 @@ class Table:
 
     @property
     def gradient(self) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """Derivatives of the measures, of the shape rows x measures x parameters.
+        """Derivatives of the measures, with the shape rows x measures x parameters.
 
-        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. Derivatives
-        are in the unit of the measure's column per SI unit of the parameter; of a grid's ``[gradient]``, per per cent
-        of it. One that is not known is nan, and the column ``gradient_gap`` has the reason.
+        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. The unit is
+        the unit of the measure's column per SI unit of the parameter. Derivatives of a grid's ``[gradient]`` are per
+        1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap`` has the reason.
         """
         told = self.meta.get("gradient")
         if told is None:
-            raise ValueError('the table has no derivatives\ngive evaluate the argument gradient=["hinge_stiffness"]')
+            raise ValueError('the table has no derivatives\ncall evaluate with gradient=["hinge_stiffness"]')
         columns = [self._column(name).cells for name in told["columns"]]
         return np.stack(columns, axis=-1).reshape(len(self), len(told["of"]), len(told["with_respect_to"]))
 
@@ -225,20 +225,19 @@ class Table:
 
     @property
     def periodic(self) -> Table:
-        """The rows whose motion is periodic: those that have measures."""
+        """Return the rows with a periodic motion, which have measures."""
         return self[self["status"] == "periodic"]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a pandas DataFrame, numbers without a copy where pandas allows it.
+        """Return the table as a pandas DataFrame. If pandas allows it, numbers are not copied.
 
-        Flags are of the type ``boolean``, text is categorical; ``frame.attrs`` has `units`, and the entries of `meta`
-        as text, or as JSON if they are not text. Columns that are not copied are read-only: ``frame.copy()`` may be
-        changed.
+        Flags have the type ``boolean``, and text is categorical. ``frame.attrs`` has `units`, and the entries of `meta`
+        as text, or as JSON if they are not text. Columns that are not copied are read-only; change ``frame.copy()``.
         """
         return _columns.to_pandas(self._columns, self.meta)
 
     def to_polars(self) -> polars.DataFrame:
-        """The table as a polars DataFrame, through Arrow; unknown values are null."""
+        """Return the table as a polars DataFrame, through Arrow; unknown values are null."""
         import polars
 
         frame = polars.from_arrow(self.to_arrow())
@@ -246,27 +245,27 @@ class Table:
         return frame
 
     def to_arrow(self) -> pyarrow.Table:
-        """The table as an Arrow table: numbers share memory with the table, unknown values are null.
+        """Return the table as an Arrow table. Numbers share memory with the table, and unknown values are null.
 
-        Units and meanings are in the metadata of the fields; the entries of `meta` are in the metadata of the schema,
-        as ``flapwing.build``, ``flapwing.grid`` and so on, those that are not text as JSON. Parquet files keep both.
+        Units and meanings are in the metadata of the fields. The entries of `meta` are in the metadata of the schema,
+        as ``flapwing.build``, ``flapwing.grid`` and so on; entries that are not text are JSON. Parquet files keep both.
         """
         return _columns.to_arrow(self._columns, self.meta)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """The table through the Arrow C stream interface, which needs pyarrow."""
+        """Return the table through the Arrow C stream interface, which requires pyarrow."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_xarray(self) -> xarray.Dataset:
-        """The table as an xarray Dataset: the axes of the grid are its dimensions, in the order of the grid.
+        """Return the table as an xarray Dataset. The axes of the grid are its dimensions, in the order of the grid.
 
-        A dimension is named after the first parameter of its axis; others that move with it are coordinates along it. A
-        motion has the dimension ``time_s``. Otherwise rows are along the dimension ``row``; of a response, the columns
-        that place a row on its curve (`curve`, the design's parameters, `branch`, the parameter that is followed) are
-        coordinates along it. Columns are variables with the attributes `units`, `long_name` and `description`. Points
-        that have no row, because the grid excludes them, are nan, 0 or empty text; flags are float64 then. Rows find
-        their places by `point`, or by the parameters of the axes; without either, a ValueError is raised. The
-        attributes of the Dataset are the entries of `meta`, as JSON if they are not text.
+        A dimension has the name of the first parameter of its axis. Other parameters of the axis are coordinates along
+        it. A motion has the dimension ``time_s``. All other tables without axes have the dimension ``row``. For a
+        response, the columns with the place of a row on its curve are coordinates along ``row``: `curve`, the design's
+        parameters, `branch`, and the followed parameter. Columns are variables with the attributes `units`, `long_name`
+        and `description`. Points that the grid excludes have no row; they are nan, 0 or empty text, and flags become
+        float64. The places of rows are found by `point`, or by the parameters of the axes. Without both, ValueError is
+        raised. The attributes of the Dataset are the entries of `meta`, as JSON if they are not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 
@@ -278,7 +277,7 @@ class Table:
         return f"<flapwing.Table of {len(self)} rows{told}, {len(names)} columns: {shown}>"
 
     def _repr_html_(self) -> str:
-        """The first rows, for notebooks."""
+        """Return the first rows as HTML, for notebooks."""
         from html import escape
 
         def text(value: Any) -> str:

@@ -13,30 +13,30 @@ from ._flapwing import Grid
 if TYPE_CHECKING:
     from ._table import Table
 
-#: A preset by its name, a grid file by its path, the text of one, its entries as a dictionary, or a Grid.
+#: A design: the name of a preset, the path of a grid file, its text, its entries as a dictionary, or a Grid.
 Design = str | os.PathLike[str] | Mapping[str, Any] | Grid
 
 #: A parameter or a solver setting: a number in SI units, text with a unit, or the name of an option.
 Value = SupportsFloat | str
 
-#: A record over time: a CSV file by its path, columns by name, or times (s) and values.
+#: A record over time: the path of a CSV file, columns by name, or a pair of times (s) and values.
 Record = Union[str, os.PathLike[str], Mapping[str, Any], "Table", "tuple[Any, Any]"]
 
 
 class Frame(Protocol):
-    """A DataFrame of pandas or polars, or an Arrow table."""
+    """A pandas or polars DataFrame, or an Arrow table."""
 
     @property
     def columns(self) -> Any: ...
 
 
 class FrameRow(Protocol):
-    """A row of a DataFrame of pandas."""
+    """A row of a pandas DataFrame."""
 
     def to_dict(self) -> Any: ...
 
 
-#: A state at the start of a drive period: components by name, or a row that has them, also as a table of one row.
+#: A state at the start of a drive period: components by name, or a row with them, also as a table of one row.
 InitialState = Union[Mapping[str, Any], "Table", Frame, FrameRow]
 
 #: Names of measures.

@@ -1,4 +1,4 @@
-"""Vehicles: several wings of one model, as entries of a grid."""
+"""Vehicles of several wings of one model, as entries of a grid."""
 
 from __future__ import annotations
 
@@ -33,30 +33,30 @@ class _Entries(Mapping[str, Any]):
 
 
 class Wing(_Entries):
-    """A wing of a `Vehicle`: the entries of a table ``[[vehicle.wings]]``.
+    """A wing of a `Vehicle`, as the entries of a table ``[[vehicle.wings]]``.
 
     Parameters
     ----------
     name : str
-        The name, which begins the names of the wing's parameters and columns: ``left_drive_voltage_pp``,
+        The name, which is the prefix of the wing's parameters and columns, as in ``left_drive_voltage_pp`` and
         ``left_stroke_pp_deg``.
     position : sequence of three numbers or texts, optional
         The place of the shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text with units
-        such as ``"4 mm"``. By default zero.
+        such as ``"4 mm"``. Default: zero.
     plane : dict, optional
         The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
     mirrored : bool, optional
-        True for a wing on the right: the image of the wing at `position`, behind the plane of x and z.
+        True for a wing on the right: the mirror image, in the plane of x and z, of a wing at `position`.
     preset, device : str, path, optional
-        The design of the wing, if it differs from the vehicle's design: a preset by its name, or a device file by its
-        path.
+        The design of the wing, if it differs from the vehicle's design: the name of a preset, or the path of a device
+        file.
     params : dict, optional
-        Parameters that this wing has of its own.
+        Parameters of only this wing.
 
     Raises
     ------
     TypeError
-        A value of the wrong type. `Vehicle` reports other mistakes, with their place.
+        A value of the wrong type. Other mistakes are reported by `Vehicle`, with their place.
 
     Examples
     --------
@@ -104,39 +104,39 @@ class Wing(_Entries):
 
 
 class Vehicle(_Entries):
-    """A vehicle: several wings of one model, whose mean forces and torques add up.
+    """A vehicle of several wings of one model. Its mean forces and torques are sums over the wings.
 
-    A vehicle is a design, and goes wherever one is named::
+    Use a vehicle as the design in any call::
 
         vehicle = Vehicle("jafferis2016", [left, right], about=["0 mm", "0 mm", "-2 mm"])
         run(vehicle, drive_offset="10 V")["torque_pitch_unm"]
         evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
         sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
 
-    It is a mapping of the entries of a grid file with a section ``[vehicle]``, so that a dictionary with more sections
-    is a grid. Parameters of the model hold for all wings; ``left_NAME`` is that of the wing `left` alone, and
-    ``difference_NAME`` left minus right, of which the wings that are not mirrored get half. Interaction between wings
-    is left out, and the body is held still. Axes of the body: x forward, y to the left, z up.
+    A vehicle is a mapping of the entries of a grid file with a section ``[vehicle]``. With further sections, it is a
+    grid. A parameter NAME of the model applies to all wings. ``left_NAME`` applies only to the wing `left`.
+    ``difference_NAME`` is left minus right: wings that are not mirrored get plus half of it, mirrored wings minus half.
+    The model leaves out interaction between wings and motion of the body. Body axes: x forward, y to the left, z up.
 
     Parameters
     ----------
     design : str, path or dict
-        The design of the wings: a preset by its name; a device file by its path; or entries of a grid, such as
+        The design of the wings: the name of a preset, the path of a device file, or entries of a grid, such as
         ``{"preset": "jafferis2016", "params": {"drive_voltage_pp": "180 V"}}``.
     wings : sequence of Wing or dict
-        The wings, one or more: each a `Wing`, or a dictionary of the same entries.
+        One or more wings: each a `Wing`, or a dictionary of the same entries.
     about : sequence of three numbers or texts, optional
-        The point about which torques are taken, such as the centre of mass: numbers in metres, or text with units.
-        By default the origin.
+        The point about which torques are computed, such as the centre of mass: numbers in metres, or text with units.
+        Default: the origin.
     total_mass : float or str, optional
         The mass of the whole vehicle, for `lift_to_weight`: a number in kilograms, or text such as ``"85 mg"``.
 
     Raises
     ------
     GridError
-        Mistakes in the entries: all of them, each with its place, what is allowed and the nearest name.
+        All mistakes in the entries, each with its place, the allowed values and the nearest name.
     ValueError
-        `design` has a vehicle already.
+        `design` already has a vehicle.
     TypeError
         A value of the wrong type.
     OSError
@@ -170,7 +170,7 @@ class Vehicle(_Entries):
             vehicle["total_mass"] = total_mass
         vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
         self._held["vehicle"] = vehicle
-        # Mistakes are reported here, with their place.
+        # This call reports mistakes with their place.
         self._preset = Grid(self._held).preset
 
     def __repr__(self) -> str:
@@ -182,41 +182,41 @@ class Vehicle(_Entries):
 
 
 def _design(design: Any) -> dict[str, Any]:
-    """The entries of a grid that name the design of the wings."""
+    """Return the entries of a grid for the design of the wings."""
     if isinstance(design, Mapping):
         if "vehicle" in design:
-            raise ValueError("`design` has a vehicle already\nit must be the design of the wings alone")
+            raise ValueError("`design` already has a vehicle\nit must be the design of the wings, without a vehicle")
         return dict(design)
     if isinstance(design, str) and design in _flapwing.presets():
         return {"preset": design}
     if isinstance(design, os.PathLike) or (isinstance(design, str) and os.path.exists(design)):
         return {"device": os.fspath(design)}
     if isinstance(design, str):
-        # Reported as a mistake in a grid, with the names of the presets; a path as a file that is missing.
+        # An unknown name is reported as a mistake in a grid, and a missing path as a missing file.
         return {"device" if design.endswith(".toml") or os.path.basename(design) != design else "preset": design}
-    allowed = "it must be the name of a preset, the path of a device, or a dictionary of grid entries"
+    allowed = "it must be the name of a preset, the path of a device file, or a dictionary of grid entries"
     raise refused("design", design, allowed)
 
 
 def _listed(wings: Any) -> list[Any]:
-    """The wings as a list."""
+    """Return the wings as a list."""
     if isinstance(wings, (str, bytes, Mapping)) or not isinstance(wings, Iterable):
         raise refused("wings", wings, "it must be a list of wings: flapwing.Wing, or dictionaries")
     listed = list(wings)
     if not listed:
-        raise ValueError('`wings` is empty\na vehicle has one wing or more, such as flapwing.Wing("left")')
+        raise ValueError('`wings` is empty\na vehicle has at least one wing, such as flapwing.Wing("left")')
     return listed
 
 
 def _wing(place: int, wing: Any) -> dict[str, Any]:
-    """The entries of a wing."""
+    """Return the entries of a wing."""
     if not isinstance(wing, Mapping):
         raise refused(f"wings[{place}]", wing, "it must be a flapwing.Wing, or a dictionary of its entries")
     return dict(wing)
 
 
 def _vector(name: str, given: Any) -> list[Any]:
-    """Three lengths."""
+    """Return three lengths."""
     allowed = f'it must be three lengths along {_AXES}, such as ["0 mm", "4 mm", "0 mm"]'
     if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
         raise refused(name, given, allowed)
@@ -227,7 +227,7 @@ def _vector(name: str, given: Any) -> list[Any]:
 
 
 def _table(name: str, given: Any, example: str, keys: Sequence[str] | None = None) -> dict[str, Any]:
-    """A dictionary, with no keys but these."""
+    """Return a dictionary; raise ValueError if it has keys other than `keys`."""
     if not isinstance(given, Mapping):
         raise refused(name, given, f"it must be a dictionary of {example}")
     for key in given:

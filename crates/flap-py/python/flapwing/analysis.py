@@ -1,10 +1,10 @@
-"""Numbers about results: sensitivities, rank correlations and Pareto fronts. `flapwing.plot` draws them.
+"""Sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws them.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
     [True, True, False]
 
-`non_dominated` needs moocore: ``pip install "flapwing[analysis]"``.
+`non_dominated` requires moocore: ``pip install "flapwing[analysis]"``.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ class Sensitivity:
     parameter : str
         The parameter's name.
     value : float
-        Its value in the design, in SI units.
+        The parameter's value in the design, in SI units.
     below, above : float
-        The lower and the upper value tried, in SI units.
+        The lower and the upper value that were run, in SI units.
     measure : str
         The measure's name.
     base : float
-        The measure of the design itself, in the measure's unit.
+        The measure of the unchanged design, in the measure's unit.
     low, high : float
-        The measure with the lower and with the upper value; nan if there is no periodic motion.
+        The measure at the lower and at the upper value; nan if there is no periodic motion.
     unit, measure_unit : str
         The units of the parameter and of the measure.
     """
@@ -62,7 +62,7 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger of the two changes of the measure, without its sign; infinite if both are unknown."""
+        """The larger absolute value of the two changes of the measure; infinite if both are unknown."""
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
 
@@ -77,8 +77,8 @@ def sensitivities(
 ) -> list[Sensitivity]:
     """Change each parameter of a design slightly, down and up, and compute the change of a measure.
 
-    Two points are run for each parameter, and one for the design. All other parameters stay as they are, except those
-    that follow the one that is changed, such as the bias that follows the voltage.
+    Two points are run for each parameter, and one point for the design. All other parameters keep their values, except
+    parameters that follow the changed one, as the bias follows the voltage.
 
     Parameters
     ----------
@@ -88,10 +88,10 @@ def sensitivities(
         A measure of its model.
     parameters : mapping or iterable of str, optional
         The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
-        By default all numbers that are not zero, except those that follow others and those that cannot take such
-        values, such as whole numbers.
+        Default: all numbers that are not zero, except parameters that follow others, and parameters that cannot take
+        such values, such as whole numbers.
     change : float
-        The relative change of parameters that have none of their own.
+        The relative change of parameters without their own change.
     **fixed
         Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options.
         Solver settings, as for `flapwing.evaluate`.
@@ -99,7 +99,7 @@ def sensitivities(
     Returns
     -------
     list of Sensitivity
-        By falling `swing`.
+        Sensitivities in falling order of `swing`.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def sensitivities(
     """
     known = params(design)
     ranges = _ranges(known, parameters, change, fixed)
-    # A parameter that is both given and changed has its number from the row of the design itself.
+    # If a parameter is both fixed and changed, its value is read from the row of the design.
     both = {name: value for name, value in fixed.items() if name in ranges}
     others = {name: value for name, value in fixed.items() if name not in ranges}
     free = (name for name, each in known.items() if each.is_number and name not in fixed)
@@ -123,7 +123,7 @@ def sensitivities(
         raise unknown("measure", measure, measures(design))
     start = float(base[measure][0])
     if math.isnan(start):
-        raise ValueError(f"the design itself has no {measure}: its motion is {base['status'][0]}")
+        raise ValueError(f"the unchanged design has no {measure}: its motion is {base['status'][0]}")
     found = []
     for name, spread in ranges.items():
         value = float(base[name][0]) if name in both else float(known[name].value)
@@ -131,7 +131,7 @@ def sensitivities(
         if below == above and parameters is None:
             continue
         if below == above:
-            raise ValueError(f"`{name}` is {value:g}, which no relative change alters: give the two values to try")
+            raise ValueError(f"`{name}` is {value:g}, so a relative change has no effect: give the two values to run")
         unchanged = {other: given for other, given in fixed.items() if other != name}
         rows = evaluate(design, {name: np.array([below, above])}, **unchanged)
         if parameters is None and (rows["status"] == "invalid").all():
@@ -145,7 +145,7 @@ def sensitivities(
 def _ranges(
     known: Mapping[str, Parameter], parameters: Any, change: float, fixed: Mapping[str, Any]
 ) -> dict[str, float | tuple[float, float]]:
-    """The relative change, or the two values, of each parameter."""
+    """Return the relative change, or the two values, of each parameter."""
     if parameters is None:
         chosen: dict[str, Any] = {
             name: change
@@ -162,11 +162,11 @@ def _ranges(
         if name not in fixed and not known[name].is_number:
             value = known[name].value
             if isinstance(value, float):
-                raise ValueError(f"`{name}` is not set in this preset: give it a value, as in `{name}=…`")
-            raise ValueError(f"`{name}` is {value!r}: only numbers can be changed by a little")
+                raise ValueError(f"`{name}` is not set in this preset: set it, as in `{name}=…`")
+            raise ValueError(f"`{name}` is {value!r}: only numbers can be changed slightly")
         if isinstance(spread, (tuple, list)):
             if len(spread) != 2:
-                raise ValueError(f"`{name}` needs two values to try, not {len(spread)}")
+                raise ValueError(f"`{name}` requires two values to run, not {len(spread)}")
             chosen[name] = (float(spread[0]), float(spread[1]))
         elif not 0 < float(spread) < math.inf:
             raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
@@ -205,29 +205,29 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values share the mean of their ranks. A parameter that follows an earlier one, in its order or in the reverse
-    of it, is left out, as is one that has the same value in all designs.
+    Equal values share the mean of their ranks. A parameter is left out if it has the same order as an earlier
+    parameter, or the reverse order, or if it has the same value in all designs.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sample, or of a grid.
     measure : str, optional
-        A column of numbers. By default the mean lift, or another measure of the table.
+        A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
     parameters : iterable of str, optional
-        Parameters, or any columns of numbers. By default all parameters of the table.
+        Parameters, or any columns of numbers. Default: all parameters of the table.
     where, **slices
-        The rows to compare, as for `flapwing.plot.histogram`.
+        The selection of rows, as for `flapwing.plot.histogram`.
 
     Returns
     -------
     list of RankCorrelation
-        By falling size of the correlation.
+        Correlations in falling order of absolute value.
 
     Raises
     ------
     ValueError
-        An unknown column or value; no design that has the measure; no parameter that varies.
+        An unknown column or value; no design with the measure; no parameter that varies.
 
     Examples
     --------
@@ -255,25 +255,26 @@ def rank_correlations(
 
 
 def _parameters(data: Data) -> list[str]:
-    """The parameters that are numbers, sampled parameters first."""
+    """Return the parameters that are numbers, sampled parameters first."""
     names = [name for name in data.parameters() if not is_text(data[name])]
     return sorted(names, key=data.on_a_grid)
 
 
 def non_dominated(costs: Any) -> Mask:
-    """Mark the points that are not dominated, where smaller is better in every column.
+    """Return a mask of the points that are not dominated; in every column, smaller values are better.
 
-    A point is dominated if another is nowhere larger and somewhere smaller. Equal points do not dominate each other.
+    A point is dominated if another point is nowhere larger and somewhere smaller. Equal points do not dominate each
+    other.
 
     Parameters
     ----------
     costs : array_like, shape (n, k)
-        A row per point, a column per objective, k >= 1; negate what is to be large.
+        One row per point and one column per objective, k >= 1. Negate objectives that should be large.
 
     Returns
     -------
     ndarray of bool, shape (n,)
-        True for the points of the front; False where a cost is NaN.
+        True for the points of the front; False if a cost is NaN.
 
     Raises
     ------
@@ -291,7 +292,7 @@ def non_dominated(costs: Any) -> Mask:
         import moocore
     except ImportError:
         raise ImportError(
-            'non_dominated needs moocore: pip install "flapwing[analysis]", or pip install moocore'
+            'non_dominated requires moocore: pip install "flapwing[analysis]", or pip install moocore'
         ) from None
     costs = np.asarray(costs, dtype=float)
     if costs.ndim != 2 or costs.shape[1] < 1:

@@ -1,4 +1,4 @@
-//! The estimated time of a sweep, from runs of some of its points.
+//! Estimates the time of a sweep by running some of its points.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -14,29 +14,29 @@ use flap_sweep::study::survey::spread;
 
 use crate::duration;
 
-/// Most points of a sample.
+/// Largest number of points in a sample.
 const MOST: usize = 256;
 
-/// The time after which no point is added to the sample.
+/// After this time, no point is added to the sample.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// The time after which running points are given up.
+/// After this time, running points are abandoned.
 const LONGEST: Duration = Duration::from_secs(2);
 
-/// Most points that are checked to find some that are not excluded.
+/// Largest number of points that are checked to find points that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
 
-/// The smallest error of an estimate, as a share: the speed of a machine is not the same all the time.
+/// Smallest relative error of an estimate; the speed of a machine varies by this much.
 const SMALLEST_ERROR: f64 = 0.1;
 
-/// The estimates of a sweep from a few of its points.
+/// The estimates for a sweep, from a few of its points.
 #[derive(Default)]
 pub(super) struct Estimate {
-    /// A message if every checked point is invalid, with the reason of the first one.
+    /// Message if every checked point is invalid, with the reason of the first one.
     pub(super) invalid: Option<String>,
-    /// The shortest and the longest time that is likely (s). `None` if no point was run.
+    /// Lower and upper bound of the likely time (s). `None` if no point was run.
     pub(super) seconds: Option<[f64; 2]>,
-    /// True if all tried points were run to their ends; otherwise the sweep takes longer than the shortest time.
+    /// True if all points of the sample ran to their ends; otherwise the time has only a lower bound.
     is_complete: bool,
     /// Number of threads.
     pub(super) threads: usize,
@@ -45,7 +45,7 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// The estimated time in a line.
+    /// Returns the estimated time as a line.
     pub(super) fn line(&self) -> Option<String> {
         let [low, high] = self.seconds?;
         let time = if self.is_complete {
@@ -59,14 +59,14 @@ impl Estimate {
     }
 }
 
-/// Runs some points of `plan` to estimate a sweep of `points` points.
+/// Runs some points of `plan` to estimate the time of `points` points.
 pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     let threads = RunOptions::default().threads.get();
     let trial = Trial::run(plan, threads);
     if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = &trial
         && trial.is_complete()
     {
-        let text = format!("all points that were tried are invalid, such as point {index}: {reason}");
+        let text = format!("every point that was tried is invalid, for example point {index}: {reason}");
         return Estimate { invalid: Some(text), ..Estimate::default() };
     }
     Estimate {
@@ -78,8 +78,10 @@ pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     }
 }
 
-/// A sample of points that are spread over a plan. Further points keep all lanes full, as in a sweep, until the last point of
-/// the sample has its row: otherwise the slowest points would run alone, and the time would tell little.
+/// A sample of points that are spread over a plan.
+///
+/// Until the last point of the sample is done, further points keep all lanes full, as in a sweep. Otherwise the slowest points
+/// would run alone and distort the time.
 struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
@@ -90,9 +92,9 @@ struct Trial<'a> {
     closed: bool,
     /// Numbers of the points of the sample that are running.
     running: BTreeSet<u64>,
-    /// The work of each point of the sample: right-hand sides evaluated.
+    /// The work of each point of the sample, in evaluations of the right-hand side.
     works: Vec<f64>,
-    /// Points that were begun, points that have rows, and the work of these.
+    /// Points that were started, points that have rows, and the work of the points with rows.
     begun: u64,
     done: u64,
     work: f64,
@@ -122,7 +124,7 @@ impl Trial<'_> {
         thread::scope(|scope| {
             for _ in 0..threads {
                 let work = || plan.rows().run(Backend::best(), plan.solver(), &mut Worker(&trial));
-                // Without a further thread the others do the work.
+                // If no further thread starts, the other threads do the work.
                 let _ = thread::Builder::new().spawn_scoped(scope, work);
             }
         });
@@ -133,7 +135,7 @@ impl Trial<'_> {
         trial
     }
 
-    /// The mean work of a point, and its probable relative error, for a sweep of `points` points; none if no point was run.
+    /// Returns the mean work of a point and its probable relative error, for a sweep of `points` points; none if no point was run.
     fn mean_work(&self, points: u64) -> Option<(f64, f64)> {
         let number = self.works.len() as f64;
         let mean = self.works.iter().sum::<f64>() / number;
@@ -141,16 +143,16 @@ impl Trial<'_> {
             return None;
         }
         let squares: f64 = self.works.iter().map(|work| (work - mean).powi(2)).sum();
-        // Of a sample that is all of the plan, the mean is exact.
+        // If the sample contains all points of the plan, the mean is exact.
         let left_out = (1.0 - number / points as f64).max(0.0);
         let deviation = (left_out * squares / (number * (number - 1.0).max(1.0))).sqrt();
         Some((mean, (2.0 * deviation / mean).max(SMALLEST_ERROR)))
     }
 
-    /// The shortest and the longest time that a sweep of `points` points probably takes; none if no point was run.
+    /// Returns the bounds of the likely time of a sweep of `points` points (s); none if no point was run.
     fn seconds(&self, points: u64) -> Option<[f64; 2]> {
         let (mean, error) = self.mean_work(points)?;
-        // Points that were running at the end are half done.
+        // Points that are still running count as half done.
         let work = self.work + 0.5 * mean * (self.begun - self.done) as f64;
         let seconds = points as f64 * mean * self.took.as_secs_f64() / work;
         Some([seconds / (1.0 + error), seconds * (1.0 + error)])
@@ -165,7 +167,7 @@ impl Trial<'_> {
         self.is_complete() || self.started.elapsed() >= LONGEST
     }
 
-    /// The index in the plan of the checked point number `number`.
+    /// Returns the index in the plan of checked point `number`.
     fn index(&self, number: u64) -> u64 {
         let points = self.plan.len();
         if points <= MOST as u64 { number % points } else { spread(number, points) }
@@ -175,7 +177,7 @@ impl Trial<'_> {
         while !self.is_over() && self.looked_at < MOST_LOOKED_AT {
             let number = self.looked_at;
             let mut point = self.plan.point(self.index(number));
-            // A point may be run twice: each run has its own number.
+            // A point may run twice. Each run has its own number.
             point.index = number;
             self.looked_at += 1;
             let in_sample = !self.closed;
@@ -224,7 +226,7 @@ impl Trial<'_> {
         }
     }
 
-    /// Notes an invalid point, the checked point number `number`.
+    /// Records checked point `number` as invalid.
     fn note_invalid(&mut self, number: u64, reason: String) {
         let index = self.index(number);
         self.first_reason.get_or_insert((index, reason));
@@ -280,7 +282,7 @@ mod tests {
         }
     }
 
-    /// Points near hysteresis and those that never settle take up to a hundred times the work of others.
+    /// Points near hysteresis and points that never settle need up to a hundred times the work of other points.
     #[test]
     fn the_mean_work_is_that_of_the_sweep() {
         let grid = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"0.7486 uN*m/rad\"\n[axes]\n\

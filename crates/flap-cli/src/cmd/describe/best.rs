@@ -49,7 +49,7 @@ pub(super) enum Place {
 }
 
 impl Best {
-    /// The best of these rows; `None` if none has a value.
+    /// Returns the best of these rows; `None` if no row has a value.
     pub(super) fn of(
         table: &Table,
         column: usize,
@@ -80,7 +80,7 @@ impl Best {
     }
 }
 
-/// The index in the first column of results; the number of the row in other files.
+/// Returns the index in the first column of results; in other files, the number of the row.
 fn point(table: &Table, row: usize) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
@@ -89,7 +89,7 @@ fn point(table: &Table, row: usize) -> u64 {
 }
 
 impl Axis {
-    /// The axis in this column; `best` are the best rows, the best first.
+    /// Returns the axis in this column; `best` has the best rows, the best row first.
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);

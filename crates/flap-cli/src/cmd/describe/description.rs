@@ -1,4 +1,4 @@
-//! All that is said of results.
+//! The summary of a file of results.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use super::best::Best;
 use super::spread::Spread;
 use super::words::Words;
 
-/// All that is said of results.
+/// The summary of a file of results.
 #[derive(Serialize)]
 pub(super) struct Description {
     pub(super) rows: usize,

@@ -1,4 +1,4 @@
-//! Descriptions as text: tables, comma-separated values, JSON.
+//! Summaries as text: tables, comma-separated values, JSON.
 
 use std::fmt::Write as _;
 
@@ -13,7 +13,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::table::Table;
 
-/// The text of a description.
+/// Returns the text of a summary.
 pub(super) fn text(description: &Description, format: OutputFormat) -> Result<String, Failure> {
     match format {
         OutputFormat::Table => Ok(page(description)),
@@ -109,7 +109,7 @@ fn line(axis: &Axis) -> [String; 8] {
     ]
 }
 
-/// One number per line, with its table, column, axis and name.
+/// Returns one number per line, with its table, column, axis and name.
 fn csv(description: &Description) -> Option<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut line = |cells: [&str; 5]| writer.write_record(cells).ok();
@@ -144,7 +144,7 @@ fn csv(description: &Description) -> Option<String> {
     String::from_utf8(writer.into_inner().ok()?).ok()
 }
 
-/// A value with all digits.
+/// Returns a value with all digits.
 fn exact(place: &Place) -> String {
     match place {
         Place::Number(number) => text::float(*number),

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::data::columns::Column;
 
-/// Percentiles of the values of a column; NaN, which JSON has as null, if there are no values.
+/// Percentiles of the values of a column; NaN (null in JSON) if there are no values.
 #[derive(Serialize)]
 pub(super) struct Spread {
     pub(super) column: String,
@@ -21,7 +21,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// The spread of the numbers in `rows`. Empty cells do not count.
+    /// Returns the percentiles of the numbers in `rows`. Empty cells are ignored.
     pub(super) fn of(column: &Column, numbers: &[f64], rows: &[usize]) -> Spread {
         let mut values: Vec<f64> =
             rows.iter().map(|&row| numbers[row]).filter(|number| !number.is_nan()).collect();
@@ -31,7 +31,7 @@ impl Spread {
         Spread { column, unit, count: values.len(), min, p5, median, p95, max }
     }
 
-    /// The percentiles with their names, by rising value.
+    /// Returns the percentiles with their names, in rising order.
     pub(super) fn percentiles(&self) -> [(&'static str, f64); 5] {
         let Spread { min, p5, median, p95, max, .. } = *self;
         [("min", min), ("p5", p5), ("median", median), ("p95", p95), ("max", max)]

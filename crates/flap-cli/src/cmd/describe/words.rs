@@ -1,4 +1,4 @@
-//! The words of a column, such as true and false: how often each is there.
+//! Counts of the words in a column, such as true and false.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Most different words that are counted.
+/// Largest number of different words that are counted.
 const MOST: usize = 100;
 
 /// The words of a column.
@@ -24,7 +24,7 @@ pub(super) struct WordCount {
 }
 
 impl Words {
-    /// The words in these rows of a column without numbers, the most frequent first.
+    /// Counts the words in these rows of a column of words, the most frequent word first.
     pub(super) fn of(table: &Table, column: usize, rows: &[usize]) -> Result<Words, Failure> {
         let name = table.columns[column].name.clone();
         let levels = Levels::of(table, column, rows);
@@ -33,7 +33,8 @@ impl Words {
         };
         if words.len() > MOST {
             let message = format!("column `{name}` holds {} different words, not numbers", words.len());
-            return Err(Failure::usage(message).help("name columns of numbers, or of few words"));
+            return Err(Failure::usage(message)
+                .help("choose columns of numbers, or columns with few different words"));
         }
         let count = |place: usize| levels.codes.iter().filter(|&&code| code == place).count();
         let counts = words.iter().enumerate();

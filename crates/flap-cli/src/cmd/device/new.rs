@@ -1,4 +1,4 @@
-//! `flap device new`: a device as text, to be edited.
+//! `flap device new`: prints a device file.
 
 use flap_sweep::grid;
 
@@ -9,7 +9,7 @@ use crate::failure::{Exit, Failure};
 
 pub(super) fn run(args: &NewArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.what)?;
-    point::check_one_wing(&plan, &args.what, "a device, which `flap device new` writes,")?;
+    point::check_one_wing(&plan, &args.what, "`flap device new`")?;
     console::results(&grid::device(&plan))?;
     Ok(Exit::Done)
 }

@@ -1,4 +1,4 @@
-//! `flap device wing`: the parameters of a wing of one's own.
+//! `flap device wing`: the parameters of a wing from its outline.
 
 use flap_core::aero::{ChordTable, Material, STATIONS, Tabulated, Wing};
 use flap_core::parameter::{Kind, Parameter};
@@ -12,10 +12,10 @@ use crate::cmd::point;
 use crate::console;
 use crate::failure::{Exit, Failure};
 
-/// Density of air (kg/m³) of models that do not say.
+/// Density of air (kg/m³) for models without a parameter for it.
 const AIR_DENSITY: f64 = 1.2;
 
-/// The share of the area by which a table of chords may miss that of the outline without a note.
+/// Largest relative difference between the areas of the table of chords and of the outline that gives no note.
 const CLOSE: f64 = 5e-3;
 
 pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
@@ -31,14 +31,15 @@ pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     };
     let parameters = plan.simulator().wing(&wing);
     if parameters.is_empty() {
-        let message = format!("the model {} does not take its wing from an outline", plan.simulator().name());
+        let message =
+            format!("the model {} cannot compute its wing from an outline", plan.simulator().name());
         return Err(Failure::usage(message));
     }
     check_ranges(&plan, &wing, &parameters)?;
     console::results(&grid::wing(&plan, &args.preset, &parameters))?;
     if wing.material.is_none() {
         console::say(
-            "without --mass, or --thickness and --density, the wing's mass and inertias stay those of the preset",
+            "without --mass, or --thickness and --density, the mass and inertias of the wing are the preset's",
         );
     }
     if let Some(masses) = wing.masses() {
@@ -57,7 +58,7 @@ pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Refuses a wing with parameters that no design may have: the integrals over an outline of extreme size are no numbers.
+/// Returns an error if a parameter of the wing is outside its range, as for outlines of extreme size.
 fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<(), Failure> {
     for (name, value) in parameters {
         let parameter = Parameter::index(plan.parameters(), name).map(|index| &plan.parameters()[index]);
@@ -67,27 +68,27 @@ fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<
         };
         if !range.contains(*value) {
             let message = format!(
-                "`{name}` of this wing is {}, and must be {}: the outline is {} long and reaches {} from the hinge's axis",
+                "`{name}` of this wing is {}, but must be {}: the outline is {} long and reaches {} from the hinge's axis",
                 prefixed(*value, unit),
                 range.describe(),
                 prefixed(wing.outline.length(), "m"),
                 prefixed(wing.outline.width(), "m"),
             );
             return Err(Failure::usage(message)
-                .help("check the units in the headings of the outline, and those of the options"));
+                .help("check the units in the headings of the outline and in the options"));
         }
     }
     Ok(())
 }
 
-/// A note that the wing's root is on the stroke axis, where that of the design called `base` is not.
+/// Returns a note if the wing's root is on the stroke axis, but the root of the design `base` is not.
 fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     let index = Parameter::index(plan.parameters(), "wing_offset")?;
     let (place, remedy) = match plan.base()[index] {
         Value::Given(0.0) | Value::Resonance => return None,
         Value::Given(offset) => {
             let offset = prefixed(offset, "m");
-            let remedy = format!("--offset '{offset}' keeps that");
+            let remedy = format!("--offset '{offset}' keeps that offset");
             (offset, remedy)
         }
         Value::Follows(others) => {
@@ -97,58 +98,60 @@ fn on_offset(plan: &Plan, base: &str) -> Option<String> {
             match whole.and_then(|index| plan.base()[index].given()) {
                 Some(whole) => {
                     let offset = prefixed(0.5 * whole, "m");
-                    (format!("{place}, {offset}"), format!("--offset '{offset}' keeps that"))
+                    (format!("{place}, {offset}"), format!("--offset '{offset}' keeps that offset"))
                 }
                 None => (place.to_owned(), "set it with --offset".to_owned()),
             }
         }
     };
     Some(format!(
-        "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but that of {base} is at \
+        "without --offset, the wing's root is on the stroke axis (wing_offset = 0 m), but in {base} it is at \
          {place}: {remedy}"
     ))
 }
 
-/// A note that the table of chords among the parameters has another area than the outline.
+/// Returns a note if the table of chords has another area than the outline.
 fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     let is_chord = |name: &str| name.strip_prefix("chord_").is_some_and(|rest| rest.parse::<usize>().is_ok());
     let chords = parameters.iter().filter(|(name, _)| is_chord(name)).map(|(_, chord)| *chord);
     let chords: [f64; STATIONS] = chords.collect::<Vec<_>>().try_into().ok()?;
     let tabulated = ChordTable::new(Tabulated::On, chords).mean() * wing.outline.length();
     let share = tabulated / wing.area();
-    // Without any chord, the model refuses the table.
+    // The model rejects a table without any chord.
     if share == 0.0 || (share - 1.0).abs() <= CLOSE {
         return None;
     }
     let percent = 100.0 * (share - 1.0).abs();
     let comparison = if share < 1.0 { "less" } else { "more" };
     Some(format!(
-        "chord_0 to chord_10, straight between {STATIONS} stations, have {percent:.1} % {comparison} area than the \
-         outline: multiply each by {:.4} to have its area",
+        "chord_0 to chord_10, with straight lines between {STATIONS} stations, have {percent:.1} % {comparison} area than the \
+         outline: multiply each chord by {:.4} to match its area",
         1.0 / share
     ))
 }
 
-/// The material that the options give, if they do.
+/// Returns the material that the options give; `None` if they give none.
 fn material(args: &WingArgs) -> Result<Option<Material>, Failure> {
     let membrane = match (args.thickness, args.density) {
         (Some(thickness), Some(density)) => Some(thickness * density),
         (None, None) => None,
         _ => {
-            return Err(Failure::usage("--thickness and --density go together".to_owned())
+            return Err(Failure::usage("--thickness and --density are required together".to_owned())
                 .help("their product is the mass of the membrane per area".to_owned()));
         }
     };
     let spar = args.spar.unwrap_or(0.0);
     Ok(match (membrane, args.mass) {
         (Some(membrane), weighed) => Some(Material { membrane, spar, weighed }),
-        // Weighed alone: uniform.
+        // Without other options, the mass is spread evenly.
         (None, Some(mass)) if args.spar.is_none() => {
             Some(Material { membrane: 1.0, spar, weighed: Some(mass) })
         }
         (None, None) if args.spar.is_none() => None,
         (None, _) => {
-            return Err(Failure::usage("--spar needs --thickness and --density of the membrane".to_owned()));
+            return Err(Failure::usage(
+                "--spar requires --thickness and --density of the membrane".to_owned(),
+            ));
         }
     })
 }

@@ -1,4 +1,4 @@
-//! The meaning of parameters, columns, settings and statuses.
+//! Prints the meaning of parameters, columns, settings and statuses.
 
 mod composed;
 mod entry;
@@ -17,10 +17,10 @@ use crate::models;
 use crate::print;
 use crate::table::wrapped;
 
-/// Columns of explanations for programs.
+/// Columns of explanations in csv and json.
 const NAMES: [&str; 4] = ["name", "kind", "models", "text"];
 
-/// Explains names, as names of all models or of the one that the command line chooses.
+/// Prints the meanings of names, for all models or for the model of `--model`.
 pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> {
     let models = match &args.model {
         None => models::all().to_vec(),
@@ -34,7 +34,7 @@ pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> 
             Err(failure) => failures.push(failure),
         }
     }
-    // An unknown name does not hide the meanings of the others.
+    // If one name is unknown, the meanings of the others are still printed.
     let rows: Vec<Vec<String>> = found.iter().flatten().map(Entry::row).collect();
     if !rows.is_empty() {
         print::table(args.format, &NAMES, &rows, || {
@@ -48,7 +48,7 @@ pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> 
     last.map_or(Ok(()), Err)
 }
 
-/// The meanings of a name: it may be a parameter of several models, and a column of others.
+/// Returns the meanings of a name, which may be a parameter of several models and a column of others.
 fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> Result<Vec<Entry>, Failure> {
     let mut found: Vec<Entry> = known.iter().filter(|entry| entry.name == name).cloned().collect();
     if found.is_empty() {
@@ -61,17 +61,17 @@ fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> R
         && meanings(name, &known::entries(models::all()), models::all()).is_ok()
     {
         let failure = Failure::usage(format!("the model {} has no `{name}`", models[0].name()));
-        return Err(failure.help(format!("other models have it: `flap models {name}`")));
+        return Err(failure.help(format!("other models have this name: `flap models {name}`")));
     }
     let failure =
         Failure::usage(format!("there is no model, preset, parameter, column, setting or status `{name}`"));
     let mut names: Vec<&str> =
         models::all().iter().map(|model| model.name()).chain(models::presets()).collect();
     names.extend(known.iter().filter(|entry| !entry.is_former).map(|entry| entry.name.as_str()));
-    Err(failure.nearest(name, names, "`flap models MODEL` lists parameters and columns"))
+    Err(failure.nearest(name, names, "`flap models MODEL` lists the parameters and columns of a model"))
 }
 
-/// The meanings of a name as text.
+/// Returns the meanings of a name as text.
 fn page(entries: &[Entry]) -> String {
     let mut page = String::new();
     for entry in entries {

@@ -19,7 +19,8 @@ pub(crate) fn run(args: &ModelsArgs) -> Result<Exit, Failure> {
         args.names.iter().map(String::as_str).partition(|name| parameters::is_listed(name));
     let tables = listed.len() + usize::from(!explained.is_empty());
     if args.format != OutputFormat::Table && tables > 1 {
-        let failure = Failure::usage("csv and json print one table: list one model, or explain names");
+        let failure =
+            Failure::usage("csv and json contain one table: list only one model, or only explain names");
         return Err(failure.help("run the command once for each model, preset or file"));
     }
     for (place, what) in listed.iter().enumerate() {

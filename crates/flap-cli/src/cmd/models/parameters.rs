@@ -1,4 +1,4 @@
-//! The parameters of a model, and the columns of its rows.
+//! Lists the parameters of a model and the columns of its rows.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -19,7 +19,7 @@ use crate::models;
 use crate::print;
 use crate::table::{Table, wrapped};
 
-/// True if the word names a model or a preset, or a device or grid file, whose parameters can be listed.
+/// Returns true if the word is a model, a preset, a device file or a grid file, whose parameters can be listed.
 pub(super) fn is_listed(what: &str) -> bool {
     let path = Path::new(what);
     models::preset(what).is_some()
@@ -36,7 +36,7 @@ pub(super) fn list(what: &str, args: &ModelsArgs) -> Result<(), Failure> {
     print::table(args.format, &NAMES, &rows, || head(&values.lines) + &listing(&entries, args.long))
 }
 
-/// The model of that name, or that of the preset of that name, with the preset.
+/// Returns the model called `name`; if `name` is a preset, its model and the preset.
 pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'static Preset>), Failure> {
     let preset = models::preset(name).map(|(model, preset)| (model, Some(preset)));
     let found = preset.or_else(|| models::by_name(name).map(|model| (model, None)));
@@ -47,24 +47,24 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
     })
 }
 
-/// A model with the values of its parameters, if a preset or a device has some.
+/// A model with the values of its parameters, if a preset or a file gives values.
 struct Values {
     robot: Robot,
     /// The first lines of the page.
     lines: [String; 2],
-    /// In SI units, NaN for a parameter that is not set; none of a model.
+    /// Values in SI units, NaN for a parameter that is not set; none for a model.
     numbers: Option<Vec<f64>>,
     /// Indices of parameters with their standard errors.
     errors: Vec<(usize, f64)>,
 }
 
 impl Values {
-    /// Of a model, a preset, a device or a grid file: of the first point of that.
+    /// Returns the values of a model, a preset, a device file or the first point of a grid file.
     fn of(what: &str) -> Result<Values, Failure> {
         if models::preset(what).is_none() && models::by_name(what).is_none() {
             let plan = point::plan(what)?;
             let robot = plan.robot().clone();
-            let lines = [format!("{what}: begins with {}", plan.preset()), of_model(&*robot)];
+            let lines = [format!("{what}: based on {}", plan.preset()), of_model(&*robot)];
             let errors = plan.uncertainty().errors().to_vec();
             return Ok(Values { robot, lines, numbers: Some(plan.point(0).values), errors });
         }
@@ -83,12 +83,12 @@ impl Values {
         })
     }
 
-    /// True if this is the value of a parameter in a preset of the model.
+    /// Returns true if this is the value of a parameter in a preset of the model.
     fn is_published(&self, parameter: usize, value: f64) -> bool {
         self.robot.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
     }
 
-    /// The standard error of a parameter.
+    /// Returns the standard error of a parameter.
     fn error(&self, parameter: usize) -> Option<f64> {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
     }
@@ -98,36 +98,36 @@ fn of_model(model: &dyn Simulator) -> String {
     format!("model {}: {}", model.name(), model.doc())
 }
 
-/// The first lines.
+/// Returns the first lines of the page.
 fn head(lines: &[String; 2]) -> String {
     lines.iter().map(|line| wrapped(line, 0) + "\n").collect::<String>() + "\n"
 }
 
-/// A parameter, or a column of rows.
+/// A parameter or a column of rows.
 struct Entry {
     /// Parameter, or the kind of column.
     kind: &'static str,
-    /// The title above it and its like.
+    /// Title of the group.
     group: String,
     name: String,
-    /// The value in the preset or device, in SI units; empty without one.
+    /// Value in the preset or file, in SI units; empty without one.
     value: String,
-    /// The same with a prefix, the unit and the standard error; or the unit, without a preset.
+    /// Value with a prefix, the unit and the standard error; without a value, the unit.
     shown: String,
     unit: &'static str,
     symbol: &'static str,
     allowed: String,
     meaning: String,
-    /// More about a parameter, in sentences.
+    /// Further sentences about a parameter.
     more: String,
-    /// True if the value is a published one that was fitted to one vehicle.
+    /// True if the value was fitted to one vehicle.
     is_fit: bool,
 }
 
 const NAMES: [&str; 8] = ["kind", "group", "name", "value", "unit", "symbol", "allowed", "meaning"];
 
 impl Entry {
-    /// The cells below [`NAMES`].
+    /// Returns the cells in the columns [`NAMES`].
     fn row(&self) -> Vec<String> {
         let Entry { kind, group, name, value, unit, symbol, allowed, meaning, .. } = self;
         [kind, group.as_str(), name.as_str(), value, unit, symbol, allowed, meaning].map(str::to_owned).into()
@@ -163,7 +163,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
     of.robot.parameters().iter().enumerate().map(entry).collect()
 }
 
-/// A value with a prefix and its unit, or the name of an option.
+/// Returns a value with a prefix and its unit, or the name of an option.
 pub(super) fn shown(parameter: &Parameter, value: f64) -> String {
     match parameter.kind {
         Kind::Choice(_) => text::value(parameter, value),
@@ -171,7 +171,7 @@ pub(super) fn shown(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Symbol, allowed values and history of a parameter.
+/// Returns symbol, allowed values and former name of a parameter.
 fn more(parameter: &Parameter) -> String {
     let mut text = String::new();
     if !parameter.symbol.is_empty() {
@@ -182,12 +182,12 @@ fn more(parameter: &Parameter) -> String {
         let _ = write!(text, ". Former name: {}", parameter.former);
     }
     if parameter.is_fitted {
-        text += ". The published value is a fit to one vehicle";
+        text += ". The published value was fitted to one vehicle";
     }
     text
 }
 
-/// The allowed values, in words.
+/// Returns the allowed values as text.
 pub(super) fn allowed(parameter: &Parameter) -> String {
     match parameter.kind {
         Kind::Number(range) => range.describe(),
@@ -196,7 +196,7 @@ pub(super) fn allowed(parameter: &Parameter) -> String {
     }
 }
 
-/// The columns of rows: measures, those of designs at their resonance, and those that do not depend on the model.
+/// Returns the columns of rows: measures, columns of designs at their resonance, and columns of every model.
 fn columns(model: &dyn Simulator) -> Vec<Entry> {
     let entry = |kind, group: &str, name: String, unit: &'static str, meaning: String| Entry {
         kind,
@@ -226,11 +226,11 @@ fn columns(model: &dyn Simulator) -> Vec<Entry> {
     measures.chain(run).collect()
 }
 
-/// Behind a value that was fitted to one vehicle, and the line below the parameters.
+/// Mark after a value that was fitted to one vehicle, and the line below the parameters.
 const FIT: &str = " *";
-const FITS: &str = "* A fit to one vehicle: measure or fit it for another.";
+const FITS: &str = "* This value was fitted to one vehicle. Measure or fit it for other vehicles.";
 
-/// Parameters, then columns, below the titles of their groups, in lines that fit the terminal.
+/// Returns the parameters and then the columns, each below the title of its group, in lines that fit the terminal.
 fn listing(entries: &[Entry], long: bool) -> String {
     let is_parameter = |entry: &&Entry| entry.kind == "parameter";
     let has_values = entries.iter().any(|entry| !entry.value.is_empty());
@@ -256,14 +256,14 @@ fn page<'e>(first: &str, second: &str, entries: impl Iterator<Item = &'e Entry>,
         } else {
             first_sentence(&entry.meaning).to_owned()
         };
-        // A long meaning says so.
+        // With --long, the meaning includes this note.
         let mark = if entry.is_fit && !long { FIT } else { "" };
         table.row([entry.name.clone(), format!("{}{mark}", entry.shown), meaning]);
     }
     table.text_within(console::width())
 }
 
-/// The text up to the end of its first sentence: a full stop before a capital letter.
+/// Returns the text up to the end of its first sentence: a full stop before a capital letter.
 fn first_sentence(text: &str) -> &str {
     let ends = text.match_indices(". ").map(|(end, _)| end);
     let mut ends = ends.filter(|end| text[end + 2..].starts_with(char::is_uppercase));

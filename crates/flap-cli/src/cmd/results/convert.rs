@@ -1,4 +1,4 @@
-//! `flap results convert`: results in another format.
+//! `flap results convert`: writes results in another format.
 
 use std::io::ErrorKind;
 
@@ -48,7 +48,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
 /// Records the written rows in the sidecar.
 fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
     if is_damaged {
-        // Damaged rows stay damaged in another format: their checksums are those of the rows that were computed.
+        // Damaged rows remain damaged in another format: the checksums are for the rows that were computed.
         sidecar.checksums = sidecar.checksums.take().map(|computed| Checksums { file: None, ..computed });
         return;
     }

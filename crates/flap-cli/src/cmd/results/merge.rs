@@ -1,4 +1,4 @@
-//! `flap results merge`: the shards of a sweep joined into one file.
+//! `flap results merge`: joins the shards of a sweep into one file.
 
 use std::path::Path;
 
@@ -29,12 +29,12 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts, if args.mixed_builds { OnBuilds::Mix } else { OnBuilds::Refuse })?;
     let (Some(first), Some(mut whole)) = (parts.first(), merge::sidecar(&parts)) else {
-        return Err(Failure::usage("name the shards to be merged"));
+        return Err(Failure::usage("give the shards to merge"));
     };
     let plan = job::plan_of(&sidecar_of(&first.path), &first.sidecar)?.with_all_points();
     let Identity { flap, build, .. } = &whole.identity;
     if build != identity::build() {
-        console::say(&format!("the rows are by build {build} of flap {flap}, as their sidecar says"));
+        console::say(&format!("the sidecar records build {build} of flap {flap} for these rows"));
     }
 
     Inputs::new().add_plan(&plan).protect_from_results(&args.out)?;
@@ -54,7 +54,7 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let rows = whole.rows().unwrap_or_default();
     job::make(&args.out, args.overwrite.force, |target| {
         let checksums = merge::merge(&parts, &mut readers, &plan, &whole, (target, format))?;
-        // Rows that were damaged before are not to be called sound.
+        // Rows that were damaged before must not count as sound.
         whole.checksums = Some(checksums).filter(|_| !is_damaged);
         Ok::<_, MergeError>(Some(whole))
     })??;

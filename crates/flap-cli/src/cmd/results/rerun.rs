@@ -1,4 +1,4 @@
-//! `flap results rerun`: points of earlier results, run again with other solver settings.
+//! `flap results rerun`: runs points of earlier results again with other solver settings.
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, RerunError, Wanted};
@@ -21,7 +21,7 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     }
     let unreadable = |error: RerunError| match error {
         RerunError::NoEstimate => Failure::usage(format!("{of}: {error}"))
-            .help("name it there and sweep again, or choose points with --status"),
+            .help("add the column there and sweep again, or choose points with --status"),
         _ => Failure::System(format!("cannot read {of}: {error}"), Vec::new()),
     };
     let rows = sidecar.rows();

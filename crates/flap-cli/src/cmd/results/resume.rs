@@ -1,4 +1,4 @@
-//! `flap results resume`: an interrupted sweep, from its results alone.
+//! `flap results resume`: continues an interrupted sweep from its results and their sidecar.
 
 use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::files::results::Format;

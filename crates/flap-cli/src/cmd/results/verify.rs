@@ -1,8 +1,10 @@
-//! `flap results verify`: results compared with their recorded checksums.
+//! `flap results verify`: compares results with their recorded checksums.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use flap_sweep::files::integrity::{self, Integrity};
+use flap_sweep::input::InputError;
 use flap_sweep::notation::text::count;
 
 use crate::args::{OutputFormat, VerifyArgs};
@@ -10,7 +12,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
 
-/// Columns of the table for programs.
+/// Columns of the output in csv and json.
 const NAMES: [&str; 3] = ["file", "verdict", "detail"];
 
 pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
@@ -20,7 +22,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
         let (verdict, detail, exit) = verdict(results);
         let file = results.display().to_string();
         if args.format == OutputFormat::Table {
-            // Large files take a while: each line appears as soon as it is known.
+            // Large files take time, so each line is printed at once.
             console::results(&format!("{file}: {verdict}: {detail}\n"))?;
         }
         rows.push(vec![file, verdict.to_owned(), detail]);
@@ -32,7 +34,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// The verdict on a file in a word, its detail, and its exit code.
+/// Returns the verdict on a file in a word, its detail, and the exit code.
 fn verdict(results: &Path) -> (&'static str, String, Exit) {
     match integrity::verify(results) {
         Ok(Integrity::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),
@@ -45,6 +47,9 @@ fn verdict(results: &Path) -> (&'static str, String, Exit) {
         Ok(Integrity::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
         Ok(Integrity::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
         Err(error @ integrity::OpenError::Format(_)) => ("unreadable", error.to_string(), Exit::Usage),
+        Err(integrity::OpenError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => {
+            ("unreadable", InputError::Missing.to_string(), Exit::System)
+        }
         Err(error) => ("unreadable", error.to_string(), Exit::System),
     }
 }

@@ -1,4 +1,4 @@
-//! `flap test chirp`: the motion as the drive frequency changes.
+//! `flap test chirp`: the motion while the drive frequency changes.
 
 use std::io;
 

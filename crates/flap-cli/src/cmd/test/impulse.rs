@@ -54,10 +54,10 @@ pub(super) fn run(args: &ImpulseArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Columns of the summary.
+/// Columns of the summary in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// The impulse, the first mode, and the peaks of the motion, below [`NAMES`].
+/// Returns the impulse, the first mode and the peaks of the motion, in the columns [`NAMES`].
 fn summary(
     (amplitude, stroke_rate): (f64, f64),
     first: &Mode,
@@ -68,7 +68,7 @@ fn summary(
     let row = |column: &str, value: f64, unit: &str, meaning: &str| {
         vec![column.to_owned(), number(value), unit.to_owned(), meaning.to_owned()]
     };
-    let impulse = "amplitude of the first mode alone, without damping";
+    let impulse = "amplitude that the first mode alone would reach without damping";
     let mut rows = vec![
         row("impulse_deg", amplitude.to_degrees(), "deg", impulse),
         row(&format!("{}_hz", first.name), first.frequency, "Hz", "natural frequency of the first mode"),
@@ -79,7 +79,7 @@ fn summary(
         if let Some(index) = motion.columns.iter().position(|other| *other == column) {
             let largest = motion.rows.iter().fold(0.0_f64, |largest, row| largest.max(row[index].abs()));
             let peak = column.replacen(name, &format!("{name}_peak"), 1);
-            rows.push(row(&peak, largest, unit, &format!("largest magnitude of the {name} sampled")));
+            rows.push(row(&peak, largest, unit, &format!("largest magnitude of the {name} in the samples")));
         }
     }
     rows

@@ -48,7 +48,7 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The failure of a motion without pitch. Models whose stroke can be prescribed compute the pitch.
+/// Returns the failure for a motion without pitch. If the model can prescribe its stroke, the help names the command.
 fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     let computes = |what: &str| {
         let motion = shell_word(&args.motion.to_string_lossy());
@@ -64,14 +64,14 @@ fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     })
 }
 
-/// Columns of the summary.
+/// Columns of the summary in csv and json.
 const NAMES: [&str; 4] = ["column", "mean", "min", "max"];
 
-/// Mean, least and largest of every column but the time, below [`NAMES`].
+/// Returns mean, minimum and maximum of every column except the time, in the columns [`NAMES`].
 fn summary(forces: &Trajectory, number: fn(f64) -> String) -> Vec<Vec<String>> {
     let of_column = |(i, column): (usize, &String)| {
         let values: Vec<f64> = forces.rows.iter().map(|row| row[i]).collect();
-        // Equally spaced: the ends count half.
+        // The samples are equally spaced, and the ends have half the weight.
         let ends = 0.5 * (values[0] + values[values.len() - 1]);
         let mean = (values.iter().sum::<f64>() - ends) / (values.len() - 1) as f64;
         let min = values.iter().copied().fold(f64::INFINITY, f64::min);

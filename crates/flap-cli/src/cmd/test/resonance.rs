@@ -1,4 +1,4 @@
-//! `flap test resonance`: the resonances of one point, by every way of looking for them.
+//! `flap test resonance`: the resonances of one point, found by several methods.
 
 use flap_experiments::free::{self, FreeMotion, FreeRequest};
 use flap_experiments::spectrum::SpectrumPeak;
@@ -15,10 +15,10 @@ use crate::table::{Table, six_digits};
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// A fit that leaves more than this over is commented on.
+/// If the residual of the damped sine exceeds this share, a note is printed.
 const POOR_FIT: f64 = 0.1;
 
-/// A second peak at least this high, relative to the highest, is commented on.
+/// If the second peak is at least this high relative to the highest, a note is printed.
 const RIVAL: f64 = 0.95;
 
 pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
@@ -55,7 +55,7 @@ pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// One frequency. What does not apply is NaN.
+/// One resonance. Numbers that do not apply are NaN.
 struct Line {
     name: String,
     frequency: f64,
@@ -152,12 +152,12 @@ fn driven_lines(driven: &DrivenPeaks) -> Vec<Line> {
 fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {
     match &free.fit {
         None => console::say(&format!(
-            "no damped sine fits: the stroke hardly swings in {} periods of the first mode after the impulse",
+            "no damped sine fits: the stroke hardly oscillates in {} periods of the first mode after the impulse",
             args.window_cycles
         )),
         Some(fit) if fit.relative_rms > POOR_FIT => console::say(&format!(
-            "the damped sine leaves {} % of the stroke over (root mean square): there is more than one frequency in \
-             it, or its decay changes",
+            "the damped sine has a residual of {} % of the stroke (root mean square): the motion has more than one \
+             frequency, or its decay rate changes",
             (100.0 * fit.relative_rms).round()
         )),
         Some(_) => {}
@@ -167,7 +167,7 @@ fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {
 fn comment_on_driven(driven: &DrivenPeaks) {
     if let Some(frequency) = driven.larger_at {
         console::say(&format!(
-            "the settled stroke is larger at the end of the range, {} Hz, than at any peak within: search further \
+            "the settled stroke is larger at the end of the range, {} Hz, than at any peak in it: widen the range \
              with --from and --to",
             six_digits(frequency)
         ));
@@ -188,7 +188,7 @@ fn comment_on_driven(driven: &DrivenPeaks) {
     if unsettled > 0 {
         let gaps: Vec<String> = driven.gaps.iter().map(describe).collect();
         console::say(&format!(
-            "{unsettled} of {} drive frequencies did not become periodic, and a peak may hide there: {}",
+            "{unsettled} of {} drive frequencies have no periodic motion, so that a peak may be missed there: {}",
             driven.points,
             gaps.join(", ")
         ));

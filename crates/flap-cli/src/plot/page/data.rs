@@ -1,4 +1,4 @@
-//! The data of a page: its rows and its first view, as JSON for the script.
+//! The data of a page as JSON: its rows and its first view.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::data::columns::{Cells, NO_WORD, Table};
 
-/// Most rows of a page with all digits of their measures; larger pages have seven digits.
+/// Largest number of rows of a page that has all digits of the measures; larger pages have seven digits.
 const MOST_EXACT: usize = 20_000;
 
 /// The data of a page.
@@ -18,7 +18,7 @@ pub(super) struct Data<'a> {
     rows: usize,
     /// Rows of the file.
     of: usize,
-    /// The distance of the page's rows in the file.
+    /// The distance between the page's rows in the file.
     stride: usize,
     /// True if numbers have single precision.
     single: bool,
@@ -66,9 +66,9 @@ pub(super) enum Value {
 #[derive(Serialize)]
 struct Column<'a> {
     name: &'a str,
-    /// The name in words.
+    /// The name as text.
     label: String,
-    /// The name in words with the unit.
+    /// The name as text with the unit.
     title: String,
     unit: String,
     factor: f64,
@@ -77,16 +77,16 @@ struct Column<'a> {
     kind: &'static str,
     /// One number per row, little-endian, in base64.
     data: String,
-    /// The words for which numbers from 0 stand; the number behind the last stands for an empty cell.
+    /// The words for the codes 0, 1, …; the code after the last word stands for an empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     words: Option<&'a [String]>,
-    /// The values for which numbers from 0 stand; none for an empty cell.
+    /// The values for the codes 0, 1, …; no value stands for an empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<Vec<f64>>,
 }
 
 impl<'a> Data<'a> {
-    /// The data of all rows of `table`.
+    /// Returns the data of all rows of `table`.
     pub(super) fn new(
         table: &'a Table,
         axes: &'a [usize],
@@ -106,7 +106,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// The data as JSON.
+    /// Returns the data as JSON.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string(self)
     }
@@ -152,7 +152,7 @@ impl<'a> Column<'a> {
     }
 }
 
-/// The type and the bytes of codes below `count`.
+/// Returns the type and the bytes of codes below `count`.
 fn coded(codes: &[usize], count: usize) -> (&'static str, Vec<u8>) {
     let (kind, width) = match count {
         0..=0x100 => ("u8", 1),
@@ -162,7 +162,7 @@ fn coded(codes: &[usize], count: usize) -> (&'static str, Vec<u8>) {
     (kind, codes.iter().flat_map(|code| code.to_le_bytes().into_iter().take(width)).collect())
 }
 
-/// The code of each value and the list of different values; none if there are many.
+/// Returns the code of each value and the list of different values; `None` if there are many different values.
 fn distinct(values: &[f64]) -> Option<(Vec<usize>, Vec<f64>)> {
     let most = (values.len() / 4).min(1 << 16);
     let mut places = HashMap::new();

@@ -3,9 +3,9 @@
 `fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. The other classes are parts of its result.
 
 - `_data`: readings in the units of the model, with their standard errors
-- `_parameters`: free parameters, and the coordinates in which they are looked for
+- `_parameters`: free parameters, and the coordinates of the search
 - `_model`: readings of the model at many sets of parameters, in batches; branches of hysteresis
-- `_search`: least squares from several starts, side by side
+- `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
 - `_solution`, `_result`: the estimates and the quality of the fit; its predictions
 - `_report`, `_device`: the result as text, and as a device

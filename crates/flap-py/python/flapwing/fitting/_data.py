@@ -1,4 +1,4 @@
-"""Data of a fit: readings of measures at operating points, in the units of the model, with their standard errors."""
+"""The data of a fit: readings of measures at operating points, in the model's units, with standard errors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .._flapwing import Grid
 from .._mistakes import raised, reading
 from .._types import Array, Design, Mask, Value
 
-#: Columns of flap's own tables that are neither.
+#: Columns of flap's tables that are neither parameters nor measures.
 _COURSE = {
     "bistable",
     "branch",
@@ -35,7 +35,7 @@ _COURSE = {
     "status",
 }
 
-#: Short names that other tables of flap use.
+#: Short names in other tables of flap.
 _SHORT = {"frequency": "drive_frequency"}
 
 _IN_BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*(.*?)\s*[)\]]\s*")
@@ -56,7 +56,7 @@ class Meaning:
 
 
 def _hint(name: str, known: list[str]) -> str:
-    """The nearest of the known names, for messages; empty if none is near."""
+    """Return the nearest known name as part of a message; empty if none is near."""
     near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
     return f", did you mean `{near[0]}`?" if near else ""
 
@@ -68,8 +68,8 @@ class Names:
         self.grid = Grid(design)
         if len(self.grid) != 1:
             raise ValueError(
-                f"the design has {len(self.grid)} points, and a fit is about one\n"
-                "leave out its axes: data give the points"
+                f"the design has {len(self.grid)} points, but a fit takes one\n"
+                "leave out its axes: the data contain the points"
             )
         self.model = self.grid.model
         self.states = _flapwing.states(self.model)
@@ -80,7 +80,7 @@ class Names:
         self.measures = {measure["name"]: measure["unit"] for measure in _flapwing.measures(self.model)}
 
     def is_measure(self, name: str) -> bool:
-        """True for a measure of the model, or of the design's ``[measure]``."""
+        """Return True for a measure of the model or of the design's ``[measure]``."""
         if name in self.measures:
             return True
         try:
@@ -91,17 +91,15 @@ class Names:
         return True
 
     def parameter(self, name: str) -> str:
-        """The name of a parameter, which may be given by its former name; a ValueError with the nearest name for
-        another.
-        """
+        """Return the name of a parameter, also for its former name. Raise ValueError for an unknown name."""
         return name if name in self.parameters else _flapwing.parameter(self.model, name)
 
     def unit(self, name: str) -> str:
-        """The unit of a parameter or a measure."""
+        """Return the unit of a parameter or a measure."""
         return self.parameters[name] if name in self.parameters else self.measures[name]
 
     def meaning(self, place: str, header: str) -> Meaning:
-        """The meaning of a column; a ValueError for a name that is neither a parameter nor a measure."""
+        """Return the meaning of a column; raise ValueError for a name that is neither a parameter nor a measure."""
         match = _IN_BRACKETS.fullmatch(header)
         name, unit = (match[1], match[2]) if match else (header, None)
         name = name.strip().replace(" ", "_")
@@ -125,7 +123,7 @@ class Names:
         return found
 
     def check_measure(self, name: str) -> None:
-        """A ValueError with the nearest name for what is no measure."""
+        """Raise ValueError with the nearest name if `name` is not a measure."""
         if not self.is_measure(name):
             raise ValueError(
                 f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"
@@ -178,12 +176,12 @@ class Noise:
     size: Array | float = 1.0
 
     def of(self, values: Array, measured: Array, guess: float) -> Array:
-        """Standard errors where the model has these values; `guess` stands for those that are not known."""
+        """Return standard errors for these values of the model; `guess` replaces unknown standard errors."""
         if self.kind == "unknown":
             return np.full(len(measured), guess)
         if self.kind == "absolute":
             return np.broadcast_to(self.size, len(measured)).astype(np.float64)
-        # A share of a value near zero is too small: an error is at least a hundredth of the error of the largest value.
+        # A share of a value near zero is too small, so an error is at least a hundredth of the largest value's error.
         size = np.where(np.isfinite(values), np.abs(values), np.abs(measured))
         return np.asarray(self.size * np.maximum(size, 0.01 * np.abs(measured).max()))
 
@@ -192,10 +190,10 @@ UNKNOWN_NOISE = Noise("unknown")
 
 
 def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
-    """The standard error of a measure from a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
+    """Parse the standard error of a measure: a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
     wanted = (
         f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"; '
-        f"errors of single readings are a column {measure}_sigma"
+        f"for errors of single readings, add a column {measure}_sigma"
     )
     relative = isinstance(given, str) and given.strip().endswith("%")
     if isinstance(given, str) and not relative:
@@ -210,16 +208,16 @@ def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
         except TypeError:
             raise TypeError(f"`{name}` is {type(given).__name__}\n{wanted}") from None
     if not (size > 0 and np.isfinite(size)):
-        raise ValueError(f"`{name}` is {given!r} for {measure}\nstandard errors are more than zero and finite")
+        raise ValueError(f"`{name}` is {given!r} for {measure}\nstandard errors must be finite and more than zero")
     return Noise("relative" if relative else "absolute", size)
 
 
-#: Other marks between columns, with their names.
+#: Other separators of columns, with their names.
 _OTHERS = {";": "semicolons", "\t": "tabs"}
 
 
 def _file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
-    """The columns of a CSV file, cells as text; lines that begin with # are comments."""
+    """Return the columns of a CSV file with cells as text; lines that begin with # are comments."""
     name = os.fspath(path)
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
@@ -229,7 +227,7 @@ def _file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
             f"there is no file {name}\ngive the path of a CSV file, a dictionary of columns, or a DataFrame"
         ) from None
     except UnicodeDecodeError:
-        raise ValueError(f"{name} is no text in UTF-8\nsave it as CSV in UTF-8") from None
+        raise ValueError(f"{name} is not UTF-8 text\nsave it as CSV in UTF-8") from None
     if not lines:
         raise ValueError(f"{name} is empty\nits first line has the names of the columns")
     headers = [header.strip() for header in lines[0]]
@@ -251,9 +249,9 @@ def _file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
 
 
 #: The help for a cell without a number.
-_MISSING = "remove the row, or put the other measures into a data set of their own"
+_MISSING = "remove the row, or put the other measures into a separate data set"
 
-#: The help for a value outside of its parameter's range.
+#: The help for a value outside its parameter's range.
 _IMPOSSIBLE = "correct the cell, or remove the row"
 
 #: The beginning of a number.
@@ -261,7 +259,7 @@ _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 
 
 def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """A column of a parameter in SI units; of options, as they are. Each value is in the parameter's range."""
+    """Return a column of a parameter: numbers in SI units, or options. Raise ValueError for values out of range."""
 
     def value(cell: Any) -> float:
         try:
@@ -286,19 +284,19 @@ def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cel
 
 
 def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:
-    """A column of a measure, in the measure's unit."""
+    """Return a column of a measure, in the measure's unit."""
     unit = names.unit(meaning.name)
 
     def read(cell: str) -> float:
         if "%" in cell and unit:
-            raise ValueError(f"`{meaning.name}` is in {unit}, and `{cell}` is a share\nwrite readings in {unit}")
+            raise ValueError(f"`{meaning.name}` is in {unit}, but `{cell}` is a share\nwrite readings in {unit}")
         return _flapwing.quantity(meaning.name, cell, unit)
 
     return _numbers(place, header, meaning, cells, read)
 
 
 def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Noise:
-    """A column of the standard errors of a measure: in its unit, or all of them in per cent of the model's value."""
+    """Return a column of standard errors: all in the measure's unit, or all in per cent of the model's value."""
     shares = [isinstance(cell, str) and cell.strip().endswith("%") for cell in cells]
     if all(shares) and not meaning.is_share:
         meaning = Meaning(meaning.kind, meaning.name, 0.01, True)
@@ -308,7 +306,7 @@ def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: 
         row = int(np.argmin(found > 0)) + 1
         raise ValueError(
             f"{place}, standard error of `{meaning.name}`, row {row}: it must be more than zero\n"
-            "leave the column out where errors are not known: then they are estimated"
+            "if errors are unknown, leave the column out: then they are estimated"
         )
     return Noise("relative" if meaning.is_share else "absolute", found)
 
@@ -320,9 +318,9 @@ def _numbers(place: str, header: str, meaning: Meaning, cells: list[Any], read: 
         if not isinstance(cell, str) or _is_number(cell):
             found.append(meaning.factor * _number(told, cell))
         elif not cell.strip():
-            raise ValueError(f"{told}: the cell is empty, and a reading needs a number\n{_MISSING}")
+            raise ValueError(f"{told}: the cell is empty, but a reading needs a number\n{_MISSING}")
         elif not _NUMBER.match(cell):
-            raise ValueError(f"{told}: {cell!r} is no number\nwrite a number, or text with a unit; or {_MISSING}")
+            raise ValueError(f"{told}: {cell!r} is not a number\nwrite a number, or text with a unit; or {_MISSING}")
         else:
             try:
                 found.append(read(cell))
@@ -341,22 +339,22 @@ def _is_number(text: str) -> bool:
 
 def _number(told: str, cell: Any) -> float:
     if isinstance(cell, (bool, np.bool_)) or cell is None:
-        raise ValueError(f"{told} is {cell}, which is no number\n{_MISSING}")
+        raise ValueError(f"{told} is {cell}, which is not a number\n{_MISSING}")
     try:
         number = float(cell)
     except OverflowError:
         raise ValueError(f"{told} is too large for a 64-bit float\nwrite a number, or text with a unit") from None
     except (TypeError, ValueError):
-        raise ValueError(f"{told} is {cell!r}, which is no number\nwrite a number, or text with a unit") from None
+        raise ValueError(f"{told} is {cell!r}, which is not a number\nwrite a number, or text with a unit") from None
     except Exception as error:
         found = f"{type(cell).__name__}, which raised {raised(error)}"
         raise TypeError(f"{told} is {found}\nwrite a number, or text with a unit") from error
     if not np.isfinite(number):
-        raise ValueError(f"{told} is {number}, and readings are finite numbers\n{_MISSING}")
+        raise ValueError(f"{told} is {number}, but readings must be finite numbers\n{_MISSING}")
     return number
 
 
-#: The forms that data may have, for messages.
+#: The allowed forms of data, for messages.
 _ALLOWED = f"{_arguments.COLUMNS}, the path of a CSV file, or flapwing.Readings"
 
 
@@ -366,20 +364,21 @@ class Readings:
     Parameters
     ----------
     columns : dict, Table, DataFrame or path
-        Columns of the operating points and of measures, or a CSV file of them. A column has the name of a parameter or
-        a measure; its unit is SI or the unit of the measure, another one in the name (``drive_frequency_khz``,
-        ``hinge_stiffness (uN*m/rad)``), or one in each cell (``"0.12 kHz"``). ``frequency_hz`` stands for
-        ``drive_frequency``. A column with ``_sigma`` behind the name of a measure has its standard errors, in the
-        measure's unit or as ``"3 %"``.
+        Columns of operating points and measures, or a CSV file with such columns. The name of a column is the name of a
+        parameter or a measure. Parameters are in SI units and measures in their own unit, unless the name has another
+        unit (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell has one (``"0.12 kHz"``).
+        ``frequency_hz`` means ``drive_frequency``. A measure's name with the suffix ``_sigma`` is a column of standard
+        errors, in the measure's unit or as ``"3 %"``.
     name : str, optional
         The name in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional
-        The standard error of a reading: a number in the measure's unit, ``"1 deg"`` or ``"3 %"`` of the model's value;
-        or such by measure. Without one it is estimated from the residuals.
+        The standard error of a reading: a number in the measure's unit, text such as ``"1 deg"``, or ``"3 %"`` of the
+        model's value. A dictionary gives it by measure. Default: it is estimated from the residuals.
     branch : {"up", "down"}, optional
-        The way on which the readings were taken where the design has hysteresis: as `parameter` rises or as it falls.
+        For a design with hysteresis, the branch of the readings: ``"up"`` if `parameter` rose during the experiment,
+        ``"down"`` if it fell.
     parameter : str, optional
-        The parameter that was moved. Default ``"drive_frequency"``.
+        The parameter that was changed along the branch. Default ``"drive_frequency"``.
     **params : float or str
         Parameters of all operating points, such as ``drive_voltage_pp="160 V"``.
 
@@ -403,7 +402,7 @@ class Readings:
     ) -> None:
         if branch not in (None, "up", "down"):
             raise ValueError(
-                f'`branch` is {branch!r}\nit must be "up" or "down": the way on which the readings were taken'
+                f'`branch` is {branch!r}\nit must be "up" or "down", the direction in which the parameter was changed'
             )
         if isinstance(columns, (str, os.PathLike)):
             self.name = name or Path(columns).name
@@ -434,7 +433,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class DataSet:
-    """Readings in the units of the model: a row per operating point."""
+    """Readings in the model's units, with one row per operating point."""
 
     name: str
     #: Parameters of the operating points: numbers in SI units, or options.
@@ -443,7 +442,7 @@ class DataSet:
     measured: dict[str, Array]
     noise: dict[str, Noise]
     branch: str | None
-    #: The parameter that was moved along the branch.
+    #: The parameter that was changed along the branch.
     parameter: str
 
     def __len__(self) -> int:
@@ -454,7 +453,7 @@ _READERS = {"parameter": parameter_cells, "measure": measure_cells, "sigma": sig
 
 
 def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
-    """The data sets of a call."""
+    """Return the data sets of a call."""
     listed = list(data) if isinstance(data, (list, tuple)) else [data]
     if not listed:
         raise ValueError("there are no data\ngive columns of readings, or a list of data sets")
@@ -463,7 +462,7 @@ def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
         readings = one if isinstance(one, Readings) else Readings(one)
         sets.append(_resolved(readings, readings.name or f"set {number + 1}", names, sigma))
     if len({one.name for one in sets}) < len(sets):
-        raise ValueError(f"data sets share a name: {', '.join(one.name for one in sets)}\ngive each one of its own")
+        raise ValueError(f"data sets share a name: {', '.join(one.name for one in sets)}\ngive each its own name")
     _check_sigma("`sigma`", sigma, list(dict.fromkeys(measure for one in sets for measure in one.measured)))
     return sets
 
@@ -495,7 +494,7 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
     for measure, values in measured.items():
         if np.ptp(values) == 0.0 and (rows >= 2 or values[0] == 0.0):
             raise ValueError(
-                f"{name}: all {rows} readings of `{measure}` are {values[0]:g}, and tell nothing about parameters\n"
+                f"{name}: all {rows} readings of `{measure}` are {values[0]:g}, so they contain no information\n"
                 "remove the column, or check where it comes from"
             )
     _check_branch(name, readings, points)
@@ -507,8 +506,8 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
 def _check_branch(name: str, readings: Readings, points: Mapping[str, Any]) -> None:
     if readings.branch is not None and not isinstance(points.get(readings.parameter), np.ndarray):
         raise ValueError(
-            f"{name} is on the way {readings.branch} along `{readings.parameter}`, and has no column of it\n"
-            "add the column, or give parameter= the parameter that was moved"
+            f"{name} is on the branch {readings.branch} along `{readings.parameter}`, but has no column of it\n"
+            "add the column, or give the changed parameter as parameter="
         )
 
 
@@ -516,7 +515,7 @@ def _check_sigma(place: str, given: Any, measured: list[str]) -> None:
     for measure in given if isinstance(given, Mapping) else ():
         if measure not in measured:
             raise ValueError(
-                f"{place} names `{measure}`, of which there are no readings\nchoose among {', '.join(measured)}"
+                f"{place} has `{measure}`, but there are no readings of it\nchoose among {', '.join(measured)}"
             )
 
 
@@ -546,7 +545,7 @@ _HOLD_OUT = (
 
 
 def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
-    """A mask of the readings that are held out."""
+    """Return a mask of the readings that are held out."""
     if hold_out is None:
         return np.zeros(count, np.bool_)
     if isinstance(hold_out, Mapping):
@@ -564,7 +563,7 @@ def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, nam
         known = [one.name for one in sets]
         for name in named:
             if name not in known:
-                raise ValueError(f"`hold_out` names {name!r}, and the data sets are {', '.join(known)}\n{_HOLD_OUT}")
+                raise ValueError(f"`hold_out` has {name!r}, but the data sets are {', '.join(known)}\n{_HOLD_OUT}")
         held = np.concatenate([np.full(len(one) * len(one.measured), one.name in named) for one in sets])
     if not held.any() or held.all():
         raise ValueError(f"`hold_out` holds {'all' if held.all() else 'none'} of the {count} readings out\n{_HOLD_OUT}")
@@ -579,23 +578,21 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names)
         for name, (low, high) in ends.items():
             values = one.points.get(name)
             if not isinstance(values, np.ndarray):
-                raise ValueError(
-                    f"`hold_out` names `{name}`, and {one.name} has no such column of numbers\n{_HOLD_OUT}"
-                )
+                raise ValueError(f"`hold_out` has `{name}`, but {one.name} has no such column of numbers\n{_HOLD_OUT}")
             inside &= (values >= low) & (values <= high)
         parts += [inside] * len(one.measured)
     return np.concatenate(parts)
 
 
 def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
-    """The ends of a range in SI units."""
+    """Return the ends of a range in SI units."""
     place = f"hold_out[{name!r}]"
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(
             f"{place} is {type(given).__name__}\nit must be a range (from, to) in SI units, or text with a unit"
         )
     if name not in names.parameters or name in names.options:
-        raise ValueError(f"`hold_out` names `{name}`, which is no parameter with a range\n{_HOLD_OUT}")
+        raise ValueError(f"`hold_out` has `{name}`, which is not a parameter with a range\n{_HOLD_OUT}")
     try:
         low, high = (_flapwing.value(names.model, name, end) for end in given)
     except (TypeError, ValueError) as error:

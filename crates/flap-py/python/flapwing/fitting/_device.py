@@ -1,4 +1,4 @@
-"""A fit as a device: a file of parameters with standard errors and correlations, which designs and grids begin with."""
+"""A fit as a device file: parameters with standard errors and correlations, as a basis for designs and grids."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ import numpy as np
 from .. import _flapwing
 from ._solution import Solution
 
-#: Correlations nearer to 1 than this are written as this: a matrix of rounded numbers stays positive definite.
+#: Largest correlation that is written, so that the matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
 
-#: What a fit adds to a description: a later fit of the same robot writes it anew.
+#: The text that a fit adds to a description; a later fit of the same robot replaces it.
 _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
 def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
-    """Writes the device of a fit to a file that is not there yet."""
+    """Write the device of a fit to a file; raise FileExistsError if it exists, unless `overwrite`."""
     text = text_of(fit, data_set)
     try:
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
             file.write(text)
     except FileExistsError:
-        raise FileExistsError(f"{os.fspath(path)} is there already\ngive another path, or overwrite=True") from None
+        raise FileExistsError(f"{os.fspath(path)} already exists\ngive another path, or overwrite=True") from None
 
 
 def text_of(fit: Solution, data_set: str | None) -> str:
-    """The text of a device."""
+    """Return the text of a device."""
     fitted = _fitted(fit, data_set)
     names = fit._model.names
     base = {parameter["name"]: parameter["value"] for parameter in _flapwing.params(names.grid.preset)}
@@ -48,7 +48,7 @@ def text_of(fit: Solution, data_set: str | None) -> str:
         "[params]",
     ]
     before = _flapwing.uncertainty(names.grid)
-    # A value that is fitted or set anew has another error and another source, or none.
+    # A fitted or newly set value does not keep the old error and source.
     anew = {*fitted, *fit._model.keywords}
     kept = {name: error for name, error in before["errors"].items() if name not in anew}
     told = {name: source for name, source in origins["sources"].items() if name not in anew}
@@ -84,21 +84,21 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """The label of each fitted parameter; of those that data sets do not share, the label of one set."""
+    """Return the label of each fitted parameter; for parameters per data set, the label of one set."""
     known = [one.name for one in fit._sets]
     if data_set is not None and data_set not in known:
         raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
     labels = {}
     for one in fit._model.space.coordinates:
         if one.of_set is not None and data_set is None:
-            raise ValueError(f"data sets have a `{one.parameter}` each\ngive data_set=, one of {', '.join(known)}")
+            raise ValueError(f"each data set has its own `{one.parameter}`\ngive data_set=, one of {', '.join(known)}")
         if one.of_set is None or known[one.of_set] == data_set:
             labels[one.parameter] = one.label
     return labels
 
 
 def _set(fit: Solution) -> dict[str, Any]:
-    """The parameters of the design, with those that the call set."""
+    """Return the parameters of the design and the parameters that the call set."""
     model = fit._model
     given = {
         name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)

@@ -21,7 +21,7 @@ from ._solution import Effort, Estimate, Unsettled
 #: Losses of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
-#: Rounds in which standard errors that depend on the fit are made anew.
+#: Number of rounds in which standard errors that depend on the fit are updated.
 _ROUNDS = 4
 
 
@@ -43,48 +43,49 @@ def fit(
 ) -> Fit:
     """Fit parameters of a design to readings, and compute how well the data determine them.
 
-    Nonlinear least squares (`scipy.optimize.least_squares`) with derivatives of the settled motions, from several
-    starts. Needs SciPy.
+    The method is nonlinear least squares (`scipy.optimize.least_squares`) from several starts, with derivatives of the
+    settled motions. It requires SciPy.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
-        One or several data sets: parameters of the operating points, and measures. See `Readings`.
+        One or several data sets with parameters of the operating points and measures; see `Readings`.
     free : list of str, or dict
-        The parameters to be fitted; a dictionary gives each its bounds ``(low, high)``, a `FreeParameter`, or None.
-        Values are in SI units or text with a unit. Default: from a third of the design's value to three times it.
+        The parameters to fit. In a dictionary, each has bounds ``(low, high)``, a `FreeParameter`, or None. Values are
+        numbers in SI units or text with units. Default bounds: a third of the design's value, and three times it.
     sigma : float, str or dict, optional
-        The standard error of readings that have none of their own: a number in the measure's unit, ``"1 deg"``, or ``"3
-        %"`` of the model's value; a dictionary by measure. Without any, it is estimated from the residuals.
+        The standard error of readings without their own: a number in the measure's unit, text such as ``"1 deg"``, or
+        ``"3 %"`` of the model's value. A dictionary gives it by measure. Default: it is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        The loss: all but the first make outliers count less.
+        The loss function. All except ``"linear"`` reduce the weight of outliers.
     starts : int
-        Searches, the first from the design's values, others from the best points of a Sobol' sequence.
+        Number of searches. The first starts at the design's values, others at the best points of a Sobol' sequence.
     seed : int
-        Of the Sobol' sequence and of a random `hold_out`.
+        Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
-        Readings that are predicted and not fitted: a share of them, the names of data sets, or ranges of parameters
-        such as ``{"drive_frequency": (110, 120)}``, in SI units or as text with a unit.
+        Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
+        parameters such as ``{"drive_frequency": (110, 120)}``, in SI units or as text with units.
     profile : bool
-        Compute intervals by the profile likelihood. False: from the derivatives at the estimate, which is quicker.
+        If True, intervals are computed by the profile likelihood. If False, from the derivatives at the estimate, which
+        is faster.
     threads : int, optional
-        Threads, 1 or more. Default: one per core. Results do not depend on it.
+        Number of threads, 1 or more. Default: one per core. Results do not depend on it.
     progress : bool or function, optional
-        Show the points run, or call a function with their number twice.
+        Show the number of points that were run, or call a function with this number as both arguments.
     **keywords : float or str
         Parameters of all data and solver settings.
 
     Returns
     -------
     Fit
-        Estimates, errors, intervals, and the quality of the fit. `print` it.
+        Estimates, errors, intervals, and the quality of the fit. Print it to read the report.
 
     Raises
     ------
     ValueError
-        Data without readings, with unknown columns or units, with cells that are no numbers, or with fewer readings
+        Data without readings, with unknown columns or units, with cells that are not numbers, or with fewer readings
         than free parameters; bounds in the wrong order; unknown parameters.
     TypeError
         A value of the wrong type.
@@ -128,7 +129,7 @@ def _finish(
     profile: bool,
     indistinct: list[str],
 ) -> Fit:
-    """The result from the best of the searches."""
+    """Return the result from the best of the searches."""
     target, found, answer = _settle(model, sets, target, best, guesses)
     covariance = _covariance(model, target, found, answer)
     sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
@@ -140,7 +141,7 @@ def _finish(
     if profile:
         profiles, better = _intervals.profiles(model, target, found, covariance, quantile)
         if better is not None:
-            # A lower valley on the way: the fit is there.
+            # The profile found a lower minimum, which becomes the fit.
             target, found, answer = _settle(model, sets, target, better, guesses)
             covariance = _covariance(model, target, found, answer)
             profiles, _ = _intervals.profiles(model, target, found, covariance, quantile)
@@ -176,7 +177,7 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """The last search, with the standard errors that go with its end, and without readings that do not settle there."""
+    """Run the last search, with standard errors for its end and without readings that do not settle there."""
     found = best
     for _ in range(_ROUNDS):
         found = _search.polish(model, target, found.x)
@@ -241,12 +242,12 @@ def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettle
 
 
 def _lost(answer: Answer, held: Mask) -> Places:
-    """The readings without a settled motion."""
+    """Return the readings without a settled motion."""
     return np.flatnonzero(~np.isfinite(answer.values) & ~held)
 
 
 def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, held: Mask) -> str:
-    """The message where too few readings have a settled motion: with the reason, if their points are impossible."""
+    """Return the message for too few readings with a settled motion, with the reason if their points are impossible."""
     lost = _unsettled(sets, answer, held)
     told = "too few readings have a settled motion at the best parameters found: "
     for one, reading in zip(lost, _lost(answer, held)):
@@ -256,10 +257,10 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
             return (
                 f"{told}{count} of {len(answer.values)} are invalid, "
                 f"first {one.data_set} row {one.row}, because {reason}\n"
-                "change these parameters of the design, or give bounds in which they go together"
+                "change these parameters of the design, or give bounds in which they are possible together"
             )
     statuses = ", ".join(sorted({one.status for one in lost}))
-    return f"{told}the others are {statuses}\ngive other bounds, or look at the design with flapwing.evaluate"
+    return f"{told}the others are {statuses}\ngive other bounds, or run the design with flapwing.evaluate"
 
 
 def _quantile(sigma_known: bool, freedom: int) -> float:
@@ -269,7 +270,7 @@ def _quantile(sigma_known: bool, freedom: int) -> float:
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:
-    """The design, once the keywords have been checked with it."""
+    """Return the design, after a check of the keywords."""
     _flapwing.check(design, keywords=dict(keywords))
     return design
 
@@ -278,7 +279,7 @@ def _check(loss: Any, starts: Any, seed: Any) -> None:
     try:
         import scipy.optimize  # noqa: F401
     except ImportError:
-        raise ImportError("flapwing.fit needs SciPy: pip install scipy") from None
+        raise ImportError("flapwing.fit requires SciPy: pip install scipy") from None
     if loss not in _LOSSES:
         raise ValueError(f"`loss` is {loss!r}\nit must be one of {', '.join(_LOSSES)}")
     for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
@@ -292,6 +293,6 @@ def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:
         counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {priors} priors" if priors else "")
         parameters = f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)}"
         raise ValueError(
-            f"{parameters} and only {counted}: {', '.join(model.space.labels)}\n"
-            "a fit needs more readings than parameters: free fewer of them, add readings, or give priors"
+            f"{parameters} but only {counted}: {', '.join(model.space.labels)}\n"
+            "a fit requires more readings than parameters: free fewer parameters, add readings, or give priors"
         )

@@ -1,6 +1,4 @@
-"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at
-all.
-"""
+"""Intervals by the profile likelihood, and combinations of parameters that data determine well, badly or not at all."""
 
 from __future__ import annotations
 
@@ -15,13 +13,13 @@ from ._model import Answer, Model
 from ._parameters import Coordinate, Space
 from ._search import FINE, NOTHING, Ask, Found, Target, minimise, sobol, together
 
-#: Values that are tried on each side.
+#: Largest number of values on each side.
 _TRIES = 6
 
-#: Values between the estimate and the end of the interval that are added to the ends, as shares of the way.
+#: Further values between the estimate and the end of the interval, as shares of the distance.
 _BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
 
-#: How near to the wanted height a profile comes.
+#: Largest difference between the required height and the height at which a profile ends.
 _NEAR = 0.03
 
 
@@ -34,12 +32,12 @@ class Profile:
     value : array
         Values of the parameter in SI units, rising.
     rise : array
-        The signed root of the rise of the cost, in standard errors: 0 at the estimate, about a straight line if the
-        parameter is well known.
+        The signed square root of the rise of the cost, in standard errors. It is 0 at the estimate, and nearly a
+        straight line if the parameter is well determined.
     low, high : float
         Ends of the 95 % interval, in SI units.
     open_below, open_above : bool
-        True where the interval goes on to the end of the range: the data do not bound the parameter there.
+        True if the interval extends to the end of the range: the data do not bound the parameter on this side.
     """
 
     value: Array
@@ -51,13 +49,13 @@ class Profile:
 
     @property
     def is_flat(self) -> bool:
-        """True if the data bound the parameter on neither side, or on one only."""
+        """True if the data do not bound the parameter on both sides."""
         return self.open_below or self.open_above
 
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile: coordinates, heights and whether the end of the range came first."""
+    """One side of a profile: coordinates, heights, and True if the end of the range was reached first."""
 
     x: list[float]
     height: list[float]
@@ -68,7 +66,7 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """The fit from which profiles begin: its target, its estimate, and the height at which they end."""
+    """The fit from which profiles begin: its target, its estimate, and the height at which profiles end."""
 
     space: Space
     target: Target
@@ -77,11 +75,11 @@ class _Walks:
     height: float
 
     def side(self, ask: Ask, held: int, way: float) -> _Side:
-        """The profile to one side, up to the height or to the end of the range."""
+        """Return the profile on one side, up to the height or the end of the range."""
         here = self.found.x[held]
         end = self.space.high[held] if way > 0 else self.space.low[held]
         error = np.sqrt(self.covariance[held, held])
-        # Others move with it as the derivatives at the estimate say.
+        # The other coordinates change with it, as predicted by the derivatives at the estimate.
         with np.errstate(invalid="ignore", divide="ignore"):
             slope = self.covariance[:, held] / self.covariance[held, held]
         slope = np.where(np.isfinite(slope), slope, 0.0)
@@ -90,7 +88,7 @@ class _Walks:
         side = _Side([], [], float(here), False, None)
         best: Found | None = None
         reached, is_open = here, False
-        # The cost is to be known to a part of its rise.
+        # The cost must be known to a fraction of its rise.
         tolerance = float(np.clip(0.02 / max(self.found.cost, 1e-300), 1e-8, 1e-3))
         for _ in range(_TRIES):
             limit = abs(end - here)
@@ -121,14 +119,14 @@ class _Walks:
                 step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
                 reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
         if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * self.height):
-            # It ends at the end of the range, or hardly rises.
+            # The profile reaches the end of the range, or hardly rises.
             reached, is_open = end, True
         for share in _BETWEEN:
             self._between(ask, held, share, tried.x, side, tolerance)
         return _Side(side.x, side.height, float(reached), is_open, best)
 
     def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
-        """A further value of a profile, on the way to the one that was tried last."""
+        """Add a value to a profile, between the estimate and the last value."""
         x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
         tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
         side.x.append(float(x[held]))
@@ -138,7 +136,7 @@ class _Walks:
 def profiles(
     model: Model, target: Target, found: Found, covariance: Array, height: float
 ) -> tuple[list[Profile], Found | None]:
-    """The profiles of all coordinates up to `height` standard errors; and a better fit, if one came up."""
+    """Return the profiles of all coordinates up to `height` standard errors, and a better fit if one was found."""
     space = model.space
     walks = _Walks(space, target, found, covariance, height)
     sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
@@ -164,31 +162,31 @@ def profiles(
     return made, better
 
 
-#: Sets of parameters that are looked at, and those of them that count.
+#: Number of random sets of parameters, and the number of sets that are used.
 _SETS_LOOKED_AT, _PLACES = 6, 4
 
-#: The tolerance of the integration for it.
+#: The tolerance of the integration for these sets.
 _RTOL = 1e-7
 
-#: A parameter that changes all readings by less than this share of their standard errors over its whole range changes
-#: none.
+#: A parameter has no effect if, over its whole range, it changes all readings by less than this share of their standard
+#: errors.
 _EFFECT = 1e-2
 
-#: The share of the largest component below which one is left out of words.
+#: A component with a smaller share of the largest component is left out of texts.
 _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, seed: int) -> list[str]:
-    """Directions that no reading can distinguish at any values of the parameters: a sentence for each.
+    """Return one sentence for each direction that no reading can distinguish at any values of the parameters.
 
-    Where the derivatives at each of several random sets of parameters have a null space, no data of this kind
-    distinguish the parameters. A product of parameters has one and the same null space in logarithms at all of these
-    sets, a sum in the parameters themselves: then derivatives under each other have it too.
+    If the derivatives at each of several random sets of parameters have a null space, no data of this kind distinguish
+    the parameters. If only a product of parameters matters, the null space in logarithms is the same at all sets. For a
+    sum, the null space in the parameters is the same. In both cases, the stacked derivatives have this null space.
     """
     space = model.space
     looks = sobol(space, _SETS_LOOKED_AT, seed)
     answers = model.at(looks, rtol=_RTOL)
-    # A motion that does not settle tells nothing: the sets with most readings.
+    # Motions that do not settle have no derivatives, so the sets with most readings are used.
     settled = sorted(range(len(looks)), key=lambda place: -np.isfinite(answers[place].values).sum())[:_PLACES]
     jacobians = [target.jacobian(space, looks[place], answers[place]) for place in settled]
     ranges = space.high - space.low
@@ -218,7 +216,7 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
 
 
 def _null(jacobian: Array) -> Array:
-    """The directions that change nothing."""
+    """Return the directions that change nothing."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -227,7 +225,7 @@ def _null(jacobian: Array) -> Array:
 
 
 def _sparse(directions: Array) -> list[Array]:
-    """Combinations of directions with as few parameters as elimination makes them."""
+    """Return combinations of directions with few parameters, by elimination."""
     rows = [row / np.abs(row).max() for row in directions]
     for place in range(len(rows)):
         pivot = int(np.argmax(np.abs(rows[place])))
@@ -239,7 +237,7 @@ def _sparse(directions: Array) -> list[Array]:
 
 
 def _in_words(space: Space, direction: Array) -> str:
-    """A direction in words: what changes together, with the largest share 1 %."""
+    """Return a direction as text: the parameters that change together, scaled to a largest share of 1 %."""
     largest = int(np.argmax(np.abs(direction)))
     scaled = direction / direction[largest]
     named = []
@@ -254,7 +252,7 @@ def _in_words(space: Space, direction: Array) -> str:
 
 
 def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
-    """The best and the worst known combination of parameters, with the error of the parameter named first."""
+    """Return the best and the worst known combination of parameters, with the error of the first parameter."""
     if len(space) < 2:
         return []
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
@@ -262,7 +260,7 @@ def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[s
     for label, place in zip(labels, (0, -1)):
         direction = directions[place]
         if sizes[place] <= NOTHING * sizes[0]:
-            error = "not known at all"
+            error = "not determined"
         else:
             largest = int(np.argmax(np.abs(direction)))
             error = f"known to {_size(space.coordinates[largest], abs(direction[largest]) / sizes[place])}"
@@ -271,7 +269,7 @@ def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[s
 
 
 def _size(one: Coordinate, change: float) -> str:
-    """A change of a coordinate in words."""
+    """Return a change of a coordinate as text."""
     if not one.log:
         return f"{change * one.width:.2g} {one.unit}".rstrip()
     return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

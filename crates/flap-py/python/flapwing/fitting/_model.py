@@ -16,13 +16,13 @@ from .._types import Array, Mask, Places
 from ._data import DataSet, Names
 from ._parameters import Space
 
-#: The longest step along a way, as a share of the parameter: between readings that are farther apart there are more.
+#: The longest step along a branch, as a share of the parameter. Between more distant readings, points are added.
 _STEP = 0.02
 
 
 @dataclass(frozen=True)
 class Way:
-    """Points that were run one after another, as a parameter rises or falls."""
+    """Points on a branch, which are run one after the other while a parameter rises or falls."""
 
     parameter: str
     falls: bool
@@ -37,10 +37,10 @@ def states_along(
     names: Sequence[str],
     run: Callable[..., Table],
 ) -> dict[str, Array] | None:
-    """The states from which motions on the ways begin; None if there are no ways.
+    """Return the states from which motions on the branches begin; None if there are no branches.
 
-    Of `columns`, each has the points `times` over, for so many sets of parameters; states have the components `names`.
-    The ways of all of them are followed side by side, a point of each in a batch.
+    Each of `columns` has the points `times` times, once for each set of parameters. States have the components `names`.
+    All branches are followed at the same time, with one point of each branch in a batch.
     """
     if not ways:
         return None
@@ -68,7 +68,7 @@ def states_along(
 
 
 def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
-    """The points along a way, for each group that differs in other parameters: the row, the parameter and its value."""
+    """Return the points along a branch for each group with equal other parameters: row, parameter and its value."""
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row in way.rows + offset:
         key = tuple(values[row] for name, values in columns.items() if name != way.parameter)
@@ -92,20 +92,20 @@ def _taken(values: Any, places: list[int]) -> Any:
     return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]
 
 
-#: The tolerances of the integration and of settling for states from which motions begin: near the motion is enough.
+#: The tolerances of integration and settling for initial states, which need only be close to the motion.
 _NEARBY, _SETTLED = 1e-4, 1e-4
 
-#: Answers that are kept: searches ask again for those at which the ones before them ended.
+#: Number of answers that are kept: a search repeats the point at which an earlier search ended.
 _KEPT = 16
 
 
 @dataclass(frozen=True)
 class Asked:
-    """Measures at operating points: one number for each."""
+    """Measures at operating points, one number for each."""
 
-    #: The data set of each, for parameters of one set.
+    #: The data set of each, for parameters per data set.
     of_set: Places
-    #: The operating point of each, a place in the columns of points.
+    #: The operating point of each, as an index into the columns of points.
     row: Places
     measure: list[str]
 
@@ -114,13 +114,13 @@ class Asked:
 class Answer:
     """The model at one set of parameters."""
 
-    #: Values, nan where the motion does not settle.
+    #: Values; nan if the motion does not settle.
     values: Array
-    #: Derivatives by the coordinates; zero where they are not known.
+    #: Derivatives by the coordinates; zero if they are unknown.
     slopes: Array
     #: The status of each motion.
     status: np.ndarray[Any, Any]
-    #: True where a derivative is not known.
+    #: True if a derivative is unknown.
     gaps: Mask
 
 
@@ -145,13 +145,13 @@ class Model:
         }
         self.points, self.ways = _points(names, sets)
         self.asked = _asked(sets)
-        #: Points run so far, and right-hand sides evaluated for them.
+        #: Number of points run so far, and number of evaluations of the right-hand side.
         self.ran = 0
         self.rhs_evals = 0
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
-        """The readings at several sets of coordinates."""
+        """Return the readings at several sets of coordinates."""
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}
         known = {key: self._known[key] for key in keys if key not in new}
@@ -173,7 +173,7 @@ class Model:
         slopes: bool = True,
         rtol: float | None = None,
     ) -> list[Answer]:
-        """The answers at other points, at several sets of coordinates."""
+        """Return the answers at other points, at several sets of coordinates."""
         rows = _length(points)
         columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
         columns.update(self._free(asked, rows, xs))
@@ -193,7 +193,7 @@ class Model:
         return self._split(table, asked, rows, xs, slopes)
 
     def reason(self, reading: int, x: Array) -> str:
-        """The reason why the point of a reading is impossible at a set of coordinates; empty if it is not."""
+        """Return the reason why the point of a reading is impossible at these coordinates; empty if it is possible."""
         of_set, row = self.asked.of_set[reading], self.asked.row[reading]
         free = {
             one.parameter: float(value)
@@ -215,7 +215,7 @@ class Model:
         return rows
 
     def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
-        """Columns of the free parameters."""
+        """Return the columns of the free parameters."""
         of_row = np.zeros(rows, np.intp)
         of_row[asked.row] = asked.of_set
         columns = {name: np.empty((len(xs), rows)) for name in self.space.parameters}
@@ -230,7 +230,7 @@ class Model:
         which = np.array([measures.index(name) for name in asked.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
-            """All rows: conditions of a design may have excluded some."""
+            """Return all rows; rows that the design's conditions exclude are empty."""
             everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
             everything[table["point"].astype(np.intp)] = found
             return everything.reshape(len(xs), rows, *found.shape[1:])
@@ -264,7 +264,7 @@ def _length(points: Mapping[str, Any]) -> int:
 
 
 def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Way]]:
-    """The operating points of all data sets as columns, and the ways on which some were taken."""
+    """Return the operating points of all data sets as columns, and the branches of data sets with a branch."""
     varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
     points: dict[str, Any] = {}
     for name in varied:

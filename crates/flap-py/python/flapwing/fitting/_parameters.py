@@ -1,4 +1,4 @@
-"""The free parameters of a fit, and the coordinates in which they are looked for."""
+"""The free parameters of a fit, and the coordinates of the search."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .. import _flapwing
 from .._types import Array, Value
 from ._data import DataSet, Names
 
-#: Bounds of a parameter that has none, as factors on its value in the design.
+#: Default bounds of a parameter, as factors on its value in the design.
 _REACH = 3.0
 
 
@@ -23,12 +23,13 @@ class FreeParameter:
     Attributes
     ----------
     low, high : float or str, optional
-        Bounds, in SI units or with a unit. Default: a third of the design's value, and three times it. The first search
-        begins at the design's value, or in the middle of the bounds if it is outside of them.
+        Bounds, in SI units or as text with units. Default: a third of the design's value, and three times it. The first
+        search begins at the design's value, or in the middle of the bounds if the value is outside of them.
     prior : (value, error), optional
-        A value known beforehand, and its standard error: in SI units, with a unit, or the error as ``"5 %"``.
+        A value that is known before the fit, and its standard error: in SI units or with units, or the error as
+        ``"5 %"``.
     per_set : bool
-        True if each data set has a value of its own, as of a wing that was changed between experiments.
+        True if each data set has its own value, for example if the wing was changed between experiments.
     """
 
     low: Value | None = None
@@ -39,14 +40,14 @@ class FreeParameter:
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A free parameter, of all data sets or of one."""
+    """A free parameter, for all data sets or for one."""
 
     parameter: str
-    #: The place of the data set that it is of; None for all.
+    #: The index of its data set; None for all data sets.
     of_set: int | None
     label: str
     unit: str
-    #: Logarithmic if both bounds have the same sign.
+    #: True for a logarithmic coordinate, which requires bounds of the same sign.
     log: bool
     low: float
     high: float
@@ -54,15 +55,15 @@ class Coordinate:
     prior: tuple[float, float] | None
 
     def value(self, x: Any) -> Any:
-        """The value in SI units at a coordinate: 0 at the design's value."""
+        """Return the value in SI units at a coordinate; coordinate 0 is the design's value."""
         return self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
 
     def at(self, value: float) -> float:
-        """The coordinate of a value."""
+        """Return the coordinate of a value."""
         return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
 
     def slope(self, x: float) -> float:
-        """The change of the value per change of the coordinate."""
+        """Return the derivative of the value by the coordinate."""
         return float(self.value(x) if self.log else self.width)
 
     @property
@@ -85,15 +86,15 @@ class Space:
         return len(self.coordinates)
 
     def values(self, x: Array) -> Array:
-        """Values in SI units."""
+        """Return values in SI units."""
         return np.array([one.value(place) for one, place in zip(self.coordinates, x)])
 
     def slopes(self, x: Array) -> Array:
-        """The change of each value per change of its coordinate."""
+        """Return the derivative of each value by its coordinate."""
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
     def prior(self, x: Array) -> tuple[Array, Array]:
-        """The residuals of what is known beforehand, and their derivatives."""
+        """Return the residuals of the priors and their derivatives."""
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
         for row, (place, one) in enumerate(known):
@@ -104,7 +105,7 @@ class Space:
 
 
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
-    """The coordinates of a call."""
+    """Return the coordinates of a call."""
     if isinstance(free, str) or not (isinstance(free, Mapping) or hasattr(free, "__iter__")):
         raise TypeError(
             f"`free` is {type(free).__name__}\n"
@@ -112,18 +113,18 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
         )
     listed: list[tuple[Any, Any]] = list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
     if not listed:
-        raise ValueError("`free` is empty\nname one parameter at least")
+        raise ValueError("`free` is empty\ngive at least one parameter")
     for name, _ in listed:
         if not isinstance(name, str):
             raise TypeError(
-                f"`free` has an entry that is {type(name).__name__}\nit must have names of parameters, which are text"
+                f"`free` has an entry that is {type(name).__name__}\nit must have names of parameters as text"
             )
     coordinates: list[Coordinate] = []
     taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
     for name, given in ((names.parameter(name), given) for name, given in listed):
         _check(name, names, sets, taken)
         if any(one.parameter == name for one in coordinates):
-            raise ValueError(f"`free` names `{name}` twice\nremove one")
+            raise ValueError(f"`free` has `{name}` twice\nremove one")
         coordinates += _coordinates(name, _free_of(name, given), names, sets)
     return Space(coordinates)
 
@@ -131,7 +132,7 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
 def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
     if name in names.options:
         raise ValueError(
-            f"`{name}` is a choice, and cannot be fitted\n"
+            f"`{name}` is a choice, which cannot be fitted\n"
             f"fit once for each of its options: {', '.join(names.options[name])}"
         )
     if name in taken:
@@ -139,7 +140,7 @@ def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) ->
     for one in sets:
         if name in one.points:
             raise ValueError(
-                f"`{name}` is free, and {one.name} has it as a parameter of its operating points\nkeep one of them"
+                f"`{name}` is free, but {one.name} has it as a parameter of its operating points\nkeep one of them"
             )
 
 
@@ -152,7 +153,7 @@ def _free_of(name: str, given: Any) -> FreeParameter:
         return FreeParameter(given[0], given[1])
     raise TypeError(
         f"free[{name!r}] is {type(given).__name__}\n"
-        "it must be a pair of bounds, a flapwing.FreeParameter, or None for the bounds by default"
+        "it must be a pair of bounds, a flapwing.FreeParameter, or None for the default bounds"
     )
 
 
@@ -164,7 +165,7 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
         if low is None or high is None:
             told = "not set" if nominal is None else "zero"
             raise ValueError(
-                f"`{name}` is {told} in the design, so its bounds are not known\ngive free={{{name!r}: (low, high)}}"
+                f"`{name}` is {told} in the design, so it has no default bounds\ngive free={{{name!r}: (low, high)}}"
             )
     else:
         ends = sorted((nominal / _REACH, nominal * _REACH))
@@ -172,7 +173,7 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     _check_bounds(name, low, high, free, names.unit(name))
     log = low * high > 0
     if not log:
-        # Shares of zero are zero: derivatives need a value beside it.
+        # Derivatives by relative changes need a value other than zero.
         low, high = (1e-9 * (high - low) if low == 0 else low), (-1e-9 * (high - low) if high == 0 else high)
         log = False
     if nominal is None or not low <= nominal <= high:
@@ -181,7 +182,7 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     unit = names.unit(name)
     if prior is not None and not low <= prior[0] <= high:
         told = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
-        raise ValueError(f"{told.rstrip()}\ngive bounds that hold it, some standard errors to both sides")
+        raise ValueError(f"{told.rstrip()}\ngive bounds that contain it, with some standard errors on both sides")
     if not free.per_set or len(sets) == 1:
         return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
     return [
@@ -197,7 +198,7 @@ def _check_bounds(name: str, low: float, high: float, free: FreeParameter, unit:
         f"{end:g} {unit}".rstrip() + " (by default)" * (given is None)
         for end, given in ((low, free.low), (high, free.high))
     )
-    told = f"free[{name!r}]: the lower bound {lower} is not less than the upper one {upper}"
+    told = f"free[{name!r}]: the lower bound {lower} is not less than the upper bound {upper}"
     if free.low is None or free.high is None:
         remedy = "give both bounds"
     elif low == high:

@@ -9,16 +9,16 @@ import numpy as np
 
 from ._solution import Estimate, Solution
 
-#: Limits of the probability of chi-square: below the first the model is called poor, below the second doubtful; above
-#: the third, standard errors are called too large.
+#: Limits of the probability of chi-square: below the first, the model is poor; below the second, doubtful; above the
+#: third, standard errors are too large.
 POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 
-#: Unsettled readings that are listed.
+#: Largest number of unsettled readings that are listed.
 _LISTED = 5
 
 
 def text(fit: Solution) -> str:
-    """The report."""
+    """Return the report as text."""
     lines = [table(*_estimates(fit)), *_remarks(fit), "", *_quality(fit), "", table(*_residuals(fit)), ""]
     if fit.combinations:
         lines += [*fit.combinations]
@@ -28,7 +28,7 @@ def text(fit: Solution) -> str:
 
 
 def html(fit: Solution) -> str:
-    """The report for notebooks."""
+    """Return the report as HTML, for notebooks."""
     parts = [
         _html_table(*_estimates(fit)),
         _paragraphs(_remarks(fit)),
@@ -74,7 +74,7 @@ def _verdict(one: Estimate) -> str:
 
 
 def _remarks(fit: Solution) -> list[str]:
-    told = [f"cannot be told by such data: {one}" for one in fit.indistinct]
+    told = [f"no such data can determine this: {one}" for one in fit.indistinct]
     if fit.unsettled:
         listed = ", ".join(f"{one.data_set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
@@ -94,16 +94,16 @@ def _quality(fit: Solution) -> list[str]:
     good = fit.goodness
     told = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
     if not fit.sigma_known:
-        lines = [f"{told}: standard errors are estimated from the residuals, so it says nothing of the model"]
+        lines = [f"{told}: standard errors are estimated from the residuals, so it does not test the model"]
     elif good.p < POOR:
-        lines = [f"{told}, p = {good.p:.2g}: POOR, the model lacks something or the standard errors are too small"]
+        lines = [f"{told}, p = {good.p:.2g}: POOR, the model lacks an effect or the standard errors are too small"]
     elif good.p < DOUBTFUL:
         lines = [
-            f"{told}, p = {good.p:.2g}: doubtful, a right model is as far off once in {1 / good.p:.0f} times; "
+            f"{told}, p = {good.p:.2g}: doubtful, a correct model has such a value once in {1 / good.p:.0f} fits; "
             "look at the residuals"
         ]
     elif good.p > TOO_GOOD:
-        lines = [f"{told}, p = {good.p:.4f}: the standard errors given are too large"]
+        lines = [f"{told}, p = {good.p:.4f}: the given standard errors are too large"]
     else:
         lines = [f"{told}, p = {good.p:.2f}: the model agrees with the data"]
     for one in good.residuals:
@@ -111,8 +111,8 @@ def _quality(fit: Solution) -> list[str]:
             p = min(one.p_runs, one.p_neighbours)
             lines.append(
                 f"residuals of {one.measure} in {one.data_set} are STRUCTURED (p = {p:.1g}): "
-                "neighbours err alike, so the model lacks "
-                "something there, and errors and intervals are too small"
+                "neighbouring residuals are alike, so the model lacks "
+                "an effect there, and errors and intervals are too small"
             )
     if fit.held_out is not None:
         rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items())
@@ -147,7 +147,7 @@ def _course(fit: Solution) -> list[str]:
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Lines of columns."""
+    """Return a table as text with aligned columns."""
     widths = [max(len(line[place]) for line in [heads, *rows]) for place in range(len(heads))]
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows]

@@ -1,4 +1,4 @@
-"""The result of a fit: predictions, and the readings that would determine most."""
+"""The result of a fit: predictions, and the readings that would reduce errors most."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ._solution import Solution
 
 @dataclass(frozen=True)
 class Prediction:
-    """A measure at operating points, with its uncertainty by that of the parameters.
+    """A measure at operating points, with the uncertainty that results from the parameters.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Prediction:
     points : dict
         The operating points: values of parameters, in SI units.
     value : array
-        The values of the measure; nan where the motion does not settle.
+        The values of the measure; nan if the motion does not settle.
     error : array
         Standard errors, without the noise of a reading.
     low, high : array
@@ -62,20 +62,20 @@ class Prediction:
 
 @dataclass(frozen=True)
 class NextMeasurements:
-    """Operating points whose readings would shrink an error most, the best first.
+    """Operating points whose readings would reduce an error most, the best first.
 
     Attributes
     ----------
     target, unit : str
-        The parameter or measure whose error shrinks, and its unit.
+        The parameter or measure whose error is reduced, and its unit.
     now : float
-        The error of the target now.
+        The present error of the target.
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
-        The measure to be read at each.
+        The measure to read at each point.
     errors : list of float
-        The error of the target after the readings up to each.
+        The error of the target after the readings up to each point.
     """
 
     target: str
@@ -103,7 +103,7 @@ def _cell(value: Any) -> str:
 
 
 def _points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
-    """Operating points from columns of parameters, a grid, or one point."""
+    """Return operating points from columns of parameters, a grid, or one point."""
     if isinstance(given, Grid):
         listed = [given[row] for row in range(len(given))]
         return {name: _column(names, [point[name] for point in listed], name) for name in given.varied}
@@ -116,10 +116,10 @@ def _points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
     for header, cells in lists.items():
         meaning = names.meaning(place, header)
         if meaning.kind != "parameter":
-            raise ValueError(f"{place} has the column `{header}`, a measure\ngive parameters of operating points only")
+            raise ValueError(f"{place} has the column `{header}`, a measure\ngive only parameters of operating points")
         if len(cells) not in (1, length):
             raise ValueError(
-                f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one for each, or one for all"
+                f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one per point, or one for all"
             )
         values = parameter_cells(names, place, header, meaning, cells)
         points[meaning.name] = values if len(values) == length else np.resize(np.asarray(values), length)
@@ -137,7 +137,7 @@ def _column(names: Names, values: list[Any], name: str) -> Any:
 def _answers(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
-    """A measure at other operating points, with the parameters of a data set, and on its way if it is `like` that."""
+    """Return a measure at other operating points, with the parameters of a data set and, with `like`, on its branch."""
     count = len(next(iter(points.values())))
     model.names.check_measure(measure)
     asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
@@ -150,7 +150,7 @@ def _answers(
 def _predict(
     model: Model, points: dict[str, Any], measure: str, answer: Answer, covariance: Array, quantile: float
 ) -> Prediction:
-    """A measure at other operating points, with bands by the covariance of the coordinates."""
+    """Return a measure at other operating points, with bands from the covariance of the coordinates."""
     known = np.where(np.isfinite(covariance), covariance, 0.0)
     error = np.sqrt(np.maximum(0.0, np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)))
     lost = ~np.isfinite(np.diag(covariance))
@@ -171,10 +171,10 @@ def _next_measurements(
     count: int,
     guesses: Mapping[str, float],
 ) -> tuple[list[int], list[str], list[float], float]:
-    """The best readings, one after another: rows of `points`, measures, the error of the target after each, and now.
+    """Return the best readings in order: rows of `points`, measures, the error of the target after each, and now.
 
-    A reading adds the square of its derivatives, in standard errors, to the information; each is the one after which
-    the variance of the target is least.
+    A reading adds the square of its derivatives, in standard errors, to the information. Each chosen reading is the one
+    that gives the smallest variance of the target.
     """
     rows, names, sensitivities = [], [], []
     for measure, noise in measures.items():
@@ -186,7 +186,7 @@ def _next_measurements(
             sensitivities.append(answer.slopes[row] / sigma[row])
     if not rows:
         raise ValueError("no candidate has a settled motion with derivatives\ngive other operating points")
-    # A weak belief keeps what is not known at all finite: errors of a hundred times the value.
+    # A weak prior, with errors of a hundred times the value, keeps undetermined variances finite.
     covariance = np.linalg.inv(information + 1e-4 * np.eye(len(information)))
     a = np.array(sensitivities)
     now = float(np.sqrt(target @ covariance @ target))
@@ -202,50 +202,50 @@ def _next_measurements(
 
 
 class Fit(Solution):
-    """The result of `fit`: estimates, their uncertainty, and how good the model is.
+    """The result of `fit`: estimates, their uncertainty, and the quality of the fit.
 
-    ``print(fit)`` shows all of it. ``**fit.values`` sets the fitted parameters in other calls.
+    ``print(fit)`` shows the whole report. Use ``**fit.values`` to set the fitted parameters in other calls.
 
     Attributes
     ----------
     estimates : dict of str to Estimate
-        By parameter: value, standard error, 95 % interval and profile, in SI units.
+        Value, standard error, 95 % interval and profile of each parameter, in SI units.
     correlations : array
-        Of the estimates, in their order; nan for parameters that are not known.
+        Correlations of the estimates, in the same order; nan for parameters that the data do not determine.
     combinations : list of str
         The best and the worst known combination of the parameters.
     indistinct : list of str
-        Changes of the parameters that no reading shows, at any values: exact scalings of the model, and parameters that
-        have no effect.
+        Changes of the parameters that affect no reading, at any values: exact scalings of the model, and parameters
+        without effect.
     goodness : Goodness
         Chi-square, its probability, and the residuals by data set and measure.
     unsettled : list of Unsettled
-        Readings that do not count, because the motion there does not settle.
+        Readings that are ignored, because the motion there does not settle.
     held_out : HeldOut or None
-        The predictions of readings that were held out.
+        The predictions of the readings that were held out.
     effort : Effort
-        Starts, points, right-hand sides and time.
+        Number of starts, points and evaluations, and the time.
     """
 
     def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
-        """A measure at other operating points, with 95 % bands.
+        """Predict a measure at other operating points, with 95 % bands.
 
-        Bands are of the model's value, without the noise of a reading.
+        Bands are for the model's value, without the noise of a reading.
 
         Parameters
         ----------
         points : dict, DataFrame or Grid
-            Columns of parameters, as in `Readings`. Those that all data have in common need not be given.
+            Columns of parameters, as in `Readings`. Parameters with one common value in all data may be left out.
         measure : str
-            A measure, also one that was not read.
+            A measure, with or without readings.
         data_set : str, optional
-            The data set whose own parameters hold, and on whose branch motions are. Default: the parameters of the
-            first one, and motions from rest.
+            The data set whose parameters and branch are used. Default: the parameters of the first data set, and
+            motions from rest.
 
         Returns
         -------
         Prediction
-            `value`, `error`, `low` and `high`, in the unit of the measure; nan where the motion does not settle.
+            `value`, `error`, `low` and `high`, in the unit of the measure; nan if the motion does not settle.
 
         Raises
         ------
@@ -266,7 +266,7 @@ class Fit(Solution):
     def next_measurements(
         self, candidates: Any, target: str | Mapping[str, Any], *, count: int = 5, measures: list[str] | None = None
     ) -> NextMeasurements:
-        """The operating points at which readings would shrink the error of a parameter or a prediction most.
+        """Return the operating points at which readings would reduce the error of a parameter or a prediction most.
 
         Parameters
         ----------
@@ -275,19 +275,19 @@ class Fit(Solution):
         target : str or dict
             A parameter, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency": 110}``.
         count : int
-            Readings wanted. A point may come twice: a repeated reading adds information too.
+            Number of readings. A point may occur twice, because a repeated reading adds information.
         measures : list of str, optional
-            Measures that could be read. Default: the measures of the data.
+            Measures that can be read. Default: the measures of the data.
 
         Returns
         -------
         NextMeasurements
-            Points and measures, the best first, with the error that is left after each: for a parameter in its SI unit.
+            Points and measures, the best first, with the remaining error after each, for a parameter in its SI unit.
 
         Raises
         ------
         ValueError
-            Unknown names, no points, or none with a settled motion.
+            Unknown names, no points, or no point with a settled motion.
         """
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
             raise ValueError(f"`count` is {count!r}\nit must be a whole number, 1 or more")
@@ -298,7 +298,7 @@ class Fit(Solution):
         for measure in measures if measures is not None else list(known):
             if measure not in known:
                 raise ValueError(
-                    f"the data have no readings of `{measure}`, so their error is not known\n"
+                    f"the data have no readings of `{measure}`, so their error is unknown\n"
                     f"choose among {', '.join(known)}"
                 )
             noise = known[measure]
@@ -313,32 +313,32 @@ class Fit(Solution):
     def write_device(
         self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False
     ) -> None:
-        """Write the design with the fitted parameters, their standard errors and correlations as a device.
+        """Write a device file: the design with the fitted parameters, their standard errors and correlations.
 
-        Standard errors, correlations and sources of other parameters, which a device as the design may have, are kept,
-        and so is its description. ``{"device": "mybee.toml"}`` begins a grid with it, and ``[sample] of = "device"``
-        draws builds from its errors.
+        If the design is a device, its description is kept, and so are standard errors, correlations and sources of
+        other parameters. ``{"device": "mybee.toml"}`` uses the file in a grid. ``[sample] of = "device"`` draws samples
+        from its errors.
 
         Parameters
         ----------
         path : str or path
             The file.
         data_set : str, optional
-            The data set whose own parameters are written, if data sets do not share all.
+            The data set whose parameters are written, if some parameters differ between data sets.
         overwrite : bool
-            Replace a file that is there.
+            If True, an existing file is replaced.
 
         Raises
         ------
         FileExistsError
-            The file is there, without `overwrite`.
+            The file exists, and `overwrite` is False.
         ValueError
-            Data sets have parameters of their own, and `data_set` is not one of them.
+            Some parameters differ between data sets, and `data_set` is not one of the data sets.
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """The derivatives of a parameter or a prediction by the coordinates, with its name and unit."""
+        """Return the derivatives of a parameter or a prediction by the coordinates, with its name and unit."""
         space = self._model.space
         if isinstance(target, str):
             if target not in space.labels:
@@ -351,8 +351,7 @@ class Fit(Solution):
             return slopes, target, space.coordinates[place].unit
         if not isinstance(target, Mapping) or "measure" not in target:
             raise ValueError(
-                "`target` must name a parameter, or be a prediction: "
-                '{"measure": "lift_mean_mn", "drive_frequency": 110}'
+                '`target` must be a parameter, or a prediction: {"measure": "lift_mean_mn", "drive_frequency": 110}'
             )
         measure = str(target["measure"])
         points = self._points("target", {name: value for name, value in target.items() if name != "measure"})
@@ -364,7 +363,7 @@ class Fit(Solution):
         return answer.slopes[0], measure, self._model.names.unit(measure)
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
-        """Operating points, with the parameters that all data have in common."""
+        """Return operating points, completed by the parameters with one common value in all data."""
         points = _points_of(self._model.names, place, given)
         count = len(next(iter(points.values())))
         for name, values in self._model.points.items():
@@ -372,7 +371,7 @@ class Fit(Solution):
                 continue
             distinct = set(np.asarray(values).tolist())
             if len(distinct) > 1:
-                raise ValueError(f"{place} lacks `{name}`, of which the data have {len(distinct)} values\nadd a column")
+                raise ValueError(f"{place} lacks `{name}`, which has {len(distinct)} values in the data\nadd a column")
             value = distinct.pop()
             points[name] = [value] * count if isinstance(value, str) else np.full(count, value)
         for name in self._model.space.parameters:

@@ -1,4 +1,4 @@
-"""The search for the best parameters: nonlinear least squares from several starts, side by side."""
+"""The search for the best parameters: nonlinear least squares from several starts at the same time."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ from ._parameters import Space
 
 _Result = TypeVar("_Result")
 
-#: A question: the model at a set of coordinates.
+#: A function that returns the model at a set of coordinates.
 Ask = Callable[[Array], Answer]
 
 
 class _Ended(Exception):
-    """The searches end, because the one that answers has."""
+    """Raised in the searches after the answering thread has ended."""
 
 
 def together(
     searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]
 ) -> list[_Result]:
-    """The results of the searches, each of which asks for the model one set of coordinates at a time.
+    """Return the results of searches, each of which requests the model at one set of coordinates at a time.
 
-    Searches run in threads; `answer` is called in this one, with the questions of all searches that have not ended. So
-    Ctrl-C ends all of them.
+    Searches run in threads. `answer` is called in the present thread, with the requests of all searches that have not
+    ended, so Ctrl-C ends all of them.
     """
     inbox: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
     replies: list[queue.SimpleQueue[Answer | None]] = [queue.SimpleQueue() for _ in searches]
@@ -49,7 +49,7 @@ def together(
             inbox.put((place, "found", searches[place](ask)))
         except _Ended:
             pass
-        except BaseException as error:  # raised by the thread that waits
+        except BaseException as error:  # raised again by the waiting thread
             inbox.put((place, "failed", error))
 
     threads = [threading.Thread(target=work, args=(place,), daemon=True) for place in range(len(searches))]
@@ -78,38 +78,38 @@ def together(
     return [found[place] for place in range(len(searches))]
 
 
-#: Tolerances of the integration: of the first looks, of the searches from all starts, and of the last one.
+#: Tolerances of the integration: for choosing starts, for the searches from all starts, and for the last search.
 LOOK, COARSE, FINE = 1e-4, 1e-5, 1e-6
 
-#: Coordinates that are looked at, per start.
+#: Number of coordinates that are tried per start.
 _LOOKS = 4
 
-#: Steps of a search.
+#: Largest number of steps of a search.
 _STEPS = 40
 
 
 @dataclass(frozen=True)
 class Target:
-    """The readings, and how they count."""
+    """The readings with their weights."""
 
     measured: Array
     sigma: Array
-    #: The readings that count.
+    #: Mask of the readings that are fitted.
     used: Mask
     loss: str
 
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
-        """Model less reading in standard errors, then what is known beforehand.
+        """Return model minus reading in standard errors, followed by the residuals of the priors.
 
-        A reading where the motion does not settle counts as a reading of a wing at rest: so large that the search
-        avoids it.
+        If the motion does not settle, the model's value is taken as zero, as for a wing at rest. This residual is so
+        large that the search avoids it.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
         return np.concatenate([residuals, space.prior(x)[0]])
 
     def jacobian(self, space: Space, x: Array, answer: Answer) -> Array:
-        """The derivatives of the residuals by the coordinates."""
+        """Return the derivatives of the residuals by the coordinates."""
         return np.concatenate([(answer.slopes / self.sigma[:, np.newaxis])[self.used], space.prior(x)[1]])
 
 
@@ -128,7 +128,7 @@ class Found:
 def minimise(
     ask: Ask, space: Space, target: Target, begin: Array, held: int | None, steps: int = _STEPS, tolerance: float = 1e-8
 ) -> Found:
-    """The best coordinates near `begin`; `held` is one that stays as it is there."""
+    """Return the best coordinates near `begin`; the coordinate `held` is kept fixed."""
     from scipy.optimize import least_squares
 
     moving = np.array([place for place in range(len(space)) if place != held], np.intp)
@@ -154,7 +154,7 @@ def minimise(
         x, known = answer(whole[moving])
         jacobian_there = target.jacobian(space, x, known)
         return Found(x, cost_of(target.residuals(space, x, known), target.loss), jacobian_there, True, 1)
-    # Inside of the bounds, as the method wants it.
+    # The method requires a start inside the bounds.
     inside = np.clip(begin, space.low + 1e-9, space.high - 1e-9)
     ended = least_squares(
         residuals, inside[moving], jacobian, (space.low[moving], space.high[moving]), loss=target.loss, x_scale="jac",
@@ -165,7 +165,7 @@ def minimise(
 
 
 def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
-    """Coordinates from which to search: the design's own, and the best of points of a scrambled Sobol' sequence."""
+    """Return starts of searches: the design's coordinates, and the best points of a scrambled Sobol' sequence."""
     space = model.space
     own = np.clip(np.zeros(len(space)), space.low, space.high)
     if count == 1:
@@ -178,7 +178,7 @@ def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
 
 
 def sobol(space: Space, count: int, seed: int) -> list[Array]:
-    """Coordinates spread over the bounds."""
+    """Return coordinates spread over the bounds."""
     from scipy.stats import qmc
 
     power = int(np.ceil(np.log2(max(count, 1))))
@@ -187,7 +187,7 @@ def sobol(space: Space, count: int, seed: int) -> list[Array]:
 
 
 def cost_of(residuals: Array, loss: str) -> float:
-    """Half of the sum of the losses of residuals."""
+    """Return half of the sum of the losses of residuals."""
     square = residuals**2
     losses: dict[str, Callable[[Array], Array]] = {
         "linear": lambda z: z,
@@ -200,7 +200,7 @@ def cost_of(residuals: Array, loss: str) -> float:
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
-    """The ends of the searches from all starts, side by side, the best one first."""
+    """Return the ends of the searches from all starts, the best one first."""
     searches = [
         partial(minimise, space=model.space, target=target, begin=begin, held=None, steps=25, tolerance=1e-3)
         for begin in begins
@@ -210,7 +210,7 @@ def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Foun
 
 
 def polish(model: Model, target: Target, begin: Array) -> Found:
-    """The best coordinates near `begin`, at the tolerance of the last search."""
+    """Return the best coordinates near `begin`, at the tolerance of the last search."""
 
     def ask(x: Array) -> Answer:
         return model.at([x], rtol=FINE)[0]
@@ -219,7 +219,7 @@ def polish(model: Model, target: Target, begin: Array) -> Found:
 
 
 def spread(jacobian: Array) -> Array:
-    """The covariance of coordinates from the derivatives of residuals: infinite along what changes no residual."""
+    """Return the covariance of coordinates from derivatives of residuals; infinite if a direction has no effect."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -234,13 +234,13 @@ def spread(jacobian: Array) -> Array:
     return covariance
 
 
-#: The smallest singular value, in units of the largest, of a direction that changes something. Derivatives are known to
-#: about 1e-4 of their size.
+#: Smallest singular value of a direction with an effect, relative to the largest. Derivatives have relative errors of
+#: about 1e-4.
 NOTHING = 3e-4
 
 
 def weights(residuals: Array, loss: str) -> Array:
-    """The weight of each residual by a loss: the derivative of the loss by the square."""
+    """Return the weight of each residual for a loss: the derivative of the loss by the squared residual."""
     square = residuals**2
     derivatives: dict[str, Callable[[Array], Array]] = {
         "linear": np.ones_like,
@@ -253,7 +253,7 @@ def weights(residuals: Array, loss: str) -> Array:
 
 
 def first_guesses(sets: list[DataSet]) -> dict[str, float]:
-    """Standard errors of measures for which none is known, before a fit: a share of the largest reading."""
+    """Return first guesses of unknown standard errors: a share of the largest reading of each measure."""
     largest: dict[str, float] = {}
     for one in sets:
         for measure, values in one.measured.items():
@@ -264,7 +264,7 @@ def first_guesses(sets: list[DataSet]) -> dict[str, float]:
 def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
 ) -> None:
-    """Standard errors of such measures, from the residuals."""
+    """Return new guesses of unknown standard errors, from the residuals."""
     which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
     freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:

@@ -1,4 +1,4 @@
-"""The solution of a fit, of which its predictions, its report and its device are made; tests of its residuals."""
+"""The solution of a fit, the basis of predictions, report and device; tests of its residuals."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class Estimate:
     value : float
         The value, in SI units.
     error : float
-        Standard error, by the derivatives at the estimate.
+        Standard error from the derivatives at the estimate, in SI units.
     low, high : float
-        Ends of the 95 % interval, by the profile likelihood if it was computed.
+        Ends of the 95 % interval, from the profile likelihood if it was computed.
     open_below, open_above : bool
-        True where the interval goes on to the end of the range: the data do not bound the parameter there.
+        True if the interval extends to the end of the range: the data do not bound the parameter on this side.
     profile : Profile or None
         The profile likelihood, if it was computed.
     at_bound : bool
@@ -56,7 +56,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Unsettled:
-    """A reading that does not count, because the model's motion does not settle there.
+    """A reading that is ignored, because the model's motion does not settle there.
 
     Attributes
     ----------
@@ -76,16 +76,16 @@ class Unsettled:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Readings that were held out, and predicted.
+    """Predictions of the readings that were held out.
 
     Attributes
     ----------
     count : int
         Number of readings.
     rms : dict of str to float
-        Root of the mean square of the errors of prediction by measure, in its unit.
+        Root mean square of the prediction errors by measure, in its unit.
     covered : float
-        The share of the readings in their 95 % bands, noise included.
+        The share of the readings within their 95 % bands, which include noise.
     """
 
     count: int
@@ -106,9 +106,9 @@ class Effort:
     points : int
         Number of design points that were run.
     rhs_evals : int
-        Evaluations of the equations of motion.
+        Number of evaluations of the equations of motion.
     seconds : float
-        Time (s).
+        Time of the fit (s).
     """
 
     starts: int
@@ -118,10 +118,10 @@ class Effort:
     seconds: float
 
 
-#: The probability below which residuals are called structured, shared among all tests.
+#: Residuals are structured below this probability, which all tests share.
 _SIGNIFICANT = 0.01
 
-#: Residuals below which nothing is tested.
+#: Smallest number of residuals for a test.
 _FEWEST = 8
 
 
@@ -136,17 +136,17 @@ class Residuals:
     measure, unit : str
         The measure and its unit.
     values : array
-        Model less reading, in the measure's unit; nan where the motion does not settle.
+        Model minus reading, in the measure's unit; nan if the motion does not settle.
     scaled : array
-        The same in standard errors.
+        The values in standard errors.
     rms : float
-        Root of the mean square, in the measure's unit.
+        Root mean square, in the measure's unit.
     count : int
-        Number of readings that count.
+        Number of fitted readings.
     p_runs, p_neighbours : float
-        The probability of as few changes of sign, and of neighbours as alike, if residuals are noise.
+        If residuals are noise, the probability of at most so few changes of sign, and of so similar neighbours.
     is_structured : bool
-        True if residuals follow a pattern: the model lacks something.
+        True if residuals have a pattern: the model lacks an effect.
     """
 
     data_set: str
@@ -172,8 +172,8 @@ class Goodness:
     freedom : int
         Degrees of freedom.
     p : float
-        The probability of so large a sum of squares, if the model is right and standard errors are as given; nan if
-        standard errors are estimated.
+        The probability of at least this sum of squares, if the model is correct and standard errors are as given. nan
+        if standard errors are estimated.
     residuals : list of Residuals
         The residuals by data set and measure.
     """
@@ -185,13 +185,13 @@ class Goodness:
 
     @property
     def is_structured(self) -> bool:
-        """True if residuals follow a pattern: the model lacks something."""
+        """True if residuals have a pattern: the model lacks an effect."""
         return any(one.is_structured for one in self.residuals)
 
 
 def order(points: Mapping[str, Array | list[str]]) -> Places:
-    """The order of a data set's rows in which neighbours are alike: along the parameter with most values, others
-    outside.
+    """Return the order of a data set's rows in which neighbours are similar: the parameter with most values varies
+    fastest.
     """
     numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -203,7 +203,7 @@ def order(points: Mapping[str, Array | list[str]]) -> Places:
 def of_residuals(
     sets: Sequence[DataSet], units: Mapping[str, str], values: Array, scaled: Array, used: Mask
 ) -> list[Residuals]:
-    """The residuals by data set and measure."""
+    """Return the residuals by data set and measure."""
     found, begin = [], 0
     for one in sets:
         for measure in one.measured:
@@ -234,7 +234,7 @@ def of_residuals(
 
 
 def _runs(noise: Array) -> float:
-    """The probability of so few runs of one sign (Wald and Wolfowitz)."""
+    """Return the probability of at most so few runs of one sign (Wald and Wolfowitz)."""
     from scipy.stats import norm
 
     signs = noise[noise != 0] > 0
@@ -251,7 +251,7 @@ def _runs(noise: Array) -> float:
 
 
 def _neighbours(noise: Array) -> float:
-    """The probability of neighbours so alike: the correlation of each residual with the next."""
+    """Return the probability of so similar neighbours, from the correlation of each residual with the next."""
     from scipy.stats import norm
 
     count = len(noise)
@@ -263,7 +263,7 @@ def _neighbours(noise: Array) -> float:
 
 
 def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_known: bool) -> Goodness:
-    """The quality of a fit from its residuals, with those of what was known beforehand."""
+    """Return the quality of a fit from its residuals and the residuals of the priors."""
     from scipy.stats import chi2
 
     scaled = [one.scaled[np.isfinite(one.scaled)] for one in residuals]
@@ -276,7 +276,7 @@ def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_k
 def held_out(
     sets: Sequence[DataSet], target: Target, answer: Answer, held: Mask, covariance: Array, quantile: float
 ) -> HeldOut:
-    """The errors of prediction of readings that were held out."""
+    """Return the prediction errors of the readings that were held out."""
     which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
     error = answer.values - target.measured
     known = np.where(np.isfinite(covariance), covariance, 0.0)
@@ -291,7 +291,7 @@ def held_out(
 
 
 class Solution:
-    """Estimates with their uncertainty, and the model and the data that they are of; see `Fit`."""
+    """Estimates with their uncertainty, and their model and data; see `Fit`."""
 
     def __init__(
         self,
@@ -333,7 +333,7 @@ class Solution:
 
     @property
     def covariance(self) -> Array:
-        """The covariance of the estimates in SI units; infinite for what is not known."""
+        """The covariance of the estimates in SI units; infinite for parameters that the data do not determine."""
         slopes = self._model.space.slopes(self._x)
         return np.asarray(self._covariance * np.outer(slopes, slopes))
 

@@ -1,8 +1,8 @@
 """Pictures of results with matplotlib, each by one function call.
 
-Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results, and
-returns the matplotlib Axes, the Figure if it has several Axes, or the animation. `flapwing.analysis` computes
-sensitivities, rank correlations and fronts. Settings of matplotlib do not change.
+Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. It returns
+matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes sensitivities, rank
+correlations and Pareto fronts. The functions do not change the settings of matplotlib.
 
     >>> import numpy as np
     >>> from flapwing import plot
@@ -10,7 +10,7 @@ sensitivities, rank correlations and fronts. Settings of matplotlib do not chang
     >>> plot.response(table, "lift_mean_mn").get_ylabel()
     'Lift, mean (mN)'
 
-Needs the extra: ``pip install "flapwing[plot]"``.
+Install matplotlib with the extra `plot`: ``pip install "flapwing[plot]"``.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ try:
     import matplotlib as _matplotlib
 except ImportError as _missing:
     raise ImportError(
-        'flapwing.plot needs matplotlib: pip install "flapwing[plot]", or pip install "matplotlib>=3.7"'
+        'flapwing.plot requires matplotlib: pip install "flapwing[plot]", or pip install "matplotlib>=3.7"'
     ) from _missing
 del _matplotlib
 

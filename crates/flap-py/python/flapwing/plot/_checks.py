@@ -1,4 +1,4 @@
-"""The types of arguments, checked before a picture is begun."""
+"""Checks of the types of arguments, before anything is drawn."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class _Kind(NamedTuple):
     """A kind of argument."""
 
     fits: Callable[[Any], bool]
-    #: What is allowed, for messages.
+    #: The allowed values, for messages.
     allowed: str
 
 
@@ -53,7 +53,7 @@ _ONE_OR_MORE = _Kind(
 _NUMBER = _Kind(_is_number, "it must be a number")
 _WHOLE = _Kind(_is_whole, "it must be a whole number")
 
-#: What an argument of a picture may be, by its name; None for those that are read in other ways.
+#: The kind of each argument of a picture, by its name; None for arguments that are checked elsewhere.
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "design": None,
@@ -74,9 +74,9 @@ _KINDS: dict[str, _Kind | None] = {
         lambda value: isinstance(value, Mapping), 'it must be a mapping of columns, such as {"drive_voltage_pp": 100}'
     ),
     "parameters": _Kind(_are_parameters, "it must be names of parameters, or a mapping of names to changes"),
-    "ax": _Kind(lambda value: isinstance(value, Axes), "it must be axes of matplotlib: one of those of plt.subplots()"),
+    "ax": _Kind(lambda value: isinstance(value, Axes), "it must be matplotlib Axes, such as from plt.subplots()"),
     "colorbar": _Kind(
-        lambda value: isinstance(value, (bool, Axes)), "it must be True, False or axes of matplotlib to draw it in"
+        lambda value: isinstance(value, (bool, Axes)), "it must be True, False or matplotlib Axes to draw it in"
     ),
     "legend": _Kind(
         lambda value: isinstance(value, (bool, str)), 'it must be True, False or a place such as "upper left"'
@@ -85,10 +85,10 @@ _KINDS: dict[str, _Kind | None] = {
 
 
 def checked(function: _F) -> _F:
-    """The function, which first raises TypeError or ValueError for arguments that are not of the kind of their names.
+    """Return the function with a check of its arguments, which raises TypeError or ValueError.
 
-    Each argument must have a kind in `_KINDS`: a name without one is a KeyError when the module is imported. None is
-    allowed where it is the default.
+    Each argument must have a kind in `_KINDS`; otherwise importing the module raises KeyError. None is allowed if it is
+    the default.
     """
     signature = inspect.signature(function)
     named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]

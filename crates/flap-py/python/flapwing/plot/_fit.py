@@ -1,4 +1,4 @@
-"""Fits: readings with the model's bands, profiles of the parameters, and their correlations."""
+"""Pictures of fits: readings with the model's bands, profiles of the parameters, and their correlations."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from .._flapwing import printed, scale, words
 from ..fitting import Estimate, Fit
 from . import _style
 
-#: The pictures that there are.
+#: Names of the pictures.
 _PARTS = ("data", "profiles", "correlations")
 
-#: Points of a curve.
+#: Number of points in a curve.
 _CURVE = 80
 
 
@@ -38,18 +38,18 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Returns
     -------
     matplotlib Figure
-        Bands are of the model's value, without the noise of a reading. A profile that does not reach the dashed line on
-        one side is open there: the data do not bound the parameter.
+        Bands are for the model's value, without the noise of a reading. If a profile does not reach the dashed line on
+        one side, the data do not bound the parameter on that side.
 
     Raises
     ------
     ValueError
-        `show` is another word, or profiles were not computed.
+        `show` has another value, or profiles were not computed.
     TypeError
-        `result` is no `Fit`.
+        `result` is not a `Fit`.
     """
     if not isinstance(result, Fit):
-        raise TypeError(f"`result` is {type(result).__name__}\nit must be what flapwing.fit returns")
+        raise TypeError(f"`result` is {type(result).__name__}\nit must be the result of flapwing.fit")
     if show is not None and show not in _PARTS:
         raise ValueError(f"`show` is {show!r}\nit must be one of {', '.join(_PARTS)}")
     profiled = [(name, one) for name, one in result.estimates.items() if one.profile is not None]
@@ -78,7 +78,7 @@ def _rows(count: int) -> int:
 
 
 def _data(result: Fit, measure: str, ax: Axes) -> None:
-    """The readings of a measure with the model's bands, over the parameter with most values."""
+    """Draw the readings of a measure with the model's bands, over the parameter with most values."""
     sets = [one for one in result._sets if measure in one.measured]
     numbers = {name: values for one in sets for name, values in one.points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -121,7 +121,7 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
 
 
 def _label(name: str, others: dict[str, Any], result: Fit) -> str:
-    """The data set, and the parameters that differ in it."""
+    """Return the name of the data set and its parameters that differ between data sets."""
     varied = {
         parameter: value
         for parameter, value in others.items()
@@ -136,7 +136,7 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """The profiles: the rise of the cost while a parameter is held beside its estimate."""
+    """Draw the profiles: the rise of the cost with one parameter fixed at different values."""
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(3, len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):
@@ -151,7 +151,7 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
                 ax.axvline(factor * value, color=_style.VERMILLION, lw=0.8, ls=":")
         ax.set_xlabel(_labels.titled(words(name, one.unit), unit))
         ax.set_ylim(bottom=0)
-        # Numbers of neighbours would touch.
+        # More ticks would make neighbouring numbers overlap.
         ax.xaxis.set_major_locator(MaxNLocator(3))
     axes[0].set_ylabel("Rise of the cost\n(standard errors)")
     for ax in axes[len(profiled) :]:
@@ -166,7 +166,7 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
 
 
 def _correlations(result: Fit, part: Any) -> None:
-    """The correlations as numbers in a map."""
+    """Draw the correlations as numbers in a map."""
     names = [words(name, one.unit) for name, one in result.estimates.items()]
     values = result.correlations
     ax = part.subplots()

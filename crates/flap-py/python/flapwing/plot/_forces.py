@@ -1,4 +1,4 @@
-"""Forces and torques of a vehicle: their changes with inputs as a map, or their course over one input."""
+"""Forces and torques of a vehicle: their changes with inputs as a map, or as curves over one parameter."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ._response import Family, along
 FORCES = ("force_forward_mn", "force_left_mn", "force_up_mn")
 TORQUES = ("torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm")
 
-# Changes that are a smaller share of their input's largest are shown as nearly nothing.
+# A change with a smaller share of its input's largest change is shown as ≈0.
 _LEAST = 1e-3
 
 
@@ -44,28 +44,28 @@ def control_matrix(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the changes of force and torque of a vehicle with its inputs, as a map.
+    """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
 
-    An input is in each column, force and torque are in rows; the number is the change per unit of the input. Colours
-    compare the changes of one input with each other: which force or torque it makes. 1 µN·m counts as 1 mN, and ``≈0``
-    stands for nothing, and for less than a thousandth of the input's largest change.
+    Columns are inputs, and rows are force and torque. The number is the change per unit of the input. Colours compare
+    the changes with one input: they show which force or torque the input changes most. 1 µN·m counts as 1 mN. A change
+    of less than a thousandth of the input's largest change is shown as ``≈0``.
 
     Parameters
     ----------
     table : Table, array, data frame, mapping of columns, or path
-        One row of `evaluate` with ``gradient=``; or what ``flap vehicle --format csv`` prints; or an array of
-        derivatives with six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and a column for
-        each of `inputs`.
+        One row of `evaluate` with ``gradient=``, the output of ``flap vehicle --format csv``, or an array of
+        derivatives. The array has six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and
+        one column for each of `inputs`.
     inputs : list of str, optional
-        The inputs to show, in order. Of an array, the names of its columns.
+        The inputs to show, in order. For an array, the names of its columns.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure; by default axes of a new figure.
+        Axes to draw in, in the style of their figure. Default: axes of a new figure.
 
     Returns
     -------
@@ -91,7 +91,7 @@ def control_matrix(
     if effects is None:
         raise ValueError(
             "the table has no derivatives of force and torque\n"
-            "give evaluate the argument gradient=, or draw the rows with plot.force_panels"
+            "call evaluate with gradient=, or draw the rows with plot.force_panels"
         )
     return _map(effects, colorbar, ax)
 
@@ -105,11 +105,11 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     table : Table, data frame, mapping of columns, or path
         Results of a vehicle.
     x : str, optional
-        The parameter along the panels; by default the grid's axis.
+        The parameter on the horizontal axes. Default: the grid's axis.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
 
     Returns
     -------
@@ -118,13 +118,13 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     Raises
     ------
     ValueError
-        Results that are not of a vehicle; an unknown column or value.
+        Results without the columns of a vehicle; an unknown column or value.
     """
     data = Data.of(table).slice(where, slices)
     outputs = [name for name in (*FORCES, *TORQUES) if name in data]
     if len(outputs) != 6:
         raise ValueError(
-            f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it is of no vehicle"
+            f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it has no results of a vehicle"
         )
     x = along(data, None) if x is None else x
     if not data.on_a_grid(x):
@@ -146,22 +146,22 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
 
 
 def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
-    """The effects in an array, whose columns are named."""
+    """Return the effects in an array, whose columns are named by `inputs`."""
     if not isinstance(table, (np.ndarray, list, tuple)):
         return None
     values = np.asarray(table, dtype=float)
     if values.ndim != 2 or values.shape[0] != 6:
         raise ValueError(
-            f"the array has the shape {values.shape}; force and torque need six rows, one column per input"
+            f"the array has the shape {values.shape}; force and torque require six rows, one column per input"
         )
     names = [] if inputs is None else list(inputs)
     if len(names) != values.shape[1]:
-        raise ValueError(f"`inputs` names {len(names)} columns of the array, which has {values.shape[1]}")
+        raise ValueError(f"`inputs` has {len(names)} names, but the array has {values.shape[1]} columns")
     return _Effects([*FORCES, *TORQUES], [(name, "") for name in names], values)
 
 
 def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """The effects in the one row of a table with derivatives."""
+    """Return the effects in the only row of a table with derivatives."""
     gradient = data.meta.get("gradient")
     if not gradient:
         return None
@@ -169,7 +169,7 @@ def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
         raise ValueError(f"the table has {len(data)} rows with derivatives: choose one, such as table[:1]")
     outputs = [name for name in (*FORCES, *TORQUES) if name in gradient["of"]]
     if not outputs:
-        raise ValueError(f"the table has derivatives of {', '.join(gradient['of'])}, and of no force or torque")
+        raise ValueError(f"the table has derivatives of {', '.join(gradient['of'])}, but of no force or torque")
     names = dict(zip(((of, by) for of in gradient["of"] for by in gradient["with_respect_to"]), gradient["columns"]))
     by = _chosen(inputs, gradient["with_respect_to"])
     values = np.array([[float(data[names[of, name]][0]) for name in by] for of in outputs])
@@ -177,12 +177,12 @@ def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _per(unit: str) -> str:
-    """The unit below the line: that of the input."""
+    """Return the unit in the denominator, which is the unit of the input."""
     return unit.partition("/")[2].strip("()")
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """The effects in a table of `flap vehicle`: a row for each input, after one of the means."""
+    """Return the effects in a table of `flap vehicle`, which has a row of means and then one row for each input."""
     if "input" not in data:
         return None
     names = [str(name) for name in data["input"]]
@@ -196,7 +196,7 @@ def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
-    """The inputs to show."""
+    """Return the inputs to show."""
     for name in inputs or ():
         if name not in known:
             raise unknown("input", name, known)
@@ -204,7 +204,7 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
 
 
 def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Drawn:
-    """The map of the effects, with their numbers."""
+    """Draw the map of the effects with their numbers."""
     values = effects.values
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
@@ -228,13 +228,13 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
 
 
 def _input(name: str, unit: str) -> str:
-    """An input with its unit, on short lines."""
+    """Return an input with its unit, on short lines."""
     text = _labels.words(name, unit).replace(", ", ",\n").replace(" ", "\n", 1)
     return f"{text}\nper {_labels.printed(unit)}" if unit else text
 
 
 def _cell(value: float, share: float) -> str:
-    """A change, in three digits."""
+    """Return a change with three digits."""
     if not np.isfinite(value):
         return "?"
     return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))

@@ -46,39 +46,39 @@ def heatmap(
 ) -> _style.Drawn:
     """Draw a measure over two axes as a map, such as lift, power or efficiency over frequency and voltage.
 
-    Cells end halfway between their values, in the logarithm where an axis is logarithmic. Cells without a periodic
-    motion are grey, those without a row (excluded by ``[where]``, or not in the file) hatched; a legend explains both.
-    In a table of `respond`, each curve may have points of its own where it was refined: along a curve, a cell without a
-    row has the nearest row of that curve.
+    Cells end halfway between their values; on a logarithmic axis, halfway between the logarithms. Cells without a
+    periodic motion are grey. Cells without a row, which ``[where]`` excludes or the file does not have, are hatched. A
+    legend explains both. In a table of `respond`, curves were refined at different points. There, a cell without a row
+    shows the nearest row of the same curve.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sweep over a grid.
     value : str, optional
-        The measure. By default the mean lift.
+        The measure. Default: the mean lift.
     x, y : str, optional
-        The parameters along the axes: numbers or words. By default ``drive_frequency``, or else the last axis of the
-        grid, along x, and the first of the others along y.
+        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, else the last axis of the
+        grid. Default for y: the first of the other axes.
     xscale, yscale : {"linear", "log"}, optional
-        By default logarithmic if the values are in constant ratio.
+        Default: logarithmic if the values have a constant ratio.
     cmap : str, optional
-        A colour map of matplotlib. By default viridis; for values of both signs a map that is white at zero, with a
-        line there.
+        A colour map of matplotlib. Default: viridis. For values of both signs, a map that is white at zero, with a line
+        at zero.
     vmin, vmax : float, optional
-        The ends of the colours, in the unit of the colour bar; by default the ends of the values. An arrow at an
-        end of the colour bar marks values beyond it.
+        The ends of the colours, in the unit of the colour bar. Default: the smallest and the largest value. An arrow at
+        an end of the colour bar marks values beyond it.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -138,7 +138,7 @@ def heatmap(
         colours.bar(ax, mesh, colorbar, shown.label)
         missing = []
         for name, mask in _missing(data, rows, values).items():
-            # Several cells along a curve may be of one row.
+            # Several cells along a curve may show the same row.
             count = int(mask.sum()) if name == _NO_ROW else len(np.unique(rows[mask]))
             missing.append(_fill(ax, across.edges, up.edges, mask, name, count))
         across.finish(ax, "x")
@@ -150,7 +150,7 @@ def heatmap(
 
 
 class _Axis:
-    """The values along one axis, and the edges of their cells."""
+    """The values along one axis and the edges of their cells."""
 
     def __init__(self, data: Data, whole: Data, name: str, scale: str | None) -> None:
         self.shown: Shown = data.shown(name)
@@ -169,7 +169,7 @@ class _Axis:
         self.edges = edges(values, self.log)
 
     def places(self, column: np.ndarray) -> np.ndarray:
-        """The cell of each row."""
+        """Return the cell of each row."""
         if self.shown.text:
             place = {word: i for i, word in enumerate(self.keys)}
             return np.array([place[word] for word in column.astype(str)])
@@ -188,7 +188,7 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """The places of rows with a curve in each line, where cells between the ends of a curve have its nearest row."""
+    """Return the places of rows with one curve in each line; cells between a curve's ends get its nearest row."""
     filled = rows.copy()
     places = np.log(axis.centres) if axis.log else axis.centres
     for line in filled:
@@ -201,7 +201,7 @@ def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """The parameters along x and y: those named, else axes of the grid."""
+    """Return the parameters along x and y: the given ones, else axes of the grid."""
     for name in (x, y):
         if name is not None:
             data[name]
@@ -213,14 +213,14 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
     left = [name for name in data.axes() if name not in named]
     if len(left) < 2 - len(named):
         there = ", ".join([*named, *left]) or "none"
-        raise ValueError(f"a map needs two axes with more than one value each; there are: {there}")
-    # As in `flap plot`: the drive frequency or else the last axis across, the first of the others up.
+        raise ValueError(f"a map requires two axes with more than one value each; the table has: {there}")
+    # As in `flap plot`: the drive frequency, else the last axis, along x; the first of the others along y.
     across = x or ("drive_frequency" if "drive_frequency" in left else left[-1])
     return across, y or next(name for name in left if name != across)
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Masks of the cells without a value, by reason."""
+    """Return masks of the cells without a value, by reason."""
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:
@@ -236,11 +236,11 @@ def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.n
 
 
 def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str, count: int) -> Patch:
-    """Fills cells without a value; gives the entry of the legend."""
+    """Fill cells without a value and return the entry of the legend."""
     text = f"{name} ({count})"
     if name in (_NO_ROW, _UNDEFINED):
         hatch = "////" if name == _NO_ROW else "...."
-        # Without a colour map, so that only these cells are drawn at all.
+        # No colour map is used, so that only these cells are drawn.
         ax.add_collection(
             PolyCollection(
                 _runs(across, up, mask), facecolors="none", edgecolors="#9a9a9a", linewidths=0.0, hatch=hatch
@@ -255,7 +255,7 @@ def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: 
 
 
 def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tuple[float, float]]]:
-    """The outlines of neighbouring cells in a row, for every row."""
+    """Return the outlines of neighbouring cells in a row, for every row."""
     outlines = []
     for row, flags in enumerate(mask):
         ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))

@@ -14,7 +14,7 @@ from .._flapwing import bars
 from . import _style
 from ._checks import checked
 
-# The share of the axes' height above the bars, where the percentiles are written.
+# The share of the axes' height above the bars, for the percentiles.
 _ROOM = 0.28
 
 
@@ -27,22 +27,22 @@ def histogram(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the number of designs over a measure, with its percentiles 5, 50 and 95, such as the lift of a sample.
+    """Draw a histogram: the number of designs over a measure, with the 5th, 50th and 95th percentile.
 
-    Designs without a periodic motion are left out. Bars are as wide as the rule of Freedman and Diaconis has it.
+    Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     measure : str, optional
-        A column of numbers. By default the mean lift, or another measure of the table.
+        A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -52,7 +52,7 @@ def histogram(
     Raises
     ------
     ValueError
-        An unknown column or value; no design that has the measure.
+        An unknown column or value; no design with the measure.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def histogram(
         ax.margins(x=0.03)
         middle = 0.5 * (edges[0] + edges[-1])
         for line, (percent, value) in enumerate(percentiles):
-            # Each percentile has a line of text of its own, so that close ones do not cover each other.
+            # Each percentile has its own line of text, so that close percentiles do not overlap.
             top = 1.0 - _ROOM * line / len(percentiles)
             ax.axvline(value, ymax=top, color=_style.ink(ax), linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
             ax.annotate(
@@ -91,7 +91,7 @@ def histogram(
                 va="top",
                 fontsize="small",
                 color=_style.ink(ax),
-                # Lines of other percentiles end behind the text.
+                # The text covers the lines of other percentiles.
                 bbox={"facecolor": ax.get_facecolor(), "edgecolor": "none", "pad": 0.6},
             )
         ax.set_xlabel(shown.label)

@@ -1,4 +1,4 @@
-"""Both ways of a response: the loop between them."""
+"""Both branches of a response, and the hysteresis loop between them."""
 
 from __future__ import annotations
 
@@ -26,29 +26,29 @@ def hysteresis(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the way up and the way down of a response, with the unstable orbits between them if the table has them.
+    """Draw the branches up and down of a response, and the unstable orbits between them if the table has them.
 
-    Arrows show the ways and their jumps. Bands with different motions on the two ways are shaded.
+    Arrows show the directions of the branches and their jumps. Bistable bands are shaded.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `flapwing.respond` or ``flap respond --out``.
     y : str, optional
-        The measure. By default the stroke, peak to peak.
+        The measure. Default: the stroke, peak to peak.
     parameter : str, optional
-        The parameter that is followed; by default the column behind ``branch``.
+        The followed parameter. Default: the column after ``branch``.
     curve : int, optional
-        The number of the design in the column ``curve``, if there are several.
+        The number of the design in the column ``curve``, if there are several designs.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -58,11 +58,11 @@ def hysteresis(
     Raises
     ------
     ValueError
-        Several designs, with their parameters; an unknown column or value; no ways.
+        Several designs, without a choice among them; an unknown column or value; no branches.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:
-        raise ValueError("a table of `respond` is needed, with the columns `branch` and `bistable`")
+        raise ValueError("the table must be a result of `respond`, with the columns `branch` and `bistable`")
     data = data.slice(where, slices)
     if curve is not None:
         data = data.slice({"curve": curve}, {})
@@ -79,7 +79,7 @@ def hysteresis(
     ways = {name: _Way(x.values[rows], values[rows], bistable[rows]) for name, rows in parts.items()}
     up, down = ways["up"], ways["down"]
     if not up.x.size and not down.x.size:
-        raise ValueError("the table has neither a way up nor a way down")
+        raise ValueError("the table has neither a branch up nor a branch down")
     compared = _compared((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
     bands, up.jumps, down.jumps = compared["bands"], compared["up"], compared["down"]
 
@@ -89,7 +89,7 @@ def hysteresis(
         for i, (low, high) in enumerate(bands):
             text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 and not given else "bistable"
             ax.axvspan(low, high, color=_style.BISTABLE, alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
-        # The branch down often lies on the branch up, which must be seen below it.
+        # The branch down often coincides with the branch up, so the line below is wider.
         for name, width in (("up", 1.9), ("down", 0.8)):
             colour = _style.BRANCHES[name]
             way = ways[name]
@@ -133,11 +133,11 @@ class _Way:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
         self.bistable = np.ascontiguousarray(bistable)
         self.jumps: list[int] = []
-        """The rows after which this way jumps to the motion of the other."""
+        """The rows after which this branch jumps to the motion of the other."""
 
 
 def _one_design(data: Data) -> None:
-    """Raises ValueError, with the parameters of the designs, if there are several."""
+    """Raise ValueError, with the parameters of the designs, if there are several designs."""
     if "curve" not in data:
         return
     curves = distinct(data["curve"])
@@ -156,20 +156,20 @@ def _ends(low: float, high: float, x: Shown) -> str:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """A line that is interrupted after these rows."""
+    """Return a line that is interrupted after these rows."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
 def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
-    """A light vertical arrow, halfway between the rows around a jump: nothing was measured along it."""
+    """Draw a light vertical arrow halfway between the rows around a jump, where nothing was computed."""
     x = 0.5 * (way.x[i] + way.x[i + 1])
     look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
-    """An arrowhead on the line: where the ways are apart, else after a third of the way."""
+    """Draw an arrowhead on the line: in a bistable band, else after a third of the branch."""
     count = len(way.x)
     if count < 3:
         return
@@ -192,7 +192,7 @@ def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, fl
 
 
 def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
-    """Marks above the axes where a way has no periodic motion."""
+    """Draw marks above the axes where a branch has no periodic motion."""
     without = ~data.measured()
     shown = False
     for place, name in enumerate(("up", "down")):

@@ -1,4 +1,4 @@
-"""Designs in the plane of two objectives, and those that no other beats."""
+"""Designs in the plane of two objectives, with the Pareto front."""
 
 from __future__ import annotations
 
@@ -33,31 +33,31 @@ def pareto(
     """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out.
-    `flapwing.analysis.non_dominated` computes the front. With two objectives a stepped line bounds the values that they
-    reach; with more they have rings.
+    `flapwing.analysis.non_dominated` computes the front. With two objectives, a stepped line connects the designs of
+    the front. With more objectives, these designs have rings.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, two or more in all. The first two are drawn: what is minimised first along x. By default the
-        mean lift is maximised and the mean power minimised.
+        The objectives, at least two. The first two are drawn; a minimised objective comes first, along x. Default:
+        maximise the mean lift and minimise the mean power.
     color : str, optional
         A column for the points' colours: numbers with a colour bar, words with a legend.
     cmap : str, optional
-        A colour map of matplotlib, for numbers; by default as for `heatmap`.
+        A colour map of matplotlib, for numbers. Default: as for `heatmap`.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -67,7 +67,7 @@ def pareto(
     Raises
     ------
     ValueError
-        Fewer than two objectives; an unknown column or value; no design that has all objectives.
+        Fewer than two objectives; an unknown column or value; no design with all objectives.
 
     Examples
     --------
@@ -85,8 +85,8 @@ def pareto(
         smaller = [data.usual("cost", "minimize", larger)]
     objectives = [*smaller, *larger]
     if len(objectives) < 2 or len(set(objectives)) < len(objectives):
-        raise ValueError(f"two different objectives or more are needed, not {objectives}")
-    # Cost against benefit reads best with the cost along x; of two alike, the first is.
+        raise ValueError(f"at least two different objectives are required, not {objectives}")
+    # A cost is drawn along x. If both objectives are costs or benefits, the first is.
     names = [smaller[0], larger[0]] if smaller and larger else objectives[:2]
     costs = np.column_stack([data.numbers(name) for name in smaller] + [-data.numbers(name) for name in larger])
     there = data.measured() & ~np.isnan(costs).any(axis=1)
@@ -111,7 +111,7 @@ def pareto(
             linewidth=_style.width(0.6),
             linestyle="-" if len(objectives) == 2 else "none",
             drawstyle="steps-post" if names[0] in smaller else "steps-pre",
-            # Rings around the points, behind them: the points' colours stay visible.
+            # Rings are drawn behind the points, so that the points' colours stay visible.
             marker="o",
             markersize=size + _style.size(0.35),
             markerfacecolor="none",
@@ -124,8 +124,8 @@ def pareto(
         handles, _ = ax.get_legend_handles_labels()
         others = [name for name in objectives if name not in names]
         said = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
-        title: Any = {"title": f"the front is also that of: {said}", "alignment": "left"} if others else {}
-        # Inside, in the corner that no design reaches if there is a front.
+        title: Any = {"title": f"further objectives of the front: {said}", "alignment": "left"} if others else {}
+        # Inside, in a corner without designs.
         corner = f"{'lower' if names[1] in smaller else 'upper'} {'left' if names[0] in smaller else 'right'}"
         _style.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
     return ax

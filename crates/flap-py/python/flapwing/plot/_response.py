@@ -1,4 +1,4 @@
-"""Measures over one parameter, a line for each value of another."""
+"""Measures over one parameter, with one line for each value of another."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .._mistakes import unknown
 from . import _scales, _style
 from ._checks import checked
 
-# Most lines of a sample that nobody asked for: more cannot be distinguished.
+# Largest number of lines that a sample gets by default: more cannot be distinguished.
 _MOST_SAMPLED = 16
 
 
@@ -34,41 +34,41 @@ def response(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure over one parameter, with a line for each value of another: a family of frequency responses.
+    """Draw a measure over one parameter, with one line for each value of another: a family of responses.
 
-    Rows that are not periodic are gaps in a line, with marks in its colour above the picture.
+    Rows without a periodic motion are gaps in a line, with marks in the line's colour above the picture.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
     y : str, optional
-        The measure. By default the stroke, peak to peak.
+        The measure. Default: the stroke, peak to peak.
     x : str, optional
-        The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
+        The parameter on the horizontal axis. Default: ``drive_frequency``, else the grid's last axis.
     by : str, optional
-        The parameter with a line for each value; by default the first of the grid's other axes, if there is one.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure; by default axes of a new figure.
+        Axes to draw in, in the style of their figure. Default: axes of a new figure.
 
     Returns
     -------
     matplotlib Axes
-        Parameters are in readable units, which the labels give.
+        Parameters are in readable units, which the labels show.
 
     Raises
     ------
     ValueError
-        An unknown column or value; several rows with the same parameters; text where numbers are needed.
+        An unknown column or value; several rows with the same parameters; a column of text instead of numbers.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def response_panels(
     colorbar: bool | Axes = True,
     **slices: Any,
 ) -> Figure:
-    """Draw several measures over one parameter, in axes one above the other; see `response`.
+    """Draw several measures over one parameter, in axes below each other; see `response`.
 
     Parameters
     ----------
@@ -117,18 +117,18 @@ def response_panels(
     measures : sequence of str
         The measures, from top to bottom.
     x : str, optional
-        The parameter along the horizontal axis; by default ``drive_frequency``, else the grid's last axis.
+        The parameter on the horizontal axis. Default: ``drive_frequency``, else the grid's last axis.
     by : str, optional
-        The parameter with a line for each value; by default the first of the grid's other axes, if there is one.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
 
     Returns
     -------
@@ -151,7 +151,7 @@ def response_panels(
     2
     """
     if not measures:
-        raise ValueError("`measures` names no measure")
+        raise ValueError("`measures` is empty: give at least one measure")
     whole = Data.of(table)
     family = _family(whole, whole.slice(where, slices), measures, x, by)
     with _style.style():
@@ -167,7 +167,7 @@ def response_panels(
 
 
 def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None) -> Family:
-    """The lines of a picture of these measures."""
+    """Return the lines of a picture of these measures."""
     for name in measures:
         data.numbers(name)
     x = along(data, by) if x is None else x
@@ -175,8 +175,8 @@ def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by:
         by = _beside(data, x)
         if by is not None and not data.on_a_grid(by) and len(distinct(data[by])) > _MOST_SAMPLED:
             raise ValueError(
-                f"`{by}` is sampled, so that {len(distinct(data[by]))} lines would cover each other: choose a value of "
-                f"`{x}` and draw plot.scatter, plot.histogram or plot.tornado; by={by!r} draws them all"
+                f"`{by}` is sampled, and {len(distinct(data[by]))} lines would cover each other: choose a value of "
+                f"`{x}` and draw plot.scatter, plot.histogram or plot.tornado, or draw all lines with by={by!r}"
             )
     if not data.on_a_grid(x):
         raise scattered(x)
@@ -200,7 +200,7 @@ class Family:
         self.colours = _style.shades(self.values, self.by is not None and self.by.text)
 
     def _ordered(self, rows: np.ndarray) -> np.ndarray:
-        """The rows of one line by rising x; -1 stands for points of the grid that have no row."""
+        """Return the rows of one line in rising order of x; -1 stands for points of the grid without a row."""
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
         if [self.x.name] not in self.data.grid_axes:
@@ -232,7 +232,7 @@ class Family:
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
-        """Marks above the axes, a row of them for each line, where rows have no measures."""
+        """Draw marks above the axes where rows have no measures, one row of marks for each line."""
         lines = self._not_periodic()
         if not lines:
             return
@@ -254,7 +254,7 @@ class Family:
         )
 
     def mark_inside(self, ax: Axes) -> None:
-        """The same marks along the lower edge, inside; the limits leave room for them."""
+        """Draw the same marks inside, along the lower edge, and extend the limits for them."""
         lines = self._not_periodic()
         if not lines:
             return
@@ -265,7 +265,7 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """Rows without measures, for each line that has some, with its colour."""
+        """Return the rows without measures for each line with such rows, and the line's colour."""
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
         return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
@@ -275,7 +275,7 @@ class Family:
         _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
 
     def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
-        """A legend, or a colour bar for many numbers."""
+        """Draw a legend, or a colour bar for many numbers."""
         handles: list[Any] = []
         if given and self._not_periodic():
             look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
@@ -289,7 +289,7 @@ class Family:
                 Line2D([], [], color=colour, label=self.by.value(value))
                 for value, colour in zip(self.values, self.colours)
             ] + handles
-            # Beside new axes: a family of responses leaves no corner free.
+            # The legend is beside new axes, because a family of responses fills all corners.
             beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
             title = self.by.label if given else _wrapped(self.by.label)
             look = {"handles": handles, "title": title, "alignment": "left", "borderaxespad": 0.0}
@@ -305,7 +305,7 @@ class Family:
         bar = _style.colour_bar(axes, mappable, colorbar, label=self.by.label, spacing=spacing)
         if bar is None:
             return
-        # Two lines of text for each number at least, for numbers that are evenly spaced along the bar.
+        # Each number takes at least two lines of text, if numbers are evenly spaced along the bar.
         height = 72.0 * bar.ax.get_window_extent().height / _style.figure_of(axes[0]).dpi
         room = max(2, min(12, int(height / (2.0 * bar.ax.yaxis.get_ticklabels()[0].get_fontsize()))))
         shown = numbers[:: -(-len(numbers) // room)]
@@ -314,7 +314,7 @@ class Family:
 
 
 def along(data: Data, by: str | None) -> str:
-    """The parameter along the horizontal axis if none is named."""
+    """Return the default parameter on the horizontal axis."""
     axes = [name for name in data.axes() if by is None or name != data.axis(by)]
     if "drive_frequency" in data and ("drive_frequency" in axes or not axes):
         return "drive_frequency"
@@ -325,7 +325,7 @@ def along(data: Data, by: str | None) -> str:
 
 
 def _beside(data: Data, x: str) -> str | None:
-    """The axis that is left beside x, if it is one."""
+    """Return the axis that remains besides x, if exactly one does."""
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
         return None
@@ -333,7 +333,7 @@ def _beside(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """A mask, True for values without a neighbour, which no line would show."""
+    """Return a mask, True for values without a neighbour, which a line would not show."""
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])
@@ -341,5 +341,5 @@ def _alone(ys: np.ndarray) -> np.ndarray:
 
 
 def _wrapped(text: str) -> str:
-    """A legend's title in lines that are not much longer than the legend is wide."""
+    """Return a legend's title in short lines."""
     return text.replace(", ", ",\n").replace(" (", "\n(")

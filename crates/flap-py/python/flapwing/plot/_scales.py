@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 from .._flapwing import is_signed
 from . import _style
 
-#: The colour map of numbers with both signs. Others have matplotlib's `image.cmap`, by default viridis.
+#: The colour map for numbers of both signs. Others have matplotlib's `image.cmap`, by default viridis.
 DIVERGING = "RdBu_r"
 
 
@@ -22,13 +22,13 @@ class Colours(NamedTuple):
 
     cmap: str | Colormap
     norm: Normalize
-    #: The ends of the colour bar with an arrow, for there are numbers beyond: "neither", "min", "max" or "both".
+    #: The ends of the colour bar with an arrow, which marks numbers beyond: "neither", "min", "max" or "both".
     extend: str
     #: True for a diverging map around zero.
     signed: bool
 
     def bar(self, ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes, label: str) -> None:
-        """The colour bar, with a line at zero between both signs."""
+        """Draw the colour bar, with a line at zero between both signs."""
         bar = _style.colour_bar(ax, mappable, wanted, label=label, extend=self.extend)
         if bar is None:
             return
@@ -47,7 +47,7 @@ def colours(
     vmax: float | None = None,
     log: bool = False,
 ) -> Colours:
-    """The colours of numbers from `vmin` to `vmax`, by default from the smallest to the largest.
+    """Return the colours of numbers from `vmin` to `vmax`; default: from the smallest to the largest number.
 
     Without a `cmap`, numbers of both signs get a diverging map whose middle is zero.
     """
@@ -63,14 +63,14 @@ def colours(
 
 
 def _diverging(low: float, high: float) -> Colormap:
-    """The part of the diverging map from `low` to `high`: its middle is zero, and equal sizes are equally strong."""
+    """Return the part of the diverging map from `low` to `high`, with zero in the middle and equal strengths."""
     size = max(-low, high)
     places = 0.5 + 0.5 * np.linspace(low, high, 257) / size
     return ListedColormap(mpl.colormaps[DIVERGING](places), name="signed")
 
 
 def in_ratio(values: np.ndarray) -> bool:
-    """True for three or more rising values in constant ratio."""
+    """Return True for three or more rising values with a constant ratio."""
     if len(values) < 3 or values[0] <= 0:
         return False
     ratios = values[1:] / values[:-1]
@@ -78,7 +78,7 @@ def in_ratio(values: np.ndarray) -> bool:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Round numbers on a logarithmic scale: a decade's powers alone would leave a short one without any."""
+    """Return round numbers on a logarithmic scale; a short scale may contain no power of ten."""
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
@@ -86,7 +86,7 @@ def log_ticks(low: float, high: float) -> list[float]:
 
 
 def show_log_ticks(axis: Any, low: float, high: float) -> None:
-    """Plain numbers at round places of a logarithmic axis."""
+    """Label round places of a logarithmic axis with plain numbers."""
     axis.set_major_locator(FixedLocator(log_ticks(low, high)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())

@@ -1,4 +1,4 @@
-"""Designs in the plane of two measures, in the colours of a third."""
+"""Designs in the plane of two measures, coloured by a third."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def scatter(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw designs, such as those of a sample, in the plane of two measures and in the colours of a third.
+    """Draw designs, for example of a sample, in the plane of two measures, coloured by a third.
 
     Designs without a periodic motion are left out.
 
@@ -37,23 +37,23 @@ def scatter(
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     x, y : str, optional
-        Columns of numbers. By default the mean power along x and the mean lift along y, or other measures of the table.
+        Columns of numbers. Default: the mean power along x and the mean lift along y, or other measures of the table.
     color : str, optional
-        A column for the points' colours: numbers with a colour bar, words with a legend. By default the stroke, peak to
+        A column for the points' colours: numbers with a colour bar, words with a legend. Default: the stroke, peak to
         peak, or another measure.
     cmap : str, optional
-        A colour map of matplotlib, for numbers; by default as for `heatmap`.
+        A colour map of matplotlib, for numbers. Default: as for `heatmap`.
     where, **slices
-        Columns and the value that rows must have, a number in SI units, text with a unit or a word: the slice of a grid
-        with more axes. In the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor chosen is fixed at its middle value, which a warning gives.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. By default it takes its room from the axes.
+        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -63,7 +63,7 @@ def scatter(
     Raises
     ------
     ValueError
-        An unknown column or value; no design that has both columns.
+        An unknown column or value; no design with values in both columns.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def scatter(
 
 
 def _third(data: Data, taken: list[str]) -> str | None:
-    """The usual measure beside two others; None if the table has no other."""
+    """Return the default measure for colours besides two others; None if the table has no other."""
     try:
         return data.usual("motion", "color", taken)
     except ValueError:
@@ -116,7 +116,7 @@ def points(
     cmap: str | Colormap | None,
     colorbar: bool | Axes,
 ) -> float:
-    """Draws designs as points, in the colours of a column, and gives the size of the points."""
+    """Draw designs as points, coloured by a column, and return the size of the points."""
     size = _style.size(0.62 if len(data) <= 2000 else 0.4)
     look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
     if color is None:

@@ -1,4 +1,4 @@
-"""The look of pictures. Settings hold while a picture is made and are then as they were."""
+"""The style of pictures. Its settings apply while a picture is drawn, and are then restored."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .. import _flapwing, _labels
 if TYPE_CHECKING:
 
     class Drawn(Axes):
-        """Axes with a picture, for type checkers: those of a new figure are in a figure that can be saved."""
+        """Axes with a picture, for type checkers: their figure can be saved."""
 
         @property
         def figure(self) -> Figure: ...
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 else:
     Drawn = Axes
 
-# The colours of `flap plot`: those of series are Okabe and Ito's, which readers with any colour vision tell apart.
+# The colours of `flap plot`. Series have the colours of Okabe and Ito, which colour-blind readers can distinguish.
 _TABLE = _flapwing.colours()
 COLOURS = _TABLE["series"]
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = COLOURS[:6]
@@ -39,14 +39,14 @@ BISTABLE = _TABLE["bistable"]
 BRANCHES = _TABLE["branches"]
 GREY = "#777777"
 
-# More lines than this get a colour bar in place of a legend.
+# If there are more lines, they get a colour bar instead of a legend.
 LEGEND_LINES = 8
 
-# Sizes of texts are left to `font.size`, on which those of matplotlib's other settings depend.
+# Text sizes are not set here: matplotlib derives them from `font.size`.
 _SETTINGS: Any = {
     "axes.axisbelow": True,
     "axes.edgecolor": "#444444",
-    # Strains read as 2 ×10⁻³, not as 0.002.
+    # Strains are printed as 2 ×10⁻³, not as 0.002.
     "axes.formatter.limits": [-3, 6],
     "axes.formatter.use_mathtext": True,
     "axes.grid": True,
@@ -63,10 +63,10 @@ _SETTINGS: Any = {
 
 @contextmanager
 def style(ax: Axes | None = None) -> Iterator[None]:
-    """The look of flap's pictures, for as long as one is made.
+    """Apply the style of flap's pictures while one is drawn.
 
-    Settings that the user has changed stay as they are; one that equals matplotlib's default counts as not changed.
-    Axes that are given keep the look of their figure.
+    Settings that the user has changed are kept. A setting counts as changed if it differs from matplotlib's default.
+    Axes that the user gives keep the style of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     with mpl.rc_context(own):
@@ -74,7 +74,7 @@ def style(ax: Axes | None = None) -> Iterator[None]:
             yield
         finally:
             interactive = mpl.is_interactive()
-    # In a notebook the first figure turns this on, and without it no other would be shown.
+    # In a notebook, the first figure switches this on, and later figures are shown only with it.
     mpl.interactive(interactive)
 
 
@@ -84,7 +84,7 @@ def _is_default(name: str) -> bool:
 
 
 def ink(ax: Axes) -> Any:
-    """The colour of texts and thin lines in axes: the colour of their labels if the user chose one, else flap's."""
+    """Return the colour of texts and thin lines: the colour of the axes' labels if the user set one, else flap's."""
     for colour in (ax.xaxis.label.get_color(), mpl.rcParams["text.color"]):
         if not same_color(colour, "black"):
             return colour
@@ -92,34 +92,34 @@ def ink(ax: Axes) -> Any:
 
 
 def width(factor: float) -> float:
-    """A width of lines, as a multiple of the user's."""
+    """Return a line width, as a multiple of the user's."""
     return factor * float(mpl.rcParams["lines.linewidth"])
 
 
 def size(factor: float) -> float:
-    """A size of markers, as a multiple of the user's."""
+    """Return a marker size, as a multiple of the user's."""
     return factor * float(mpl.rcParams["lines.markersize"])
 
 
 def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:
-    """A figure that makes room for its labels."""
+    """Return a new figure whose layout fits its labels."""
     return plt.figure(figsize=(width, height), layout="constrained")
 
 
 def axes_of(ax: Axes | None, width: float = 6.4, height: float = 4.0) -> Drawn:
-    """The axes given, or those of a new figure."""
+    """Return the given axes, or axes of a new figure."""
     return cast("Drawn", new_figure(width, height).add_subplot() if ax is None else ax)
 
 
 def figure_of(ax: Axes) -> Figure:
-    """The figure that axes are in."""
+    """Return the figure of axes."""
     figure: Any = ax.figure
     while not isinstance(figure, Figure):  # a part of a figure
         figure = figure.figure
     return figure
 
 
-#: The place of a legend above axes, from their left edge.
+#: The place of a legend above axes, aligned with their left edge.
 _ABOVE: Mapping[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
 
 
@@ -132,8 +132,8 @@ def legend(
     outside: Mapping[str, Any] = _ABOVE,
     **options: Any,
 ) -> None:
-    """A legend, if `wanted`: outside of new axes, or inside of axes that are given. A place as `wanted` is inside all
-    axes.
+    """Draw a legend if `wanted`: outside of new axes, or inside given axes. If `wanted` is a place, it is inside in
+    both cases.
     """
     if wanted is False:
         return
@@ -146,7 +146,7 @@ def legend(
 
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:
-    """A colour bar, for a map or points in colours: none, one that takes its room from `ax`, or in axes of its own."""
+    """Draw a colour bar for a map or for coloured points: none, beside `ax`, or in the axes `wanted`."""
     if wanted is False:
         return None
     first = ax[0] if isinstance(ax, list) else ax
@@ -160,13 +160,13 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """Breaks the label of a colour bar into lines, or makes its letters smaller, if it is longer than the bar."""
+    """If the label of a colour bar is longer than the bar, break it into lines or make its letters smaller."""
     label = bar.ax.yaxis.label
     text, letters = label.get_text(), label.get_fontsize()
     if not text or bar.orientation != "vertical":
         return
     figure_of(bar.ax).draw_without_rendering()
-    # Labels of axes, which come later, take a tenth of the height.
+    # Labels of axes are added later and take a tenth of the height.
     room = 0.9 * bar.ax.get_window_extent().height
     for factor in (1.0, 0.85, 0.7, 0.6):
         label.set_fontsize(factor * letters)
@@ -177,19 +177,19 @@ def _fit_label(bar: Any) -> None:
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
-    """Strokes at values of x, all at one height in heights of the axes."""
+    """Draw strokes at values of x, all at `height`, a share of the axes' height."""
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
 def series() -> list[Any]:
-    """The colours of series: the user's, where `axes.prop_cycle` is another than matplotlib's."""
+    """Return the colours of series: the user's if `axes.prop_cycle` differs from matplotlib's default."""
     cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
     return list(cycle) or COLOURS
 
 
 def further_shades(ax: Axes | None, count: int) -> list[Any]:
-    """Colours for new series that differ from the colours of the lines in the axes."""
+    """Return colours for new series, different from the colours of the lines in the axes."""
     every = series()
     taken = [] if ax is None else [line.get_color() for line in ax.lines]
     free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every
@@ -197,7 +197,7 @@ def further_shades(ax: Axes | None, count: int) -> list[Any]:
 
 
 def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:
-    """A colour for each value: in an order for numbers, apart for words."""
+    """Return a colour for each value: ordered colours for numbers, distinct colours for words."""
     if text:
         colours = series()
         return [colours[i % len(colours)] for i in range(len(values))]

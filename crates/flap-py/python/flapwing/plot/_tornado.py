@@ -1,4 +1,4 @@
-"""Changes of a measure with each parameter."""
+"""Changes of a measure with each parameter, as bars."""
 
 from __future__ import annotations
 
@@ -29,44 +29,44 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw how a measure changes with each parameter, as bars in the order of their length.
+    """Draw the change of a measure with each parameter, as bars in the order of their length.
 
-    Of a preset, each parameter is changed by a little. Of a sample, bars show the rank correlation (Spearman) of each
+    For a preset, each parameter is changed slightly. For a sample, bars show the rank correlation (Spearman) of each
     parameter with the measure, from -1 to 1.
 
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset; or the result of `flapwing.analysis.sensitivities`, and then no points are run; or the results of a
-        sample.
+        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. Points are run only for a
+        preset.
     measure, parameters, change, **fixed
-        As for `flapwing.analysis.sensitivities`. Of a sample, as for `flapwing.analysis.rank_correlations`, without
+        As for `flapwing.analysis.sensitivities`. For a sample, as for `flapwing.analysis.rank_correlations`, without
         `change`.
     top : int
-        The largest number of parameters that are drawn.
+        The largest number of parameters to draw.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is beside new axes,
-        and inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
+        axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the look of their figure: nothing is drawn outside them but their labels and a colour bar.
+        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
     -------
     matplotlib Axes
-        The horizontal axis is the change of the measure in percent of the design's own, or the correlation.
+        The horizontal axis is the change of the measure in percent of the design's value, or the correlation.
 
     Raises
     ------
     ValueError
-        As `sensitivities` and `rank_correlations`; no sensitivities; a measure that is zero for the design itself.
+        As for `sensitivities` and `rank_correlations`; no sensitivities; a measure that is zero for the design.
     """
     if _is_table(design):
         names = None if parameters is None else list(parameters)
         return _correlations(rank_correlations(design, measure, names, **fixed), top, ax)
     if isinstance(design, str):
         if measure is None:
-            raise TypeError("`measure` is needed: a measure of the model, such as lift_mean_mn")
+            raise TypeError("`measure` is required: a measure of the model, such as lift_mean_mn")
         found = sensitivities(design, measure, parameters, change=change, **fixed)
     else:
         for each in design:
@@ -78,7 +78,7 @@ def tornado(
         raise ValueError("there are no sensitivities to draw")
     base = found[0].base
     if base == 0:
-        raise ValueError(f"{found[0].measure} is zero for the design itself: its changes have no percentage")
+        raise ValueError(f"{found[0].measure} is zero for the unchanged design: its changes have no percentage")
     shown = found[:top]
     low = np.array([100.0 * (each.low - base) / abs(base) for each in shown])
     high = np.array([100.0 * (each.high - base) / abs(base) for each in shown])
@@ -89,7 +89,7 @@ def tornado(
         ax = _style.axes_of(ax, 6.8, 1.5 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         less, more = _names_of_changes(shown)
-        # If both changes go the same way, the shorter bar lies on the longer one and is thinner.
+        # If both changes have the same sign, the shorter bar is drawn on the longer one and is thinner.
         within = np.where(low * high > 0, np.sign(np.abs(low) - np.abs(high)), 0.0)
         for ends, thin, colour, name in ((low, within < 0, _style.BLUE, less), (high, within > 0, _style.ORANGE, more)):
             bars = ax.barh(places, ends, height=np.where(thin, 0.28, 0.62), color=colour, label=name)
@@ -122,7 +122,7 @@ def tornado(
 
 
 def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Drawn:
-    """Bars of correlations, the largest on top."""
+    """Draw bars of correlations, the largest at the top."""
     shown = found[:top]
     sizes = np.array([each.correlation for each in shown])
     places = np.arange(len(shown))
@@ -146,7 +146,7 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
         ax.tick_params(axis="y", length=0)
         ax.set_ylim(len(shown) - 0.4, -0.6)
         ax.set_xlim(-1.2, 1.2)
-        # Of columns that have nothing to do with each other, 95 % of the correlations are smaller.
+        # For independent columns, 95 % of the correlations are smaller.
         chance = 1.96 / np.sqrt(max(found[0].designs, 2) - 1)
         words = _labels.lowered(_labels.words(found[0].measure, _labels.unit_of(found[0].measure)))
         note = f"{found[0].designs} designs; sizes below {chance:.2f} may be chance"
@@ -155,21 +155,21 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
 
 
 def _is_table(design: Any) -> bool:
-    """True for results: a table of any kind, or the path of a file, whose name has an ending."""
+    """Return True for results: a table of any kind, or the path of a file, whose name has an ending."""
     if isinstance(design, str):
         return bool(os.path.splitext(design)[1])
     return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
 
 
 def _named(each: Sensitivity) -> str:
-    """A parameter with its value in the design."""
+    """Return a parameter with its value in the design, as text."""
     factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"
 
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
-    """The names of the two changes: their size, if it is the same for all parameters."""
+    """Return the names of the two changes: their sizes, if they are the same for all parameters."""
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)
         for each in shown

@@ -1,4 +1,4 @@
-"""A motion over time, and its phase portrait."""
+"""A motion over time and its phase portrait."""
 
 from __future__ import annotations
 
@@ -50,38 +50,38 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw signals over time, and beside them the phase portraits: each angle against its rate.
+    """Draw signals over time and, beside them, phase portraits: the rate of each angle over the angle.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory, as `flapwing.trajectory` gives it or ``flap run --trajectory`` writes it.
+        A trajectory from `flapwing.trajectory` or ``flap run --trajectory``.
     signals : str or sequence of str
-        The columns over time; those with the same unit share axes. By default stroke and pitch.
+        The columns over time; columns with the same unit share axes. Default: stroke and pitch.
     portrait : sequence of str, optional
-        The columns that have a phase portrait; by default stroke and pitch if they are among the signals. A rate that
-        is no column of the table is the slope of the samples.
+        The columns with a phase portrait. Default: stroke and pitch, if they are among the signals. If the table has no
+        column for a rate, it is computed from the samples.
     time : str
         The column of the time.
     label : str, optional
-        The name of the motion in the legend, to compare motions in the same axes. By default later motions are
+        The name of the motion in the legend, to compare motions in the same axes. Default: later motions are
         numbered.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above new axes, and
-        inside axes that are given.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
+        axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw signals of one unit in, without a portrait. They may have motions already: colours go on, and the
-        legend has all lines.
+        Axes to draw signals of one unit in, without a portrait. If they already have motions, the colours continue and
+        the legend has all lines.
 
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The figure's axes are those over time from top to bottom, then the portraits.
+        The figure's axes are first the axes over time, from top to bottom, then the portraits.
 
     Raises
     ------
     ValueError
-        An unknown column; signals of several units, portraits, or, with `ax`, another unit than the motions in it.
+        An unknown column. With `ax`: signals of several units, portraits, or another unit than the motions in it.
 
     Examples
     --------
@@ -102,7 +102,7 @@ def trajectory(
     data = Data.of(table)
     names = [signals] if isinstance(signals, str) else list(signals)
     if not names:
-        raise ValueError("`signals` names no column")
+        raise ValueError("`signals` is empty: give at least one column")
     t = data.numbers(time)
     groups: dict[str, list[str]] = {}
     for name in names:
@@ -111,7 +111,7 @@ def trajectory(
     portraits = [name for name in _ANGLES if name in names] if portrait is None else list(portrait)
     if ax is not None:
         if len(groups) > 1 or portrait:
-            raise ValueError("`ax` is for signals of one unit; several units and portraits make a figure of their own")
+            raise ValueError("`ax` is for signals of one unit; omit it for several units or portraits")
         portraits = []
     rates = {name: _rate(data, name, t) for name in portraits}
 
@@ -149,34 +149,34 @@ def trajectory(
 
 
 def _earlier(ax: Axes, unit: str) -> list[str]:
-    """The words of the vertical axis, if motions in this unit are in the axes already."""
+    """Return the words on the vertical axis, if the axes already have motions in this unit."""
     told = ax.get_ylabel()
     if not told or not ax.lines:
         return []
     words, bracket, other = told.removesuffix(")").rpartition(" (")
     if bracket and other != unit:
         raise ValueError(
-            f"`ax` has the vertical axis {told!r}, and the signals are in {unit or 'no unit'}\ndraw them in other axes"
+            f"`ax` has the vertical axis {told!r}, but the signals are in {unit or 'no unit'}\ndraw them in other axes"
         )
     return [words if bracket else told]
 
 
 def _factor(ax: Axes, time: Shown) -> float:
-    """The factor from the shown unit of time to the unit of the motions that the axes contain."""
+    """Return the factor from the shown unit of time to the unit of the motions in the axes."""
     sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
     there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
     return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0
 
 
 def _numbered(label: str, ax: Axes) -> str:
-    """A label that no line of the axes has yet."""
+    """Return a label that no line of the axes has yet."""
     taken = [line.get_label() for line in ax.lines]
     numbers = (number for number in range(2, len(taken) + 2) if f"{label} ({number})" not in taken)
     return f"{label} ({next(numbers)})" if label in taken else label
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
-    """Axes over time in a column, and beside them the portraits."""
+    """Return axes over time in a column, and axes of portraits beside them."""
     rows = max(signals, portraits)
     height = 1.0 + 1.9 * rows
     if not portraits:
@@ -190,7 +190,7 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
 
 
 def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
-    """The rate of a signal, and its unit: an angle's from its own column if there is one, else the slope."""
+    """Return the rate of a signal and its unit: from the rate's column if there is one, else from the samples."""
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name
@@ -203,7 +203,7 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _common(words: list[str], unit: str) -> str:
-    """A label for several signals: "Angle", as in `flap plot`, the last word that they share, or all words."""
+    """Return a label for several signals: "Angle", as in `flap plot`, the last common word, or all words."""
     if unit == "°":
         return "Angle"
     if len(words) <= 2:
@@ -213,7 +213,7 @@ def _common(words: list[str], unit: str) -> str:
 
 
 def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """An arrow along a curve, a third of the way through its first turn."""
+    """Draw an arrow along a curve, after a third of its first turn."""
     i = max(1, len(x) // 12)
     if i + 1 < len(x):
         ax.annotate(

@@ -17,18 +17,18 @@ from .._data import Data
 from . import _style
 from ._checks import checked
 
-# Chords of the past that are shown, and how far apart they are, in cycles.
+# Number of past chords that are shown, and their distance in cycles.
 _PAST, _APART = 9, 1.0 / 36.0
 
-# Distances of ticks, in degrees of the stroke.
+# Possible distances of ticks, in degrees of the stroke.
 _STEPS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 90)
 
-# Strokes that are drawn larger than they are, peak to peak (rad).
+# Smaller strokes, peak to peak (rad), are drawn enlarged.
 _SMALL = np.radians(11.0)
 
 
 class WingPath(FuncAnimation):
-    """An animation, which notebooks show with buttons."""
+    """An animation that notebooks show with buttons."""
 
     def __init__(self, scene: _Scene) -> None:
         self._scene = scene
@@ -42,8 +42,8 @@ class WingPath(FuncAnimation):
         Parameters
         ----------
         filename : path
-            Ending in ``.gif``; in ``.html``, a page with buttons; or in anything else that matplotlib's writer (ffmpeg
-            by default) writes.
+            A name that ends in ``.gif``, in ``.html`` (a page with buttons), or in another format of matplotlib's
+            writer (by default ffmpeg).
         writer, **options
             As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
         """
@@ -72,46 +72,47 @@ def wing_path(
 ) -> WingPath:
     """Animate the last cycle of a motion: the wing's chord seen from its tip, moving along the stroke.
 
-    The dot is the leading edge, which is up; the line ends at the trailing edge, and an arrow of the lift's size
-    points up (down if the lift is negative). Below run stroke and pitch over the cycle. Keep the returned object
+    The dot is the leading edge, which is up, and the line ends at the trailing edge. The length of the arrow shows the
+    lift; it points down if the lift is negative. Below are stroke and pitch over the cycle. Keep the returned object
     until it is saved or shown: ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory with ``time_s``, ``stroke_deg`` and ``pitch_deg``, of one cycle or more, evenly sampled.
+        A trajectory of at least one cycle with ``time_s``, ``stroke_deg`` and ``pitch_deg``, evenly sampled.
     frames : int
-        Frames of the cycle, evenly spaced.
+        Number of frames in the cycle, evenly spaced.
     frequency : float, optional
-        Cycles per second (Hz); by default the rate at which the motion repeats.
+        Cycles per second (Hz). Default: the rate at which the motion repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke's axis, in chords. By default 3. Strokes of less than 11 degrees,
-        peak to peak, have a larger one, such that the leading edge moves by 2.5 chords.
+        Distance of the drawn chord from the stroke axis, in chords. Default: 3. For strokes of less than 11 degrees,
+        peak to peak, the default is larger, so that the leading edge moves by 2.5 chords.
     lift : str or None
         The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
-        1 if a positive pitch has the trailing edge lag a wing that moves to positive stroke, -1 if it leads; by
-        default as the model of the table has it, and for a table without a model such that the trailing edge lags.
+        Sign convention of the pitch. 1: at a positive pitch, the trailing edge of a wing that moves to positive stroke
+        lags. -1: it leads. Default: the convention of the table's model. For a table without a model, the sign for
+        which the trailing edge lags.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default it is above the axes.
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above the axes.
     ax : matplotlib Axes, optional
         Axes to draw the wing in, without the curves below; the legend is inside.
 
     Returns
     -------
     WingPath
-        A matplotlib ``FuncAnimation``, whose `save` writes ``.gif`` and ``.html`` too.
+        A matplotlib ``FuncAnimation``, whose `save` also writes ``.gif`` and ``.html``.
 
     Raises
     ------
     ValueError
-        An unknown column; a motion that does not repeat, or less than one cycle of it.
+        An unknown column; a motion that does not repeat, or is shorter than one cycle.
     """
     data = Data.of(table)
     if frames < 2:
-        raise ValueError(f"an animation has two frames or more, not {frames}")
+        raise ValueError(f"an animation must have at least two frames, not {frames}")
     if pitch_sign not in (None, 1, -1):
-        raise ValueError(f"`pitch_sign` is 1 or -1, not {pitch_sign}")
+        raise ValueError(f"`pitch_sign` must be 1 or -1, not {pitch_sign}")
     if lift is not None and lift != "lift_mn":
         data[lift]
     cycle = _Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
@@ -144,7 +145,7 @@ class _Cycle:
 
 
 class _Scene:
-    """The parts of the picture: those drawn once, and those that every frame moves."""
+    """The parts of the picture: parts that are drawn once, and parts that move in every frame."""
 
     def __init__(self, cycle: _Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
         self.cycle = cycle
@@ -161,7 +162,7 @@ class _Scene:
         self._set_up(ax, radius, legend)
         self.now = None if below is None else self._curves(below)
         if below is not None:
-            # The layout is the same in all frames, and finding it takes longer than drawing one.
+            # The layout is the same in all frames, and computing it takes longer than drawing a frame.
             self.figure.draw_without_rendering()
             self.figure.set_layout_engine(None)
 
@@ -217,7 +218,7 @@ class _Scene:
         return ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
 
     def draw(self, frame: int) -> list[Any]:
-        """Moves everything to a frame."""
+        """Move all parts to a frame."""
         cycle = self.cycle
         spacing = max(1, round(_APART * cycle.frames))
         ago = [(frame - i * spacing) % cycle.frames for i in range(_PAST, 0, -1)]
@@ -228,7 +229,7 @@ class _Scene:
         self.edge.set_data([leading[0]], [leading[1]])
         moved: list[Any] = [self.past, self.chord, self.edge]
         if self.arrow is not None and cycle.lift is not None:
-            # From where the centre of pressure roughly is, a quarter of the chord behind the leading edge.
+            # The arrow begins near the centre of pressure, a quarter of the chord behind the leading edge.
             foot = 0.75 * leading + 0.25 * trailing
             length = cycle.lift[frame] * self.per_unit
             self.shaft.set_data([foot[0], foot[0]], [foot[1], foot[1] + length])
@@ -243,7 +244,7 @@ class _Scene:
 
 
 def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
-    """The time after which the motion repeats, found at its end (s)."""
+    """Return the time after which the motion repeats (s), from its end."""
     n = len(t)
     states = np.column_stack([stroke, pitch])
     size = np.ptp(states, axis=0)
@@ -256,7 +257,7 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
         error[shift] = np.abs(states[n - overlap :] - states[n - overlap - shift : n - shift]).max()
     close = np.flatnonzero(error < 0.01)
     if close.size == 0:
-        raise ValueError("the motion does not repeat within the trajectory: say its `frequency`")
+        raise ValueError("the motion does not repeat within the trajectory: give its `frequency`")
     shift = int(close[0])
     while shift + 1 < n and error[shift + 1] < error[shift]:
         shift += 1
@@ -264,8 +265,8 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def _pitch_sign(data: Data, cycle: _Cycle) -> int:
-    """1 if the trailing edge lags at a positive pitch, -1 if it leads: as the model has it, else such that it lags on
-    average.
+    """Return 1 if the trailing edge lags at a positive pitch, -1 if it leads: the convention of the model, else the
+    sign for which the trailing edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:

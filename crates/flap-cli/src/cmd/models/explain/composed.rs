@@ -1,4 +1,4 @@
-//! Names that are put together: derivatives, and those of vehicles and their wings.
+//! Names that are composed of others: columns of derivatives, and names of vehicles and their wings.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
@@ -7,7 +7,7 @@ use flap_sweep::plan::gradient::{meaning, parts};
 
 use super::entry::{Entry, of_measure, of_table};
 
-/// All that a name may mean that is put together of others.
+/// Returns all meanings of a composed name.
 pub(super) fn entries(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries = derivative(name, models);
     if entries.is_empty() {
@@ -20,7 +20,7 @@ pub(super) fn entries(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entr
     entries
 }
 
-/// The column of a derivative.
+/// Returns the meaning of a column of derivatives.
 fn derivative(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries = Vec::new();
     let Some((of, by, per)) = parts(name) else { return entries };
@@ -41,19 +41,19 @@ fn derivative(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entry> {
     entries
 }
 
-/// The names of wings with which `name` may begin.
+/// Returns the prefixes of `name` that may be the name of a wing.
 fn wings(name: &str) -> impl Iterator<Item = &str> {
     name.match_indices('_').map(|(end, _)| &name[..end])
 }
 
-/// The vehicle of a model with a wing on the left and its image on the right.
+/// Returns a vehicle of a model with a left wing and its mirrored right wing.
 fn vehicle(model: &'static dyn Simulator, left: &str) -> Option<Vehicle> {
     let mount = |name: &str, mirrored| Mount { name: name.to_owned(), mirrored };
     let right = if left == "right" { "other" } else { "right" };
     Vehicle::of(model, &[mount(left, false), mount(right, true)]).ok()
 }
 
-/// The parameters and columns of the vehicles of a model, but for those of its wings.
+/// Adds the parameters and columns of a model's vehicles, except names that belong to one wing.
 pub(super) fn of_vehicles(model: &'static dyn Simulator, entries: &mut Vec<Entry>) {
     let Some(vehicle) = vehicle(model, "left") else { return };
     let is_own = |name: &str| !["left_", "right_"].iter().any(|wing| name.starts_with(wing));
@@ -71,7 +71,7 @@ pub(super) fn of_vehicles(model: &'static dyn Simulator, entries: &mut Vec<Entry
     }
 }
 
-/// The parameter and the column called `name` of a vehicle's wing called `wing`.
+/// Adds the parameter and the column `name` of a vehicle's wing `wing`.
 fn of_wing(model: &'static dyn Simulator, wing: &str, name: &str, entries: &mut Vec<Entry>) {
     let Some(vehicle) = vehicle(model, wing) else { return };
     let rest = format!(" with a wing called {wing}");

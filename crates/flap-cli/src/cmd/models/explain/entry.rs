@@ -11,11 +11,11 @@ use crate::cmd::models::parameters::{allowed, shown};
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) name: String,
-    /// Whatever it names, as in `a column of trajectories of`.
+    /// The kind of thing that has this name, as in `a column of trajectories of`.
     what: String,
-    /// The models that have it; none if it does not depend on the model.
+    /// Models that have this name; empty if it does not depend on the model.
     models: Vec<&'static str>,
-    /// The end of the kind.
+    /// Text after the models.
     rest: String,
     /// Indented lines.
     pub(super) text: String,
@@ -24,13 +24,13 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// A name that does not depend on the model.
+    /// Returns an entry for a name that does not depend on the model.
     pub(super) fn new(name: impl Into<String>, what: impl Into<String>, text: String) -> Entry {
         let (name, what) = (name.into(), what.into());
         Entry { name, what, models: Vec::new(), rest: String::new(), text, is_former: false }
     }
 
-    /// A name of a model.
+    /// Returns an entry for a name of a model.
     pub(super) fn of(
         model: &'static str,
         name: impl Into<String>,
@@ -40,17 +40,17 @@ impl Entry {
         Entry { models: vec![model], ..Entry::new(name, what, text) }
     }
 
-    /// The same with more words behind the model.
+    /// Returns the entry with text after the models.
     pub(super) fn with_rest(self, rest: impl Into<String>) -> Entry {
         Entry { rest: rest.into(), ..self }
     }
 
-    /// The same as a former name.
+    /// Returns the entry, marked as a former name.
     pub(super) fn former(self) -> Entry {
         Entry { is_former: true, ..self }
     }
 
-    /// Whatever it names, with the models that have it.
+    /// Returns the kind of thing that has this name, with its models.
     pub(super) fn kind(&self) -> String {
         let Entry { what, models, rest, .. } = self;
         let of = match models.as_slice() {
@@ -61,14 +61,14 @@ impl Entry {
         format!("{what}{of}{rest}")
     }
 
-    /// Name, kind, models and text, as a row of a table.
+    /// Returns name, kind, models and text, as a row of a table.
     pub(super) fn row(&self) -> Vec<String> {
         let Entry { name, what, models, rest, text, .. } = self;
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
-    /// Adds an entry to others; those that say the same of several models become one.
+    /// Adds the entry to `others`. If an entry with the same meaning exists, only its list of models grows.
     pub(super) fn add(self, others: &mut Vec<Entry>) {
         let same = |other: &&mut Entry| {
             (&other.name, &other.what, &other.rest, &other.text)
@@ -81,22 +81,22 @@ impl Entry {
     }
 }
 
-/// Meaning and unit of a column.
+/// Returns meaning and unit of a column.
 pub(super) fn of_column(doc: &str, unit: &str) -> String {
     let unit = if unit.is_empty() { String::new() } else { format!("  unit      {unit}\n") };
     format!("  {doc}\n{unit}")
 }
 
-/// The same of a measured column.
+/// Returns meaning and unit of a measured column.
 pub(super) fn of_measure(column: &Column) -> String {
     of_column(&column.doc, column.unit)
 }
 
-/// Meaning, unit, symbol, range and published values of a parameter.
+/// Returns meaning, unit, symbol, range and published values of a parameter.
 pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Parameter) -> String {
     let mut page = of_table(parameter);
     if parameter.is_fitted {
-        page += "  The published value is a fit to one vehicle: measure or fit it for another.\n";
+        page += "  The published value was fitted to one vehicle. Measure or fit it for other vehicles.\n";
     }
     for preset in model.presets() {
         let value = (preset.values)()[index];
@@ -106,7 +106,7 @@ pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Para
     page
 }
 
-/// Meaning, unit, symbol, range and group of a parameter.
+/// Returns meaning, unit, symbol, range and group of a parameter.
 pub(super) fn of_table(parameter: &Parameter) -> String {
     let mut page = format!("  {}\n", parameter.doc);
     let allowed = allowed(parameter);

@@ -1,4 +1,4 @@
-//! Everything that can be explained by its name alone.
+//! Names that are explained without parsing: parameters, columns, settings and statuses.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings, Status};
 use flap_sweep::resonance::measures;
@@ -9,7 +9,7 @@ use super::entry::{Entry, of_column, of_measure, of_parameter};
 use super::tables::TABLES;
 use crate::statuses;
 
-/// Everything that can be explained of these models.
+/// Returns all names of these models with their meanings.
 pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for status in Status::ALL {

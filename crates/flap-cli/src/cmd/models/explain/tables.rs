@@ -1,4 +1,4 @@
-//! Columns of tables that commands print, which are no columns of rows.
+//! Columns of tables that commands print, but that rows of results do not have.
 
 /// A kind of column, and such columns with their meanings.
 type Columns = (&'static str, &'static [(&'static str, &'static str)]);
@@ -8,23 +8,26 @@ pub(super) const TABLES: &[Columns] = &[
     (
         "a column of chirps (`flap test chirp`)",
         &[
-            ("begin_s", "beginning of the cycle, since that of the chirp"),
-            ("end_s", "end of the cycle, since the beginning of the chirp"),
+            ("begin_s", "beginning of the cycle, measured from the beginning of the chirp"),
+            ("end_s", "end of the cycle, measured from the beginning of the chirp"),
             ("frequency_hz", "one over the duration of the cycle"),
         ],
     ),
     (
         "a column of resonances (`flap test resonance`)",
         &[
-            ("resonance", "way in which the resonance was found"),
+            ("resonance", "method by which the resonance was found"),
             ("frequency_hz", "frequency of the resonance"),
-            ("relative_height", "height of the peak over that of the highest"),
+            ("relative_height", "height of the peak divided by the height of the highest peak"),
             ("decay_1_s", "rate at which the free motion after an impulse decays"),
-            ("relative_rms", "root mean square of what the damped sine leaves over, over that of the motion"),
+            (
+                "relative_rms",
+                "root mean square of the residual of the damped sine, divided by the root mean square of the motion",
+            ),
         ],
     ),
     (
         "a value of an impulse (`flap test impulse`)",
-        &[("impulse_deg", "amplitude of the first mode alone, without damping")],
+        &[("impulse_deg", "amplitude that the first mode alone would reach without damping")],
     ),
 ];
