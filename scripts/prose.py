@@ -49,13 +49,21 @@ def prose(lines: list[str]) -> list[str]:
     """Lines of a docstring without doctests, code blocks, underlines and the lines `name : type` of numpydoc."""
     kept = []
     in_doctest = in_code = False
+    # The indentation above a literal block, which follows a line with two colons at its end.
+    literal: int | None = None
     for line in lines:
         text = line.strip()
         is_fence = text.startswith("```")
         in_doctest = text.startswith(">>>") or (in_doctest and text != "")
         is_layout = re.fullmatch(r"-{3,}|[*\w, ]+ : .*", text) is not None
-        kept.append("" if in_doctest or in_code or is_fence or is_layout else text)
+        if text and literal is not None and len(line) - len(line.lstrip()) <= literal:
+            literal = None
+        is_code = in_doctest or in_code or is_fence or is_layout or literal is not None
+        # A semicolon separates the entries of a list, such as the reasons of an error.
+        kept.append("" if is_code else text.replace("; ", ". "))
         in_code = in_code != is_fence
+        if text.endswith("::"):
+            literal = len(line) - len(line.lstrip())
     return kept
 
 

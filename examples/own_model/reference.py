@@ -4,8 +4,8 @@
 
 The columns of a point are voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). The stiffness is
 empty where it follows the frequency. The measures are taken over the last of 100 drive periods. The first
-are the largest flap angle (deg) and the mean lift (mN). Mean and mean magnitude of the electrical power (mW) follow, then
-the mean power taken by the air (mW), and the root mean square of the current (mA).
+are the largest flap angle (deg) and the mean lift (mN). Then follow the mean and the mean magnitude of the electrical
+power (mW). The last are the mean power taken by the air (mW) and the root mean square of the current (mA).
 """
 
 import csv

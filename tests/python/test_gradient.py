@@ -104,7 +104,11 @@ def test_missing_derivatives_have_a_reason():
     ("keywords", "error", "says"),
     [
         ({"gradient": ["hinge_stiffnes"]}, ValueError, "did you mean `hinge_stiffness`?"),
-        ({"gradient": ["lift_sign"]}, ValueError, "`lift_sign` is a choice, so there is no derivative with respect to it"),
+        (
+            {"gradient": ["lift_sign"]},
+            ValueError,
+            "`lift_sign` is a choice, so there is no derivative with respect to it",
+        ),
         ({"gradient": BY + BY[:1]}, ValueError, "`gradient` has hinge_stiffness twice"),
         ({"gradient": "hinge_stiffness"}, TypeError, "`gradient` is str\nit must be a list of names"),
         ({"gradient": []}, ValueError, "`gradient` is empty"),

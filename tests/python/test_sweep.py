@@ -305,7 +305,9 @@ def test_damage_of_unfinished_results_is_noticed(tmp_path):
     path, sidecar = tmp_path / "rows.csv", tmp_path / "rows.csv.meta.toml"
     own = sidecar.read_bytes()
     sidecar.write_bytes((tmp_path / "other.csv.meta.toml").read_bytes())
-    with pytest.raises(ValueError, match="rows.csv is damaged: its sidecar belongs to another sweep: the grid file differs"):
+    with pytest.raises(
+        ValueError, match="rows.csv is damaged: its sidecar belongs to another sweep: the grid file differs"
+    ):
         flapwing.read(path)
     with pytest.warns(UserWarning) as caught:
         table = flapwing.read(path, ignore_damage=True)

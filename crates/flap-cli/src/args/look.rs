@@ -40,7 +40,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = DESCRIBE_HELP)]
 pub(crate) struct DescribeArgs {
-    /// Measures for which the best values of each axis are listed, separated by commas [default: lift_mean_mn and
+    /// Measures for which the best values of each axis are listed, separated by commas. [default: lift_mean_mn and
     /// efficiency_gf_per_w, or the first measure of a file that has neither]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) by: Vec<String>,

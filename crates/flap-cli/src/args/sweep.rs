@@ -19,7 +19,7 @@ pub(crate) struct SweepArgs {
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 
-    /// File for the rows; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet.
     /// [default: `path` in [output] of the grid file, else the grid file's name with the ending .csv, in the working
     /// directory]
     #[arg(short, long, value_name = "FILE")]

@@ -10,6 +10,9 @@ use super::ink::{self, rectangle, text};
 use super::panel::{Axis, BAR_MARGIN, LETTER};
 use super::scale;
 
+/// Width of a digit over the size of the font.
+const DIGIT: f64 = 0.64;
+
 /// The colours of numbers within a range.
 pub(super) struct Shades {
     range: (f64, f64),
@@ -92,7 +95,7 @@ pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis,
         text(scene, (left + 23.0, y + 4.2), &tick, 12, TextAnchor::Start);
     }
     let (label, size) = fitting(&axis.label, frame.plot_height());
-    let beside = left + 23.0 + widest as f64 * 12.0 * LETTER + 0.9 * f64::from(size);
+    let beside = left + 25.0 + widest as f64 * 12.0 * DIGIT + 0.9 * f64::from(size);
     scene.add(Primitive::Text {
         x: beside.min(frame.width - 4.0),
         y: top + frame.plot_height() / 2.0,

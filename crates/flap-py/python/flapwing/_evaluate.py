@@ -47,9 +47,9 @@ def evaluate(
         parameters. The grid's ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` apply to every
         point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
-        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units, or a list of texts
-        with units or of options. One value applies to all points. A masked array must have no masked values. From a
-        `Table`, only the parameters are taken, not the measures.
+        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units. A list of texts
+        with units, or of options, is accepted too. One value applies to all points. A masked array must have no masked
+        values. From a `Table`, only the parameters are taken, not the measures.
     threads : int, optional
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
         depend on it.
@@ -66,9 +66,9 @@ def evaluate(
         parameter, and replace the derivatives of a grid's ``[gradient]``. Each takes about the work of three drive
         periods.
     initial_state : Table, dict or DataFrame, optional
-        The state in which each motion begins, at the start of a drive period: columns of the components (see `states`),
-        one row per point, in the units of their names. A row with nan begins at rest. If a design has several orbits,
-        the state decides which one is found. Default: rest.
+        The state in which each motion begins, at the start of a drive period. Columns are the components (see
+        `states`), in the units of their names, with one row per point. A row with nan begins at rest. If a design has
+        several orbits, the state decides which one is found. Default: rest.
     return_states : bool, optional
         Add columns of the state of the motion at the beginning of a drive period, for `initial_state`.
     **keywords : float or str

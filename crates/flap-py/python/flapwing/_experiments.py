@@ -84,7 +84,7 @@ def impulse(
         As for `run`.
     amplitude : float or str, optional
         Size of the impulse, as the amplitude (rad, or text with a unit) that the first mode alone would reach without
-        damping: at most half a turn, not zero. Default ``"20 deg"``.
+        damping. At most half a turn, not zero. Default ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
@@ -183,16 +183,16 @@ def forces_along(
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     """Compute stroke and pitch of a filmed wing from points that were tracked in its images.
 
-    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord, and the
+    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord. The
     centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and
     43).
 
     Parameters
     ----------
     points : path or columns
-        The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame), with `root_x`, `root_y`,
-        `tip_x`, `tip_y` of the leading edge, all in one unit, and `time_s` (or `time_ms`). For the pitch also `edge_x`,
-        `edge_y` of a point on the lower edge.
+        The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns are `root_x`,
+        `root_y`, `tip_x`, `tip_y` of the leading edge, all in one unit, and `time_s` (or `time_ms`). For the pitch also
+        `edge_x`, `edge_y` of a point on the lower edge.
     chord : float, optional
         Chord from the leading edge to the point on the lower edge, in the unit of the points: more than 0. With it,
         the result has the pitch.

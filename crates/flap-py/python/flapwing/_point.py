@@ -61,8 +61,8 @@ def run(
         DataFrame. A row with nan begins at rest. If the design has several orbits, the state decides which one is
         found. Default: rest.
     waveform : path, tuple or columns, optional
-        One period of the drive, which replaces `drive_shape`: a CSV file or columns (a dictionary, Table or DataFrame)
-        with `time_s` (or `time_ms`) and `wave`, or a pair of arrays (times in s, wave). Its duration is the drive
+        One period of the drive, which replaces `drive_shape`. A CSV file or columns (a dictionary, Table or DataFrame)
+        have `time_s` (or `time_ms`) and `wave`. A pair of arrays is (times in s, wave). Its duration is the drive
         period, unless `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
     stroke : path, tuple or columns, optional
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
@@ -98,8 +98,8 @@ def run(
         If True, an orbit whose second half mirrors the first is found and measured over half periods. If False, over
         whole periods. The orbit is the same, with more work. Default True.
     **parameters : float or str
-        Parameters of the model by name: a number in SI units, text with a unit such as
-        ``"1.5 uN*m/rad"``, or the name of an option if the parameter is a choice.
+        Parameters of the model by name. A value is a number in SI units, text with a unit such as
+        ``"1.5 uN*m/rad"``, or the name of an option of a choice.
 
     Returns
     -------
@@ -244,7 +244,7 @@ def resonance(
         Largest error of the peaks' frequencies (Hz, or text with a unit). Default 0.05.
     impulse : float or str, optional
         Impulse on the resting stroke, as the amplitude (rad, or text with a unit) that the first mode alone would reach
-        without damping: at most half a turn, not zero. Default ``"20 deg"``.
+        without damping. At most half a turn, not zero. Default ``"20 deg"``.
     fit_cycles : int, optional
         Number of periods of the first mode to which the damped sine is fitted. Default 4.
     spectrum_window : float or str, optional

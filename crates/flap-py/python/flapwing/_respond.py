@@ -36,7 +36,8 @@ def respond(
 
     The first point of each branch starts at rest. Every other point starts from the settled motion of the point before
     it. If the branches up and down settle to different motions, the design is bistable. A step is halved if a
-    bistable band ends in it, or if the motion changes by more than a tenth, since it may hide a narrow band.
+    bistable band ends in it, or if the motion changes by more than a tenth.
+    Such a step may hide a narrow band.
 
     Parameters
     ----------
@@ -70,10 +71,10 @@ def respond(
     Returns
     -------
     Table
-        One row per motion: `curve` (number of the design), its parameters, `branch` (``"up"``, ``"down"`` or
-        ``"unstable"``), the followed parameter, `status`, `bistable` (true if the branches up and down have different
-        motions), and the other columns of a sweep. `Table.verdicts` has the verdict on each design, and
-        ``meta["parameter"]`` the followed parameter.
+        One row per motion. The columns are `curve` (number of the design), its parameters, `branch` (``"up"``,
+        ``"down"`` or ``"unstable"``), the followed parameter, and `status`. Then follow `bistable` (true if the
+        branches up and down have different motions) and the other columns of a sweep. `Table.verdicts` has the verdict
+        on each design, and ``meta["parameter"]`` the followed parameter.
 
     Raises
     ------

@@ -141,11 +141,11 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Parameters
     ----------
     path : path
-        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), a CSV table of another command, such as
-        ``flap run --trajectory``, or a Parquet table of another program (Zstandard, Snappy or no compression). Units,
-        meanings and axes are read from the sidecar beside the results, or from the metadata of flap's Parquet files.
-        Without both, units are taken from the names of the columns. If results are unfinished, the rows up to the last
-        checkpoint are read, with a warning.
+        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of another command, such
+        as ``flap run --trajectory``. A Parquet table of another program (Zstandard, Snappy or no compression) works
+        too. Units, meanings and axes are read from the sidecar beside the results, or from the metadata of flap's
+        Parquet files. Without both, units are taken from the names of the columns. If results are unfinished, the rows
+        up to the last checkpoint are read, with a warning.
     ignore_damage : bool, optional
         If results are damaged, read the rows that can be read, with a warning. By default, damage is an error.
 

@@ -71,9 +71,9 @@ class Table:
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds
-        `counts` (number of rows by status), `excluded` (number of points without a row), `invalid` (the first few
-        invalid points with their reasons) and `keywords` (of the call, which replace values of the grid). Tables of
-        some of the rows or columns have copies of these entries, with their own `rows` and `counts`.
+        `counts` (number of rows by status), `excluded` (number of points without a row) and `invalid` (the first few
+        invalid points with their reasons). `keywords` has the keywords of the call, which replace values of the grid.
+        Tables of some of the rows or columns have copies of these entries, with their own `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]

@@ -205,8 +205,8 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values share the mean of their ranks. A parameter is left out if it has the same order as an earlier
-    parameter, or the reverse order, or if it has the same value in all designs.
+    Equal values share the mean of their ranks. A parameter is left out if it has the order of an earlier
+    parameter, the reverse order, or the same value in all designs.
 
     Parameters
     ----------

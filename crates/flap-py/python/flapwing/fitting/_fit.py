@@ -66,7 +66,7 @@ def fit(
         Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
         Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
-        parameters such as ``{"drive_frequency": (110, 120)}``, in SI units or as text with units.
+        parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units.
     profile : bool
         If True, intervals are computed by the profile likelihood. If False, from the derivatives at the estimate, which
         is faster.

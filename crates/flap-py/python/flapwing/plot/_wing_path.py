@@ -265,8 +265,9 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def _pitch_sign(data: Data, cycle: _Cycle) -> int:
-    """Return 1 if the trailing edge lags at a positive pitch, -1 if it leads: the convention of the model, else the
-    sign for which the trailing edge lags on average.
+    """Return 1 if the trailing edge lags at a positive pitch, -1 if it leads.
+
+    The sign is the convention of the model, else the sign for which the trailing edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
