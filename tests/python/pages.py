@@ -20,11 +20,15 @@ Comments in a page, which readers do not see, prepare and check it:
     <!-- not run: the reason -->    the next block is only shown
 
 A block may fail if the `text` after it shows the error.
+
+If the output of many pages changes, RENEW_PAGES=1 writes the new output into the pages. Read the changes before you
+commit them.
 """
 
 from __future__ import annotations
 
 import contextlib
+import difflib
 import io
 import os
 import re
@@ -90,6 +94,10 @@ class Page:
         for block in BLOCK.finditer(text):
             language, body = block["kind"] or block["language"], block["text"] or block["body"]
             if language == "text" and place and not shown_only:
+                if "RENEW_PAGES" in os.environ and not shows(printed, body):
+                    path = REPOSITORY / self.name
+                    path.write_text(text_of(path).replace(body, renewed(printed, body)), encoding="utf-8")
+                    body = renewed(printed, body)
                 assert shows(printed, body), f"{place} printed\n{end(printed)}\nnot\n{body}"
                 error = None
             assert error is None, f"{place}: {error}\n{end(printed)}"
@@ -175,6 +183,19 @@ class ShellError(Exception):
 
 def end(printed: str) -> str:
     return "\n".join(printed.splitlines()[-40:])
+
+
+def renewed(printed: str, shown: str) -> str:
+    """`shown` with each line replaced by the printed line that is most like it, in order."""
+    rest = printed.splitlines()
+    lines = []
+    for line in shown.splitlines():
+        if line != "..." and rest:
+            similar = [difflib.SequenceMatcher(None, line, other).ratio() for other in rest]
+            place = similar.index(max(similar))
+            line, rest = rest[place].rstrip(), rest[place + 1 :]
+        lines.append(line)
+    return "\n".join(lines) + "\n"
 
 
 def shows(printed: str, shown: str) -> bool:
