@@ -158,7 +158,7 @@ fn inputs_that_cannot_be_have_help() {
         folder
             .ends(2, &format!("vehicle grid.toml --inputs {name}"))
             .says("the vehicle has no input")
-            .says("the phase between wings changes no mean force or torque");
+            .says("it would not change any mean force or torque");
     }
     folder.refuses("vehicle grid.toml --inputs left_frequency", "the vehicle has no input");
     folder

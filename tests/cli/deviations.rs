@@ -54,7 +54,7 @@ fn values_far_from_the_preset_are_warned_of() {
         }
     }
     let ended = Folder::new().flap("run ozaki2018-large --set wing_length=17 --max-cycles 1");
-    ended.says("if 17 mm was meant");
+    ended.says("if you mean 17 mm");
     let ended = Folder::new().flap("run ozaki2018-large");
     assert_eq!(ended.stderr, "");
     let ended = Folder::new().flap("run ozaki2018-large --max-cycles 1");
@@ -82,7 +82,7 @@ fn values_with_their_units_are_not_doubted() {
             let ended = folder.ends(0, command);
             assert!(!ended.stderr.contains("warning"), "{grid}{command}: {}", ended.stderr);
         }
-        folder.ends(0, "run grid.toml --set wing_length=17").says("if 17 mm was meant");
+        folder.ends(0, "run grid.toml --set wing_length=17").says("if you mean 17 mm");
         folder.ends(0, "check grid.toml").prints("525");
     }
     let set =

@@ -180,7 +180,7 @@ fn mistakes_in_devices_are_told_with_their_place() {
         "unknown key `axes` in a device",
         "mybee.toml:2:2",
     );
-    told("preset = \"jafferis2016\"\ndevice = \"a.toml\"\n", "not with both", "mybee.toml:1:1");
+    told("preset = \"jafferis2016\"\ndevice = \"a.toml\"\n", "not from both", "mybee.toml:1:1");
     told("[params]\nwing_area = 1\n", "`preset` is missing", "mybee.toml");
     told(&params("wing_area = \"-1 mm^2\""), "`wing_area` must be more than zero", "mybee.toml:3:13");
     fs::write(folder.path("other.toml"), "device = \"mybee.toml\"\n").unwrap();

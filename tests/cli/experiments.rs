@@ -164,7 +164,11 @@ fn unusable_files_are_named_with_line_and_column() {
     refused(run, "time_s,wave\n0,0\n1,x\n", "file.csv, line 3, column wave: `x` is not a number");
     refused(run, "time_s,volts\n0,0\n1,1\n", "there is no column wave; the file has time_s, volts");
     refused(run, "time_s,wave\n0,0\n1,1\n", "too few");
-    refused(run, "time_s,wave\n0,0\n1,1\n2,0\n3,1\n", "a periodic record ends with");
+    refused(
+        run,
+        "time_s,wave\n0,0\n1,1\n2,0\n3,1\n",
+        "the first and last value of a periodic record must be equal",
+    );
     refused(run, "time_s,wave\n0,0\n2,1\n1,1\n3,0\n", "times do not increase");
     refused("run ozaki2018-small --waveform none.csv", "", "none.csv");
     refused(
@@ -247,7 +251,7 @@ fn motions_have_finite_forces() {
     let folder = folder_with("motion.csv", &motion(usual, "3e6", "2"));
     folder
         .ends(2, "test lift ozaki2018-small motion.csv --set drag_coefficient_max=1e308")
-        .says("the forces on this motion are beyond the range of numbers\nhelp: compare the parameters");
+        .says("the forces along this motion are too large for 64-bit floats\nhelp: compare the parameters");
     let points = "time_s,root_x,root_y,tip_x,tip_y\n0,0,0,1e308,0\n1,0,0,1,1\n";
     fs::write(folder.path("points.csv"), points).unwrap();
     folder.refuses("test track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");

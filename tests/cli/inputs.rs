@@ -128,7 +128,7 @@ fn results_given_as_a_grid_file_are_recognised() {
         );
     }
     fs::File::create(folder.path("large.toml")).unwrap().set_len(1 << 30).unwrap();
-    folder.ends(2, "check large.toml").says("more than 16 MiB");
+    folder.ends(2, "check large.toml").says("at most 16 MiB are allowed");
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn inputs_end() {
     fs::write(folder.path("pipe-sampled.toml"), sampled("pipe")).unwrap();
 
     let (size, listed) = ("the file is too large: at most 16 MiB", "the file is too large: at most 256 MiB");
-    let (endless, is_folder) = ("this is a device or a pipe, which may never end", "this is a folder");
+    let (endless, is_folder) = ("this is a device or a pipe, not a file", "this is a folder");
     for (arguments, message) in [
         ("check grid.toml", size),
         ("check sampled.toml", listed),

@@ -82,7 +82,7 @@ fn what_cannot_be_run_again() {
     folder.rewrite_sidecar("edited", |sidecar| sidecar.identity.solver.max_cycles = 0);
     folder
         .ends(2, "sweep edited.meta.toml --out again.csv")
-        .says("its solver settings are outside the limits");
+        .says("the recorded solver settings are outside the limits");
 
     folder
         .ends(2, "results rerun rows.csv --status unsetled --out again.csv")

@@ -108,7 +108,7 @@ fn shards_that_do_not_belong_together_are_refused() {
         ),
         (
             "grid.1of3.csv grid.2of3.csv grid.3of4.csv",
-            "error: grid.3of4.csv is shard 3/4, grid.1of3.csv is shard 1/3\nshard 3/3 is missing\n",
+            "error: grid.3of4.csv is shard 3/4, but grid.1of3.csv is shard 1/3\nshard 3/3 is missing\n",
         ),
         ("whole.csv", "error: whole.csv is not a shard\n"),
     ] {

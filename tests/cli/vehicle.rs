@@ -179,7 +179,10 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
         ("[vehicle]\nwing = 1\n", "unknown key `wing` in [vehicle]"),
         (&format!("{wing}mirrored = \"y\"\n"), "grid.toml:5:12: `mirrored` must be true or false"),
         (&format!("{wing}{wing}"), "grid.toml:6:8: two wings are called `left`"),
-        ("[[vehicle.wings]]\nname = \"Left\"\n", "grid.toml:4:8: `Left` is no name of a wing"),
+        (
+            "[[vehicle.wings]]\nname = \"Left\"\n",
+            "grid.toml:4:8: `Left` is not allowed as the name of a wing",
+        ),
         (&format!("{wing}position = [1, 2]\n"), "`position` must be a list of three lengths"),
         (&format!("{wing}position = [\"1 V\", 0, 0]\n"), "`V` is a voltage"),
         (
@@ -211,7 +214,7 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
         ),
         (
             &format!("{wing}[axes]\ndifference_drive_offset = [1, 2]\n"),
-            "a left-right difference needs wings on both sides",
+            "a left-right difference requires wings on both sides",
         ),
         (
             &format!("{wing}[axes]\nleft_drive_frequency = [100, 110]\n"),
@@ -223,7 +226,7 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
         ),
         (
             &format!("{wing}[params]\nleft_drive_phase = \"30 deg\"\n"),
-            "help: a drive has no phase of its own",
+            "help: you cannot set a phase between wings",
         ),
         (&format!("{wing}plane = [0, 0, 0]\n"), "help: write plane = { roll = \"5 deg\""),
         (&format!("{wing}plane = {{ dihedral = \"5 deg\" }}\n"), "help: write plane = { roll = \"5 deg\""),

@@ -100,7 +100,7 @@ def test_a_waveform_is_followed_once(flap, tmp_path):
     pandas.DataFrame({"time_s": time, "wave": time / 0.01}).to_csv(path, index=False)
     flap("run", PRESET, "--waveform", path, "--once", "--trajectory", tmp_path / "motion.csv")
     same(flapwing.trajectory(PRESET, waveform=path, once=True), tmp_path / "motion.csv")
-    with pytest.raises(ValueError, match="ends with the value that it begins with"):
+    with pytest.raises(ValueError, match="first and last value of a periodic record must be equal"):
         flapwing.trajectory(PRESET, waveform=path)
     with pytest.raises(ValueError, match="once requires a waveform or a stroke\ngive one"):
         flapwing.trajectory(PRESET, once=True)

@@ -197,7 +197,7 @@ def test_keywords_go_over_the_grid_of_a_vehicle(tmp_path):
         (
             ("jafferis2016", [flapwing.Wing("left", preset="ozaki2018-large")]),
             flapwing.GridError,
-            "of the model direct-drive",
+            "has the model direct-drive",
         ),
     ],
 )

@@ -112,7 +112,7 @@ impl fmt::Display for Damage {
             parts.push("it has changed since the sweep wrote it".to_owned());
         }
         if self.lost > 0 {
-            parts.push(format!("it does not contain {} that its journal records", count(self.lost, "row")));
+            parts.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
         }
         if !self.foreign_sidecar.is_empty() {
             parts.push(format!("its sidecar belongs to another sweep: {}", self.foreign_sidecar.join("; ")));
