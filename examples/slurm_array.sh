@@ -1,15 +1,16 @@
 #!/bin/sh
-# One sweep on several machines: a Slurm array job of eight tasks, each of which runs an eighth of the points.
+# A sweep on several machines: a Slurm job array of eight tasks, each of which runs an eighth of the points.
 #
-#   sbatch examples/slurm_array.sh grid.toml
+#   sbatch slurm_array.sh grid.toml
 #
 # When all tasks are done:
 #
 #   flap results merge grid.csv grid.*of8.csv
 #
-# If a task was killed, preempted or ran out of time, submit it again, alone if need be. It continues its sweep:
+# After a node failure or a preemption, Slurm starts the task again (--requeue).
+# If a task ran out of time or was cancelled, submit it again, for example task 3. It continues its shard:
 #
-#   sbatch --array=3 examples/slurm_array.sh grid.toml
+#   sbatch --array=3 slurm_array.sh grid.toml
 
 #SBATCH --job-name=flap
 #SBATCH --array=1-8
@@ -18,7 +19,9 @@
 #SBATCH --requeue
 #SBATCH --signal=B:TERM@60
 
-# The number of tasks of the whole array: Slurm's own count is that of the tasks submitted together.
+# If flap is not in the PATH of a job, load it here, for example: . ~/flap/.venv/bin/activate
+
+# The number of shards. It equals the last number of --array above.
 shards=8
 
 exec flap sweep "$1" --shard "$SLURM_ARRAY_TASK_ID/$shards" --threads "$SLURM_CPUS_PER_TASK"
