@@ -128,7 +128,9 @@ def test_derivatives_by_what_formulas_decide_are_refused():
         "derived": {"hinge_stiffness": "1e-6 * drive_frequency"},
         "measure": {"high": "lift_mean_mn > 3"},
     }
-    with pytest.raises(ValueError, match="is derived from other parameters\nlist these parameters instead: their derivatives include"):
+    with pytest.raises(
+        ValueError, match="is derived from other parameters\nlist these parameters instead: their derivatives include"
+    ):
         flapwing.evaluate(grid, COLUMNS, gradient=["hinge_stiffness"])
     with pytest.raises(ValueError, match="`high` is true or false, and has no derivatives\nremove it from `measures`"):
         flapwing.evaluate(grid, COLUMNS, gradient=["drive_frequency"], measures=["high"])
