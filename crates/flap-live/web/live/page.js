@@ -111,7 +111,8 @@ const listen = () => {
     const text = "The server does not answer. The page keeps its results and continues when the server is back.";
     setMessage("server", text);
   };
-  connection.onReplaced = () => setMessage("server", "Another server is running now: open the address that it printed.");
+  connection.onReplaced = () =>
+    setMessage("server", "Another server is running now: open the address that it printed.");
   connection.onRestored = () => {
     setMessage("server", "");
     update(true);

@@ -73,7 +73,8 @@ export const typedNumber = (text, unit) => {
   if (rest === "") return { number };
   if (!unit) return { problem: `“${rest}” is not allowed: this number has no unit` };
   const ratio = unitRatio(rest, unit);
-  if (ratio === null) return { problem: `“${rest}” is not a unit of this quantity: use ${unit}, with or without a prefix` };
+  if (ratio === null)
+    return { problem: `“${rest}” is not a unit of this quantity: use ${unit}, with or without a prefix` };
   return { number: Number((number * ratio).toPrecision(15)) };
 };
 
