@@ -47,7 +47,7 @@ def changed(**columns):
             {name: values[:1] for name, values in DATA.items()},
             "2 free parameters but only 1 reading: hinge_stiffness, drag_coefficient_max\na fit requires more readings than parameters",
         ),
-        ({name: values[:2] for name, values in DATA.items()}, "2 free parameters and only 2 readings"),
+        ({name: values[:2] for name, values in DATA.items()}, "2 free parameters but only 2 readings"),
         (
             changed(stroke_pp_deg_sigma=[1, 1, 0, 1]),
             "set 1, standard error of `stroke_pp_deg`, row 3: it must be more than zero",
@@ -67,7 +67,7 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=["60 %", "62 %", "61 %", "59 %"]),
-            "set 1, column `stroke_pp_deg`, row 1: `stroke_pp_deg` is in deg, and `60 %` is a share\nwrite readings in deg",
+            "set 1, column `stroke_pp_deg`, row 1: `stroke_pp_deg` is in deg, but `60 %` is a share\nwrite readings in deg",
         ),
         (
             changed(stroke_pp_deg=["60", "", "61", "59"]),
@@ -111,11 +111,11 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg_sigma=[1, -1, 1, 1]),
-            "set 1, standard error of `stroke_pp_deg`, row 2: it must be more than zero\nleave the column out",
+            "set 1, standard error of `stroke_pp_deg`, row 2: it must be more than zero\nif errors are unknown, leave the column out",
         ),
         (
             changed(stroke_pp_deg_sigma=["3 %", "1 deg", "3 %", "3 %"]),
-            "set 1, column `stroke_pp_deg_sigma`, row 1: `stroke_pp_deg` is in deg, and `3 %` is a share\n",
+            "set 1, column `stroke_pp_deg_sigma`, row 1: `stroke_pp_deg` is in deg, but `3 %` is a share\n",
         ),
         (
             changed(stroke_pp_deg_sigma=[1, np.nan, 1, 1]),
@@ -139,7 +139,7 @@ def test_data_that_are_refused(data, says):
 @pytest.mark.parametrize(
     ("free", "error", "says"),
     [
-        ([], ValueError, "`free` is empty\nname one"),
+        ([], ValueError, "`free` is empty\ngive at least one"),
         ("drag_coefficient_max", TypeError, "`free` is str\nit must be a list"),
         (["drag_coefficient_mx"], ValueError, "did you mean `drag_coefficient_max`?"),
         (
@@ -252,7 +252,7 @@ def test_free_parameters_that_are_refused(free, error, says):
         (
             {"hold_out": {"drive_voltage_pp": (1, 2)}},
             ValueError,
-            "`hold_out` names `drive_voltage_pp`, and set 1 has no such column",
+            "`hold_out` has `drive_voltage_pp`, but set 1 has no such column",
         ),
         (
             {"drag_coefficient_max": 3.0},
@@ -359,7 +359,7 @@ def test_what_results_refuse():
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_min"), "`drag_coefficient_min` was not fitted\nchoose among drag_coefficient_max"),
-        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`target` must name a parameter"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`target` must be a parameter"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` is 0\n"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "the data have no readings of `lift_mean_mn`"),
     ]:  # fmt: skip

@@ -95,7 +95,7 @@ def test_rows_are_chosen_by_masks_slices_and_indices(table):
 
 
 def test_a_table_is_not_made_by_hand():
-    with pytest.raises(TypeError, match="comes from sweep"):
+    with pytest.raises(TypeError, match="is returned by sweep"):
         flapwing.Table()
 
 

@@ -113,7 +113,7 @@ def test_given_axes_take_a_map():
 
 def test_mistakes_are_told_before_a_figure_is_made(slopes, robot):
     assert "six rows" in message(ValueError, plot.control_matrix, EFFECTS[:5], inputs=["a", "b"])
-    assert "`inputs` names 0 columns" in message(ValueError, plot.control_matrix, EFFECTS)
+    assert "`inputs` has 0 names" in message(ValueError, plot.control_matrix, EFFECTS)
     told = message(ValueError, plot.control_matrix, slopes, inputs=["amplitude"])
     assert told.startswith("there is no input `amplitude`\nthere are drive_voltage_pp,")
     two = flapwing.evaluate(robot, {"drive_frequency": [110.0, 120.0]}, gradient=["drive_offset"])

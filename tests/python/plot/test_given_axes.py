@@ -113,7 +113,7 @@ def test_options_of_legends_and_colour_bars_are_checked():
     table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
     assert "'top'" in message(ValueError, plot.response, table, "lift_mean_mn", legend="top")
     assert "upper left" in message(TypeError, plot.hysteresis, loop(), legend=3)
-    assert "axes" in message(TypeError, plot.heatmap, table, "lift_mean_mn", colorbar="right")
+    assert "matplotlib Axes" in message(TypeError, plot.heatmap, table, "lift_mean_mn", colorbar="right")
 
 
 @pytest.mark.parametrize("given", [False, True])

@@ -121,7 +121,7 @@ def test_mistakes(sample):
         assert "no row has a number" in message(ValueError, function, failed)
     same = grid(drive_frequency=[100.0])
     assert "nothing to compare" in message(ValueError, plot.tornado, same)
-    assert "say which column" in message(ValueError, plot.histogram, {"point": np.arange(3.0)})
+    assert "choose the column" in message(ValueError, plot.histogram, {"point": np.arange(3.0)})
 
 
 def test_a_large_sample_makes_no_lines_unasked(crossed):

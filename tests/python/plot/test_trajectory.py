@@ -98,4 +98,4 @@ def test_lines_of_the_user_stay(motion):
 
 def test_trajectory_mistakes(motion):
     assert "did you mean `lift_mn`?" in message(ValueError, plot.trajectory, motion, "lift_m")
-    assert "no column" in message(ValueError, plot.trajectory, motion, [])
+    assert "`signals` is empty" in message(ValueError, plot.trajectory, motion, [])
