@@ -73,7 +73,7 @@ def test_former_names_warn_and_work():
     with pytest.warns(FutureWarning, match="`drag_max` is the former name of `drag_coefficient_max`"):
         former = flapwing.evaluate("jafferis2016", {"drag_max": [3.0]})
     assert former["lift_mean_mn"] == now["lift_mean_mn"]
-    with pytest.warns(FutureWarning, match="`drag_min` is called"):
+    with pytest.warns(FutureWarning, match="`drag_min` is the former name"):
         flapwing.Grid({"preset": "jafferis2016", "params": {"drag_min": 0.2}})
 
 
@@ -81,7 +81,7 @@ def test_former_names_warn_and_work():
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 10**400])
 def test_not_finite(name, value):
     message = refused(ValueError, PRESET, **{name: value})
-    assert "values are finite" in message or "too large" in message
+    assert "values must be finite" in message or "too large" in message
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_not_finite(name, value):
         ("100", "needs a unit"),
         ("100 V", "`V` is a voltage, but `drive_frequency` is in Hz"),
         ("100 hz", "did you mean `Hz`?"),
-        ("nan Hz", "values are finite"),
+        ("nan Hz", "values must be finite"),
         ("fast", "must start with a number"),
         ("", "must start with a number"),
     ],

@@ -114,7 +114,10 @@ def test_a_stroke_is_prescribed(flap, tmp_path):
     flap("run", ARABAGI, "--stroke", path, "--trajectory", tmp_path / "motion.csv")
     same(flapwing.trajectory(ARABAGI, stroke=path), tmp_path / "motion.csv")
     assert flapwing.run(ARABAGI, stroke=(time, np.radians(stroke)))["stroke_pp_deg"] == pytest.approx(25, rel=1e-3)
-    with pytest.raises(ValueError, match="stroke of the model bimorph cannot be prescribed\nmodels with"):
+    with pytest.raises(
+        ValueError,
+        match="stroke of the model bimorph cannot be prescribed\nthis requires a model with the parameter stroke_mode",
+    ):
         flapwing.run("jafferis2016", stroke=path)
     with pytest.raises(ValueError, match="waveform and stroke cannot be used together\nkeep one"):
         flapwing.run(ARABAGI, stroke=path, waveform=path)
@@ -199,7 +202,7 @@ def test_a_row_of_any_kind_is_a_state():
         ({"strok": 1}, "`initial_state` has no component `strok`, did you mean `stroke`?\nthe states are stroke_rad, "),
         ({"stroke": "10 V"}, "`V` is a voltage"),
         ({"stroke": 1, "stroke_rad": 1}, "`initial_state` gives stroke_rad twice\nkeep one"),
-        ({"stroke": float("nan")}, "values are finite"),
+        ({"stroke": float("nan")}, "values must be finite"),
     ],
 )
 def test_what_is_no_state_is_refused(initial_state, says):

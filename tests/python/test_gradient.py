@@ -135,7 +135,7 @@ def test_derivatives_by_what_formulas_decide_are_refused():
     with pytest.raises(ValueError, match="`high` is true or false, and has no derivatives\nremove it from `measures`"):
         flapwing.evaluate(grid, COLUMNS, gradient=["drive_frequency"], measures=["high"])
     grid = {"preset": PRESET, "params": {"drive_frequency": "resonance"}, "resonance": {"from": 95, "to": 120}}
-    with pytest.raises(ValueError, match="give drive_frequency a number"):
+    with pytest.raises(ValueError, match="set drive_frequency to a number"):
         flapwing.evaluate(grid, {"drive_voltage_pp": [80.0]}, gradient=["hinge_stiffness"])
     with pytest.raises(ValueError, match="the table has no derivatives"):
         flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}).gradient

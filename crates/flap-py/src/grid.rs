@@ -30,8 +30,8 @@ const LOOKED_AT: u64 = 1_000_000;
 /// ----------
 /// source : str, path, dict or Grid
 ///     The name of a preset, or the path of a grid file. A str with a line break or ``=`` is the text of a grid file. A
-///     dictionary of dictionaries has the entries of a grid file. Its lists may be arrays, Series, ranges or Arrow columns. A DataFrame
-///     has the same meaning as the dictionary of its columns.
+///     dictionary of dictionaries has the entries of a grid file. Its lists may be arrays, Series, ranges or Arrow
+///     columns. A DataFrame has the same meaning as the dictionary of its columns.
 ///
 /// Raises
 /// ------

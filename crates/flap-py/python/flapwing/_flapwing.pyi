@@ -138,9 +138,9 @@ class Grid:
     Parameters
     ----------
     source : str, path, dict or Grid
-        The name of a preset, the path of a grid file, the text of a grid file (a str with a line break or ``=``), or its
-        entries as a dictionary of dictionaries. Lists in it may be arrays, Series, ranges or Arrow columns. A DataFrame
-        has the same meaning as the dictionary of its columns.
+        The name of a preset, or the path of a grid file. A str with a line break or ``=`` is the text of a grid file. A
+        dictionary of dictionaries has the entries of a grid file. Its lists may be arrays, Series, ranges or Arrow
+        columns. A DataFrame has the same meaning as the dictionary of its columns.
 
     Raises
     ------
