@@ -1,6 +1,7 @@
 //! Numbers, units, times and formulas as text.
 
 pub mod expression;
+pub mod quantity;
 pub mod text;
 pub mod time;
 pub mod units;
