@@ -12,7 +12,7 @@
 //! - [`picture`]: choices that the pictures of the command and of Python share
 //! - [`grid`]: grid files to plans, with diagnostics
 //! - [`run`]: the parallel runner, which passes rows to sinks in the order of the points
-//! - [`study`]: response curves, deviations of parameters, most important parameters, surveys of a plan
+//! - [`study`]: response curves, deviations of parameters, most important parameters, surveys of a plan, optima
 //! - [`files`]: result files: formats, sidecars, journals, checksums; resuming, merging, running again
 
 pub mod files;

@@ -15,7 +15,7 @@ mod scope;
 mod tests;
 
 pub use error::{ExpressionError, ExpressionProblem};
-use evaluate::Operation;
+use evaluate::{Binary, Operation};
 pub use scope::{Kind, Meaning, Scope};
 
 /// Returns true if `name` is allowed for a new name in expressions.
@@ -61,4 +61,41 @@ impl Expression {
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }
+
+    /// The comparisons of which all must hold, in the order of the text. `None` if the expression is not made of comparisons by
+    /// `<`, `<=`, `>` and `>=` that are joined with `and`.
+    pub(crate) fn comparisons(&self) -> Option<Vec<Comparison>> {
+        comparisons(&self.operations)
+    }
+}
+
+/// A comparison of two numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct Comparison {
+    /// The side that must be smaller.
+    pub(crate) less: Expression,
+    /// The side that must be larger.
+    pub(crate) more: Expression,
+    /// True if the sides must not be equal.
+    pub(crate) is_strict: bool,
+    /// True if the side that must be larger is on the right.
+    pub(crate) is_rising: bool,
+}
+
+/// The comparisons in `operations`, see [`Expression::comparisons`].
+fn comparisons(operations: &[Operation]) -> Option<Vec<Comparison>> {
+    let (Operation::Binary(binary), rest) = operations.split_last()? else { return None };
+    let (left, right) = evaluate::operands(rest)?;
+    let (is_strict, is_rising) = match binary {
+        Binary::And => return Some([comparisons(left)?, comparisons(right)?].concat()),
+        Binary::Less => (true, true),
+        Binary::LessOrEqual => (false, true),
+        Binary::Greater => (true, false),
+        Binary::GreaterOrEqual => (false, false),
+        _ => return None,
+    };
+    let [left, right] =
+        [left, right].map(|side| Expression { kind: Kind::Number, operations: side.to_vec() });
+    let (less, more) = if is_rising { (left, right) } else { (right, left) };
+    Some(vec![Comparison { less, more, is_strict, is_rising }])
 }

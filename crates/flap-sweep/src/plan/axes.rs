@@ -183,6 +183,11 @@ impl Axes {
         Ok(Axes { axes, points })
     }
 
+    /// No axes: their product is one point.
+    pub(crate) fn none() -> Axes {
+        Axes { axes: Vec::new(), points: 1 }
+    }
+
     /// Returns the axes with `axis` before all others.
     ///
     /// # Errors

@@ -5,7 +5,8 @@ use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::of_all_wings;
 
 use super::Plan;
-use super::axes::{Along, Axis, TooManyPoints, Values};
+use super::axes::{Along, Axes, Axis, TooManyPoints, Values};
+use super::formula::{Condition, Derived, OwnMeasure};
 use super::gradient::{self, Gradient, NoShares, Per};
 use super::selection::{Selection, Shard};
 use super::value::Value;
@@ -278,6 +279,49 @@ impl Plan {
     /// Returns the plan that runs all points.
     pub fn with_all_points(mut self) -> Plan {
         self.selection = Selection::All;
+        self
+    }
+
+    /// The plan with these measures behind its own. Rows have no derivatives.
+    pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
+        self.space.measures.extend(more);
+        self.space.gradient = None;
+        self
+    }
+
+    /// The plan with these conditions in place of its own.
+    pub(crate) fn with_conditions(mut self, conditions: Vec<Condition>) -> Plan {
+        self.space.conditions = conditions;
+        self
+    }
+
+    /// The plan of one point with these values of the varied parameters. They need not be in range.
+    ///
+    /// # Errors
+    /// [`ChangeError::TooManyPoints`], which one point is not.
+    pub(crate) fn at(mut self, varied: &[(usize, f64)]) -> Result<Plan, ChangeError> {
+        let values = varied.iter().map(|(parameter, value)| (*parameter, Values::Unchecked(vec![*value])));
+        self.space.axes = Axes::new(vec![Axis::new(values.collect())])?;
+        self.selection = Selection::All;
+        self.begins = Vec::new();
+        Ok(self)
+    }
+
+    /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A parameter that
+    /// is NaN follows others, as before.
+    #[must_use]
+    pub fn of_point(mut self, values: &[f64]) -> Plan {
+        for (known, value) in self.space.base.iter_mut().zip(values) {
+            if !value.is_nan() {
+                *known = Value::Given(*value);
+            }
+        }
+        self.space.axes = Axes::none();
+        self.space.derived = Derived::default();
+        self.space.conditions = Vec::new();
+        self.space.resonance = None;
+        self.selection = Selection::All;
+        self.begins = Vec::new();
         self
     }
 

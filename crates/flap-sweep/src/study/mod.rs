@@ -1,9 +1,10 @@
 //! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, most important
-//! parameters, surveys. Also experiments on single points.
+//! parameters, surveys, optima. Also experiments on single points.
 
 pub mod control;
 pub mod deviation;
 pub mod experiment;
+pub mod optimum;
 pub mod response;
 pub mod strongest;
 pub mod survey;

@@ -24,6 +24,24 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     pop(&mut stack)
 }
 
+/// The operations of the two operands of an operator that stands behind `operations`; `None` if there are not two.
+pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
+    // Operands that are still to be found on the way back to the beginning of the right one.
+    let mut missing = 1;
+    for (place, operation) in operations.iter().enumerate().rev() {
+        missing += match operation {
+            Operation::Push(_) | Operation::Read(_) => 0,
+            Operation::Unary(_) | Operation::Apply(_) => 1,
+            Operation::Binary(_) | Operation::Apply2(_) => 2,
+        };
+        missing -= 1;
+        if missing == 0 {
+            return (place > 0).then(|| operations.split_at(place));
+        }
+    }
+    None
+}
+
 fn pop(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
 }

@@ -1,0 +1,248 @@
+//! Rows and derivatives at the points of a problem's region.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use flap_core::simulate::{Interrupt, NoSlope, Row, Status};
+
+use super::problem::Problem;
+use crate::plan::Plan;
+use crate::run::{Outcome, RunError, RunOptions, alone};
+
+/// The step of differences of rows, in coordinates, where a row lacks a derivative.
+const STEP: f64 = 2e-3;
+
+/// The same for designs at their resonance, whose frequency has an error.
+const STEP_AT_RESONANCE: f64 = 2e-2;
+
+/// A point of the region with its row.
+#[derive(Clone, Debug)]
+pub(super) struct Trial {
+    pub(super) coordinates: Vec<f64>,
+    pub(super) row: Row,
+    /// The number that is to be largest or smallest.
+    pub(super) goal: f64,
+    /// Both sides of each limit: the smaller and the larger one.
+    pub(super) sides: Vec<[f64; 2]>,
+    /// The largest share by which a limit is exceeded; zero if all hold, infinite if the point has no periodic motion.
+    pub(super) excess: f64,
+    /// Derivatives per coordinate of the number, then of the distance from each limit.
+    pub(super) slopes: Vec<Vec<f64>>,
+}
+
+impl Trial {
+    /// The point with this row of a plan that measures the problem.
+    pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, row: Row) -> Trial {
+        let place = problem.place();
+        let known = row.status == Status::Periodic && row.measures.len() > place;
+        let at = |place: usize| if known { row.measures[place] } else { f64::NAN };
+        let goal = at(place);
+        let side = |number: usize| [place + 1 + 2 * number, place + 2 + 2 * number].map(at);
+        let sides: Vec<[f64; 2]> = (0..problem.limits.len()).map(side).collect();
+        let over = problem.limits.iter().zip(&sides).map(|(limit, &sides)| {
+            let share = (sides[0] - sides[1]) / limit.scale(sides);
+            match limit.holds(sides) {
+                true => 0.0,
+                false if share.is_nan() => f64::INFINITY,
+                false => share.max(f64::MIN_POSITIVE),
+            }
+        });
+        let excess = if goal.is_finite() { over.fold(0.0, f64::max) } else { f64::INFINITY };
+        Trial { coordinates, row, goal, sides, excess, slopes: Vec::new() }
+    }
+
+    /// True if it is better than another one: feasible with a better number, or closer to it.
+    pub(super) fn is_better(&self, problem: &Problem, other: &Trial) -> bool {
+        if self.excess > 0.0 || other.excess > 0.0 {
+            return self.excess < other.excess;
+        }
+        problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
+    }
+
+    /// The distance from a limit in units of its size; negative where it is exceeded.
+    pub(super) fn margin(&self, problem: &Problem, number: usize) -> f64 {
+        let sides = self.sides[number];
+        (sides[1] - sides[0]) / problem.limits[number].scale(sides)
+    }
+}
+
+/// The rows of one refinement: all of one choice.
+pub(super) struct Evaluator<'p> {
+    pub(super) problem: &'p Problem,
+    options: &'p RunOptions,
+    choice: Vec<f64>,
+    interrupted: Interrupt<'p>,
+    known: RefCell<Vec<Rc<Trial>>>,
+    /// Rows computed, and rows with derivatives among them.
+    pub(super) rows: Cell<u64>,
+    pub(super) sloped: Cell<u64>,
+    /// Reasons for missing derivatives, as bits by their places in [`NoSlope::ALL`].
+    missing: Cell<u32>,
+    /// True if differences of rows have replaced derivatives.
+    pub(super) has_differences: Cell<bool>,
+    failure: RefCell<Option<RunError>>,
+}
+
+impl<'p> Evaluator<'p> {
+    pub(super) fn new(
+        problem: &'p Problem,
+        options: &'p RunOptions,
+        choice: Vec<f64>,
+        interrupted: Interrupt<'p>,
+    ) -> Evaluator<'p> {
+        Evaluator {
+            problem,
+            options,
+            choice,
+            interrupted,
+            known: RefCell::default(),
+            rows: Cell::new(0),
+            sloped: Cell::new(0),
+            missing: Cell::new(0),
+            has_differences: Cell::new(false),
+            failure: RefCell::new(None),
+        }
+    }
+
+    /// The reasons for derivatives that were missing.
+    pub(super) fn missing(&self) -> Vec<NoSlope> {
+        let set = self.missing.get();
+        (0..).zip(NoSlope::ALL).filter(|(place, _)| set >> place & 1 == 1).map(|(_, reason)| reason).collect()
+    }
+
+    /// The error that ended the work, if one did.
+    pub(super) fn failure(&self) -> Option<RunError> {
+        self.failure.take()
+    }
+
+    /// The varied parameters with their values at these coordinates.
+    pub(super) fn varied(&self, coordinates: &[f64]) -> Vec<(usize, f64)> {
+        self.problem.region.varied(coordinates, &self.choice)
+    }
+
+    /// The point at these coordinates.
+    pub(super) fn at(&self, coordinates: &[f64]) -> Rc<Trial> {
+        self.find(coordinates, false)
+    }
+
+    /// The point at these coordinates, with derivatives if its motion is periodic.
+    pub(super) fn with_slopes(&self, coordinates: &[f64]) -> Rc<Trial> {
+        self.find(coordinates, true)
+    }
+
+    fn find(&self, coordinates: &[f64], has_slopes: bool) -> Rc<Trial> {
+        let is_same =
+            |trial: &&Rc<Trial>| trial.coordinates == coordinates && !(has_slopes && trial.slopes.is_empty());
+        if let Some(known) = self.known.borrow().iter().find(is_same) {
+            return Rc::clone(known);
+        }
+        let trial = Rc::new(self.compute(coordinates, has_slopes));
+        self.known.borrow_mut().push(Rc::clone(&trial));
+        trial
+    }
+
+    fn compute(&self, coordinates: &[f64], has_slopes: bool) -> Trial {
+        let sloped = self.problem.sloped.as_ref().filter(|_| has_slopes);
+        let plan = sloped.unwrap_or(&self.problem.measured);
+        let row = self.row(plan, coordinates);
+        let mut trial = Trial::new(self.problem, coordinates.to_vec(), row);
+        if has_slopes && trial.excess.is_finite() {
+            trial.slopes = self.slopes(&trial, sloped.is_some());
+        }
+        trial
+    }
+
+    /// The row at these coordinates; an invalid one for a point that a condition excludes.
+    fn row(&self, plan: &Plan, coordinates: &[f64]) -> Row {
+        self.rows.set(self.rows.get() + 1);
+        let excluded = || Row::invalid("a condition of the grid excludes the point");
+        let point = match plan.clone().at(&self.varied(coordinates)) {
+            Ok(point) => point,
+            Err(error) => return Row::invalid(error),
+        };
+        match alone(&point, self.options, self.interrupted).next() {
+            Some(Ok(Outcome::Ran(row))) => row,
+            Some(Ok(Outcome::Excluded(_))) => excluded(),
+            None => Row::invalid("interrupted"),
+            Some(Err(error)) => {
+                let row = Row::invalid(&error);
+                *self.failure.borrow_mut() = Some(error);
+                row
+            }
+        }
+    }
+
+    /// The derivatives per coordinate: those of the row, or differences of rows where it has none.
+    fn slopes(&self, trial: &Trial, is_sloped: bool) -> Vec<Vec<f64>> {
+        let Trial { coordinates, row, .. } = trial;
+        let variables = &self.problem.region.variables;
+        let quantities = 1 + 2 * self.problem.limits.len();
+        let first = self.problem.place() + quantities;
+        let has_row = is_sloped && row.measures.len() > first + quantities * variables.len();
+        if has_row {
+            self.sloped.set(self.sloped.get() + 1);
+            let reasons = row.measures[first + quantities * variables.len()];
+            if reasons.is_finite() {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a sum of small powers of two"
+                )]
+                self.missing.set(self.missing.get() | reasons as u32);
+            }
+        }
+        let mut of = vec![vec![f64::NAN; variables.len()]; quantities];
+        for (number, variable) in variables.iter().enumerate() {
+            let per_coordinate = variable.slope(coordinates[number]);
+            let known =
+                |quantity: usize| row.measures[first + quantity * variables.len() + number] * per_coordinate;
+            let difference = || self.differences(trial, number);
+            let column: Vec<f64> = if has_row { (0..quantities).map(known).collect() } else { Vec::new() };
+            let column = if column.is_empty() || column.iter().any(|slope| slope.is_nan()) {
+                self.has_differences.set(true);
+                let differences = difference();
+                let mended = (0..quantities).map(|quantity| {
+                    let exact = column.get(quantity).copied().filter(|slope| !slope.is_nan());
+                    exact.unwrap_or(differences[quantity])
+                });
+                mended.collect()
+            } else {
+                column
+            };
+            for (quantity, slope) in column.into_iter().enumerate() {
+                of[quantity][number] = slope;
+            }
+        }
+        let mut slopes = vec![of[0].clone()];
+        for number in 0..self.problem.limits.len() {
+            let (less, more) = (&of[1 + 2 * number], &of[2 + 2 * number]);
+            slopes.push(less.iter().zip(more).map(|(less, more)| more - less).collect());
+        }
+        slopes
+    }
+
+    /// One-sided differences of rows by one coordinate, into the region; zero if there is no row to either side.
+    fn differences(&self, trial: &Trial, number: usize) -> Vec<f64> {
+        let quantities = |trial: &Trial| -> Vec<f64> {
+            std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()
+        };
+        let here = quantities(trial);
+        let step = if self.problem.plan.resonance().is_some() { STEP_AT_RESONANCE } else { STEP };
+        for step in [step, -step] {
+            let mut moved = trial.coordinates.clone();
+            moved[number] += step;
+            if !(0.0..=1.0).contains(&moved[number]) {
+                continue;
+            }
+            let there = self.at(&moved);
+            if there.excess.is_finite() {
+                return here
+                    .iter()
+                    .zip(quantities(&there))
+                    .map(|(here, there)| (there - here) / step)
+                    .collect();
+            }
+        }
+        vec![0.0; here.len()]
+    }
+}

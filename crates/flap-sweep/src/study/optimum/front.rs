@@ -1,0 +1,110 @@
+//! The front of two goals: the best values of one for limits on the other.
+
+use super::answer::{Optimum, Status};
+use super::problem::{Aim, Problem, ProblemError};
+use super::search::{Settings, optimise, optimise_from};
+use crate::plan::Plan;
+use crate::run::RunError;
+
+/// A goal: an expression, and the direction in which it is better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Goal<'t> {
+    /// The expression.
+    pub text: &'t str,
+    /// The better direction.
+    pub aim: Aim,
+}
+
+/// A front.
+#[derive(Clone, Debug)]
+pub struct Front {
+    /// Its points, from the best value of the first goal to the best value of the second.
+    pub points: Vec<FrontPoint>,
+    /// Rows computed in all.
+    pub rows: u64,
+    /// Rows with derivatives among them.
+    pub sloped: u64,
+}
+
+/// A point of a front.
+#[derive(Clone, Debug)]
+pub struct FrontPoint {
+    /// The values of both goals.
+    pub goals: [f64; 2],
+    /// The design with the best value of the first goal, for a limit on the second.
+    pub best: Optimum,
+}
+
+/// The reason why there is no front.
+#[derive(Debug, thiserror::Error)]
+pub enum FrontError {
+    /// A goal or a condition has a mistake. The number is the goal's place.
+    #[error("{1}")]
+    Problem(usize, ProblemError),
+    /// Rows could not be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. Their limits on the
+/// second goal are evenly spaced. Each search starts from the points beside it. `None` if no start has a periodic motion, or the
+/// search was stopped by `stops`, which is called with the numbers of points of the front that are done and of all.
+///
+/// If no design satisfies all conditions, the front has one point, which exceeds them least.
+///
+/// # Errors
+/// [`FrontError`].
+pub fn front(
+    plan: &Plan,
+    goals: [Goal<'_>; 2],
+    conditions: &[String],
+    count: usize,
+    settings: &Settings,
+    stops: &dyn Fn(u64, u64) -> bool,
+) -> Result<Option<Front>, FrontError> {
+    let all = count.max(2) as u64;
+    let problem = |place: usize, more: Option<String>| {
+        let conditions: Vec<String> = conditions.iter().cloned().chain(more).collect();
+        let Goal { text, aim } = goals[place];
+        Problem::new(plan.clone(), text, aim, &conditions).map_err(|error| FrontError::Problem(place, error))
+    };
+    let [first, second] = [problem(0, None)?, problem(1, None)?];
+    let point =
+        |best: Optimum| FrontPoint { goals: [&first, &second].map(|problem| problem.value(&best)), best };
+    let Some(begin) = optimise(&first, settings, &|_, _| stops(0, all))? else { return Ok(None) };
+    let Some(end) = optimise(&second, settings, &|_, _| stops(1, all))? else { return Ok(None) };
+    let mut front = Front { points: Vec::new(), rows: 0, sloped: 0 };
+    front.push(point(begin));
+    if front.points[0].best.status == Status::Infeasible {
+        return Ok(Some(front));
+    }
+    let end = point(end);
+    let [from, to] = [front.points[0].goals[1], end.goals[1]];
+    let sign = match goals[1].aim {
+        Aim::Largest => ">=",
+        Aim::Smallest => "<=",
+    };
+    for number in 1..all - 1 {
+        let limit = from + (to - from) * number as f64 / (all - 1) as f64;
+        let limited = problem(0, Some(format!("({}) {sign} {limit:?}", goals[1].text)))?;
+        let beside = front.points.last().map(|point| &point.best);
+        let starts: Vec<&Optimum> = beside.into_iter().chain([&end.best]).collect();
+        let found = optimise_from(&limited, settings, &starts, &|_, _| stops(number + 1, all))?;
+        match found {
+            Some(best) if best.is_feasible() => front.push(point(best)),
+            Some(_) => {}
+            None => return Ok(None),
+        }
+    }
+    front.push(end);
+    Ok(Some(front))
+}
+
+impl Front {
+    /// Adds a point and the rows that it took.
+    fn push(&mut self, point: FrontPoint) {
+        self.rows += point.best.rows;
+        self.sloped += point.best.sloped;
+        self.points.push(point);
+    }
+}

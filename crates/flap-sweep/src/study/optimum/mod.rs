@@ -1,0 +1,37 @@
+//! The best design within the axes of a plan: the point with the largest or smallest value of an expression, among the points
+//! that satisfy conditions on measures and parameters.
+//!
+//! The points of the plan are the starts. The best of them are refined by sequential quadratic programming with the exact
+//! derivatives of their rows. Every row belongs to a motion from rest, as the rows of a sweep do.
+//!
+//! ```
+//! use flap_sweep::grid;
+//! use flap_sweep::study::optimum::{Aim, Problem, Settings, optimise};
+//!
+//! let grid = "
+//!     preset = \"ozaki2018-large\"
+//!     [axes]
+//!     drive_frequency = { from = \"100 Hz\", to = \"130 Hz\", n = 4 }
+//! ";
+//! let plan = grid::parse("grid", grid, flap_core::simulate::all()).unwrap();
+//! let conditions = ["stroke_pp_deg < 60 deg".to_owned()];
+//! let problem = Problem::new(plan, "lift_mean_mn", Aim::Largest, &conditions).unwrap();
+//! let best = optimise(&problem, &Settings::default(), &|_, _| false).unwrap().unwrap();
+//! assert!(best.is_feasible());
+//! ```
+
+mod answer;
+mod evaluate;
+mod front;
+mod limit;
+mod problem;
+mod refine;
+mod region;
+mod search;
+mod sensitivity;
+mod starts;
+
+pub use answer::{Active, Edge, LimitAt, Optimum, Other, Status};
+pub use front::{Front, FrontError, FrontPoint, Goal, front};
+pub use problem::{Aim, Problem, ProblemError, Which};
+pub use search::{Settings, optimise, optimise_from};

@@ -1,0 +1,262 @@
+//! The statement of a problem: a plan, the number that is to be largest or smallest, and limits.
+
+use flap_core::parameter::{Kind as ParameterKind, Parameter};
+use flap_core::vehicle::of_all_wings;
+
+use super::answer::Optimum;
+use super::limit::Limit;
+use super::region::Region;
+use crate::notation::expression::{Expression, ExpressionError, Kind, Meaning, Scope};
+use crate::notation::nearest;
+use crate::notation::quantity::without_units;
+use crate::notation::text;
+use crate::plan::formula::{Condition, OwnMeasure};
+use crate::plan::{Plan, Value};
+
+/// The better direction of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// Larger numbers are better.
+    Largest,
+    /// Smaller numbers are better.
+    Smallest,
+}
+
+impl Aim {
+    /// 1 if smaller numbers are better, else -1.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Aim::Largest => -1.0,
+            Aim::Smallest => 1.0,
+        }
+    }
+}
+
+/// The part of a problem that has a mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The grid.
+    Plan,
+    /// The number that is to be largest or smallest.
+    Goal,
+    /// The condition of this place.
+    Condition(usize),
+}
+
+/// A mistake in a problem.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct ProblemError {
+    /// The part that has the mistake.
+    pub which: Which,
+    /// The mistake.
+    pub message: String,
+    /// Advice, if there is any.
+    pub help: Option<String>,
+}
+
+/// A problem that has passed every check.
+#[derive(Clone)]
+pub struct Problem {
+    /// The user's plan.
+    pub(super) plan: Plan,
+    /// The plan whose rows have the number and both sides of each limit behind their measures, and no conditions that are limits.
+    pub(super) measured: Plan,
+    /// The same with derivatives of these measures by the parameters of the region; `None` if rows have no derivatives.
+    pub(super) sloped: Option<Plan>,
+    pub(super) region: Region,
+    pub(super) aim: Aim,
+    pub(super) goal: String,
+    value: Expression,
+    pub(super) limits: Vec<Limit>,
+}
+
+impl Problem {
+    /// The problem of the point of `plan` with the best value of the expression `goal`, among the points that satisfy the
+    /// `conditions` and those of the plan.
+    ///
+    /// # Errors
+    /// [`ProblemError`] for the first mistake.
+    pub fn new(plan: Plan, goal: &str, aim: Aim, conditions: &[String]) -> Result<Problem, ProblemError> {
+        let region = Region::of(&plan).map_err(|parameter| without_bounds(&plan.parameters()[parameter]))?;
+        if plan.axes().as_slice().is_empty() {
+            return Err(ProblemError {
+                which: Which::Plan,
+                message: "the grid varies no parameter".to_owned(),
+                help: Some("give the smallest and the largest value of parameters under [axes]".to_owned()),
+            });
+        }
+        let value = parsed(&plan, goal, Which::Goal, Kind::Number)?;
+        let mut limits = Vec::new();
+        for (number, condition) in conditions.iter().enumerate() {
+            let which = Which::Condition(number);
+            let expression = parsed(&plan, condition, which, Kind::Condition)?;
+            let found = Limit::of_condition(condition.trim(), &expression).ok_or_else(|| ProblemError {
+                which,
+                message: "not a comparison with <, <=, > or >=".to_owned(),
+                help: Some("join comparisons with `and`; fix options under [params]".to_owned()),
+            })?;
+            limits.extend(found);
+        }
+        let mut kept: Vec<Condition> = Vec::new();
+        for condition in plan.conditions() {
+            match Limit::of_condition(&condition.name, &condition.expression) {
+                Some(found) => limits.extend(found),
+                None => kept.push(condition.clone()),
+            }
+        }
+        let own = |name: String, expression: &Expression| OwnMeasure { name, expression: expression.clone() };
+        let mut measures = vec![own("optimum goal".to_owned(), &value)];
+        for (number, limit) in limits.iter().enumerate() {
+            measures.push(own(format!("optimum less {number}"), &limit.comparison.less));
+            measures.push(own(format!("optimum more {number}"), &limit.comparison.more));
+        }
+        let names: Vec<String> = measures.iter().map(|measure| measure.name.clone()).collect();
+        let measured = plan.clone().with_conditions(kept).with_measures(measures);
+        let by: Vec<usize> = region.variables.iter().map(|variable| variable.parameter).collect();
+        let sloped = if by.is_empty() {
+            None
+        } else {
+            measured.clone().with_columns(&names).and_then(|plan| plan.with_slopes(by)).ok()
+        };
+        Ok(Problem { plan, measured, sloped, region, aim, goal: goal.trim().to_owned(), value, limits })
+    }
+
+    /// The plan whose points are the starts.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The number that is to be largest or smallest, as the user wrote it.
+    pub fn goal(&self) -> &str {
+        &self.goal
+    }
+
+    /// The better direction of this number.
+    pub fn aim(&self) -> Aim {
+        self.aim
+    }
+
+    /// The number at the design of an answer to another problem of the same plan.
+    pub fn value(&self, best: &Optimum) -> f64 {
+        let known: Vec<f64> = best.values.iter().chain(&best.row.measures).copied().collect();
+        self.value.value(&known)
+    }
+
+    /// True if rows have derivatives.
+    pub fn has_slopes(&self) -> bool {
+        self.sloped.is_some()
+    }
+
+    /// The place of the number among the measures of rows. Behind it are both sides of each limit.
+    pub(super) fn place(&self) -> usize {
+        self.plan.rows().columns().len() + self.plan.measures().len()
+    }
+}
+
+fn without_bounds(parameter: &Parameter) -> ProblemError {
+    ProblemError {
+        which: Which::Plan,
+        message: format!("the distribution of `{}` has no smallest and largest value", parameter.name),
+        help: Some("vary it under [axes], or sample it with `from` and `to` alone".to_owned()),
+    }
+}
+
+/// The expression `text`, which must be of this kind.
+fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Expression, ProblemError> {
+    let names = Names { plan };
+    let refused = |message: String, help: Option<String>| ProblemError { which, message, help };
+    let unit = |name: &str| names.unit(name).ok_or_else(|| unknown(&names, name));
+    let plain = without_units(text, unit).map_err(|error| {
+        let (message, help) = error.explained().unwrap_or_else(|unknown| unknown);
+        refused(message, help)
+    })?;
+    let expression = Expression::parse(&plain, &names).map_err(|errors| {
+        let explained = |error: &ExpressionError| {
+            let help = error.help().or_else(|| {
+                let known = plan.measured();
+                error
+                    .message()
+                    .contains("name")
+                    .then(|| format!("measures are {}", text::listed(known, "measure")))
+            });
+            refused(error.message(), help)
+        };
+        errors.first().map_or_else(|| refused("not an expression".to_owned(), None), explained)
+    })?;
+    if expression.kind() == wanted {
+        return Ok(expression);
+    }
+    Err(match wanted {
+        Kind::Number => refused("a condition, not a number".to_owned(), None),
+        Kind::Condition => refused(
+            "a number, not a condition".to_owned(),
+            Some("write a comparison such as lift_mean_mn > 1".to_owned()),
+        ),
+    })
+}
+
+fn unknown(names: &Names<'_>, name: &str) -> (String, Option<String>) {
+    let known = names.names();
+    let near = nearest(name, known.iter().map(String::as_str));
+    (format!("there is no measure or parameter `{name}`"), near.map(|near| format!("did you mean `{near}`?")))
+}
+
+/// The names that a problem may use: parameters, the model's measures, and the plan's own.
+struct Names<'p> {
+    plan: &'p Plan,
+}
+
+impl Names<'_> {
+    /// The unit of a parameter or measure.
+    fn unit(&self, name: &str) -> Option<String> {
+        if let Some(index) = Parameter::index(self.plan.parameters(), name) {
+            return Some(self.plan.parameters()[index].unit.to_owned());
+        }
+        let column = self.plan.rows().columns().iter().find(|column| column.name == name);
+        let own = || self.plan.measures().iter().any(|own| own.name == name).then(String::new);
+        column.map(|column| column.unit.to_owned()).or_else(own)
+    }
+
+    fn of_parameter(&self, index: usize) -> Meaning {
+        let parameters = self.plan.parameters();
+        let follows = |index: usize| match self.plan.base()[index] {
+            Value::Given(_) => None,
+            _ if self.plan.differing().any(|differing| differing == index) => None,
+            Value::Follows(follows) => Some(follows),
+            Value::Resonance => Some("the resonance of each design, which is the measure resonance_hz"),
+        };
+        // A wing's own parameter that is not set has the value of all wings.
+        let shared = of_all_wings(parameters, index).filter(|_| follows(index).is_some());
+        let index = shared.unwrap_or(index);
+        match (&parameters[index].kind, follows(index)) {
+            (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
+            (_, Some(follows)) => Meaning::Unset(follows),
+            (_, None) => Meaning::Number(index),
+        }
+    }
+}
+
+impl Scope for Names<'_> {
+    fn meaning(&self, name: &str) -> Option<Meaning> {
+        let parameters = self.plan.parameters();
+        if let Some(index) = Parameter::index(parameters, name) {
+            return Some(self.of_parameter(index));
+        }
+        let columns = self.plan.rows().columns();
+        if let Some(place) = columns.iter().position(|column| column.name == name) {
+            return Some(Meaning::Number(parameters.len() + place));
+        }
+        let place = self.plan.measures().iter().position(|own| own.name == name)?;
+        let index = parameters.len() + columns.len() + place;
+        Some(match self.plan.measures()[place].kind() {
+            Kind::Number => Meaning::Number(index),
+            Kind::Condition => Meaning::Condition(index),
+        })
+    }
+
+    fn names(&self) -> Vec<String> {
+        let parameters = self.plan.parameters().iter().map(|parameter| parameter.name.to_owned());
+        self.plan.measured().map(str::to_owned).chain(parameters).collect()
+    }
+}

@@ -1,0 +1,262 @@
+//! The refinement of a start: sequential quadratic programming, then a pattern search where derivatives are missing.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use nalgebra::{DMatrix, DVector};
+use slsqp::{Func, StopTols, minimize};
+
+use super::evaluate::{Evaluator, Trial};
+use super::problem::Problem;
+use super::sensitivity::{CONVERGED, active};
+
+/// The share of its size by which a limit is kept away from, so that the optimum satisfies it in spite of rounding.
+const KEPT_AWAY: f64 = 1e-6;
+
+/// The share of its size by which a limit that is kept away from may be missed: rows have such errors.
+const MISSED: f64 = 5e-7;
+
+/// The relative change of the number below which a refinement ends.
+const SMALL_CHANGE: f64 = 1e-6;
+
+/// The change of coordinates below which a refinement ends.
+const SMALL_STEP: f64 = 1e-5;
+
+/// Most points of one run of sequential quadratic programming.
+const MOST_TRIALS: usize = 60;
+
+/// Most runs of sequential quadratic programming, each from the end of the one before.
+const MOST_RUNS: usize = 4;
+
+/// The first and the smallest step of the pattern search, in coordinates.
+const PATTERN: [f64; 2] = [0.02, 1e-4];
+
+/// Most points of the pattern search, per direction.
+const MOST_TESTS: u64 = 40;
+
+/// The distance from a limit, in units of its size, below which the pattern search follows it.
+const NEAR: f64 = 0.02;
+
+/// A function with its constraints, at a point: each constraint is at most zero.
+struct Local {
+    value: f64,
+    slopes: Vec<f64>,
+    constraints: Vec<(f64, Vec<f64>)>,
+}
+
+/// The end of a refinement.
+pub(super) struct Refined {
+    pub(super) best: Rc<Trial>,
+    /// True if the last steps were those of a pattern search.
+    pub(super) is_polished: bool,
+}
+
+/// The best point that is found from `start`.
+pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
+    let mut best = points.with_slopes(start);
+    let no_way = start.is_empty() || best.excess.is_infinite();
+    if no_way {
+        return Refined { best, is_polished: false };
+    }
+    if best.excess > 0.0 {
+        best = approach(points, &best);
+    }
+    let mut kept_away = KEPT_AWAY;
+    for _ in 0..MOST_RUNS {
+        let (found, last) = descend(points, &best, kept_away);
+        let gain = change(points.problem, &best, &found);
+        let is_beyond = last.excess > 0.0 && change(points.problem, &found, &last) > SMALL_CHANGE;
+        best = found;
+        if is_beyond {
+            kept_away *= 10.0;
+        } else if gain <= SMALL_CHANGE {
+            break;
+        }
+    }
+    let is_confirmed = || {
+        let best = points.with_slopes(&best.coordinates);
+        best.excess > 0.0 || active(points.problem, &best, false).1 <= CONVERGED
+    };
+    let is_polished = points.has_differences.get() || !is_confirmed();
+    if is_polished {
+        best = pattern(points, best);
+        if best.excess == 0.0 {
+            best = descend(points, &points.with_slopes(&best.coordinates), KEPT_AWAY).0;
+        }
+    }
+    Refined { best, is_polished }
+}
+
+/// The relative gain from one feasible point to another; infinite if only the latter is feasible.
+fn change(problem: &Problem, before: &Trial, behind: &Trial) -> f64 {
+    if before.excess > 0.0 {
+        return if behind.excess < before.excess { f64::INFINITY } else { 0.0 };
+    }
+    let size = before.goal.abs().max(behind.goal.abs());
+    if size == 0.0 { 0.0 } else { problem.aim.sign() * (before.goal - behind.goal) / size }
+}
+
+/// The best point of a run of sequential quadratic programming, and the last one.
+fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Trial>, Rc<Trial>) {
+    let problem = points.problem;
+    let size = if begin.goal == 0.0 { 1.0 } else { begin.goal.abs() };
+    let factor = problem.aim.sign() / size;
+    let best = RefCell::new(Rc::clone(begin));
+    let last = RefCell::new(Rc::clone(begin));
+    let local = |at: &[f64], has_slopes: bool| {
+        let trial = if has_slopes { points.with_slopes(at) } else { points.at(at) };
+        if trial.is_better(problem, &best.borrow()) {
+            *best.borrow_mut() = Rc::clone(&trial);
+        }
+        if trial.excess.is_infinite() {
+            return None;
+        }
+        *last.borrow_mut() = Rc::clone(&trial);
+        let slopes = |quantity: usize, factor: f64| -> Vec<f64> {
+            trial
+                .slopes
+                .get(quantity)
+                .map_or_else(Vec::new, |slopes| slopes.iter().map(|slope| factor * slope).collect())
+        };
+        let constraint = |number: usize| {
+            let scale = problem.limits[number].scale(begin.sides[number]);
+            let [less, more] = trial.sides[number];
+            let over = kept_away - (more - less) / scale;
+            // slsqp ends only at points that satisfy all constraints.
+            let over = if (0.0..=MISSED).contains(&over) { 0.0 } else { over };
+            (over, slopes(1 + number, -1.0 / scale))
+        };
+        Some(Local {
+            value: factor * trial.goal,
+            slopes: slopes(0, factor),
+            constraints: (0..problem.limits.len()).map(constraint).collect(),
+        })
+    };
+    solve(&begin.coordinates, &vec![(0.0, 1.0); begin.coordinates.len()], problem.limits.len(), &local);
+    (best.into_inner(), last.into_inner())
+}
+
+/// The point that exceeds its limits least, from a point that exceeds some: the smallest number by which all limits must be moved.
+fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
+    let problem = points.problem;
+    let dimensions = begin.coordinates.len();
+    let best = RefCell::new(Rc::clone(begin));
+    let local = |at: &[f64], has_slopes: bool| {
+        let (at, moved) = (&at[..dimensions], at[dimensions]);
+        let trial = if has_slopes { points.with_slopes(at) } else { points.at(at) };
+        if trial.is_better(problem, &best.borrow()) {
+            *best.borrow_mut() = Rc::clone(&trial);
+        }
+        if trial.excess.is_infinite() {
+            return None;
+        }
+        let constraint = |number: usize| {
+            let scale = problem.limits[number].scale(begin.sides[number]);
+            let [less, more] = trial.sides[number];
+            let slopes = trial.slopes.get(1 + number);
+            let slopes = slopes.into_iter().flatten().map(|slope| -slope / scale).chain([-1.0]);
+            (KEPT_AWAY - (more - less) / scale - moved, slopes.collect())
+        };
+        let mut slopes = vec![0.0; dimensions];
+        slopes.push(1.0);
+        let constraints = (0..problem.limits.len()).map(constraint).collect();
+        Some(Local { value: moved, slopes, constraints })
+    };
+    let mut from = begin.coordinates.clone();
+    let excess = begin.excess;
+    from.push(excess + KEPT_AWAY);
+    let mut bounds = vec![(0.0, 1.0); dimensions];
+    bounds.push((-KEPT_AWAY, 2.0 * excess + 1.0));
+    solve(&from, &bounds, problem.limits.len(), &local);
+    best.into_inner()
+}
+
+/// Minimises the function `local`, which is `None` where it has no value, between `bounds`.
+fn solve(begin: &[f64], bounds: &[(f64, f64)], limits: usize, local: &dyn Fn(&[f64], bool) -> Option<Local>) {
+    let put = |slopes: Option<&mut [f64]>, found: &[f64]| {
+        if let Some(slopes) = slopes.filter(|slopes| slopes.len() == found.len()) {
+            slopes.copy_from_slice(found);
+        }
+    };
+    let value = |at: &[f64], slopes: Option<&mut [f64]>, (): &mut ()| match local(at, slopes.is_some()) {
+        Some(found) => {
+            put(slopes, &found.slopes);
+            found.value
+        }
+        // A value that is not finite shortens the step.
+        None => f64::INFINITY,
+    };
+    let constraint = |number: usize| {
+        move |at: &[f64], slopes: Option<&mut [f64]>, (): &mut ()| match local(at, slopes.is_some()) {
+            Some(found) => {
+                let (value, found) = &found.constraints[number];
+                put(slopes, found);
+                *value
+            }
+            None => f64::INFINITY,
+        }
+    };
+    let constraints: Vec<_> = (0..limits).map(constraint).collect();
+    let constraints: Vec<&dyn Func<()>> =
+        constraints.iter().map(|constraint| constraint as &dyn Func<()>).collect();
+    let tolerances =
+        StopTols { ftol_rel: SMALL_CHANGE, xtol_abs: vec![SMALL_STEP; begin.len()], ..StopTols::default() };
+    // slsqp calls each constraint as if it had the type of the function: both are `&dyn Func`.
+    let value: &dyn Func<()> = &value;
+    // Its verdict is not needed: the best point that was computed counts.
+    let _ = minimize(value, begin, bounds, &constraints, (), MOST_TRIALS, Some(tolerances));
+}
+
+/// The best point of a pattern search from `best`: along the coordinates, and along the limits that are near.
+fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
+    let problem = points.problem;
+    let [mut step, smallest] = PATTERN;
+    let before = points.rows.get();
+    let most = MOST_TESTS * 4 * best.coordinates.len() as u64;
+    let mut directions = directions(problem, &points.with_slopes(&best.coordinates));
+    while step >= smallest && points.rows.get() - before < most {
+        let tests = directions.iter().flat_map(|direction| [1.0, -1.0].map(|sign| (direction, sign * step)));
+        let tests = tests.map(|(direction, step)| {
+            let moved = best.coordinates.iter().zip(direction.iter());
+            let moved: Vec<f64> = moved.map(|(at, along)| (at + step * along).clamp(0.0, 1.0)).collect();
+            points.at(&moved)
+        });
+        let found = tests.fold(
+            Rc::clone(&best),
+            |best, trial| {
+                if trial.is_better(problem, &best) { trial } else { best }
+            },
+        );
+        if change(problem, &best, &found) > SMALL_CHANGE {
+            best = found;
+            directions = self::directions(problem, &points.with_slopes(&best.coordinates));
+        } else {
+            step *= 0.5;
+        }
+    }
+    best
+}
+
+/// The coordinates, and each of them without its parts across the limits that are near.
+fn directions(problem: &Problem, at: &Trial) -> Vec<Vec<f64>> {
+    let dimensions = at.coordinates.len();
+    let axis = |number: usize| DVector::from_fn(dimensions, |row, _| if row == number { 1.0 } else { 0.0 });
+    let mut found: Vec<DVector<f64>> = (0..dimensions).map(axis).collect();
+    let near = (0..problem.limits.len()).filter(|&number| at.margin(problem, number) < NEAR);
+    let across: Vec<DVector<f64>> = near
+        .filter_map(|number| at.slopes.get(1 + number))
+        .map(|slopes| DVector::from_column_slice(slopes))
+        .filter(|slopes| slopes.norm() > 0.0 && slopes.norm().is_finite())
+        .map(|slopes| slopes.normalize())
+        .collect();
+    if !across.is_empty() {
+        let basis = DMatrix::from_columns(&across);
+        if let Ok(inverse) = basis.clone().pseudo_inverse(1e-9) {
+            let along = (0..dimensions).map(|number| axis(number) - &basis * (&inverse * axis(number)));
+            let along: Vec<DVector<f64>> =
+                along.filter(|along| along.norm() > 1e-3).map(|along| along.normalize()).collect();
+            found.extend(along);
+        }
+    }
+    found.into_iter().map(|direction| direction.iter().copied().collect()).collect()
+}

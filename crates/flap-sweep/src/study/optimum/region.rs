@@ -1,0 +1,151 @@
+//! The region of a problem: parameters that vary continuously between two values, and choices that are tried one by one.
+
+use flap_core::parameter::{Kind, Parameter, Range};
+
+use crate::plan::Plan;
+use crate::plan::axes::{Axis, Values};
+use crate::plan::sample::Distribution;
+
+/// The distance from 0 and 1 within which a coordinate is the end itself: searches miss it by rounding.
+const AT_END: f64 = 1e-9;
+
+/// A parameter that varies continuously between two values, which coordinates from 0 to 1 stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Variable {
+    pub(super) parameter: usize,
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// True if equal steps of the coordinate have equal ratios of values.
+    is_log: bool,
+}
+
+impl Variable {
+    /// The value at a coordinate.
+    pub(super) fn value(&self, coordinate: f64) -> f64 {
+        let Variable { from, to, is_log, .. } = *self;
+        let value = match coordinate {
+            _ if coordinate <= AT_END => from,
+            _ if coordinate >= 1.0 - AT_END => to,
+            _ if is_log => from * libm::pow(to / from, coordinate),
+            _ => from + (to - from) * coordinate,
+        };
+        value.clamp(from, to)
+    }
+
+    /// The coordinate of a value.
+    pub(super) fn coordinate(&self, value: f64) -> f64 {
+        let Variable { from, to, is_log, .. } = *self;
+        let share = if is_log {
+            libm::log(value / from) / libm::log(to / from)
+        } else {
+            (value - from) / (to - from)
+        };
+        share.clamp(0.0, 1.0)
+    }
+
+    /// The change of the value per coordinate.
+    pub(super) fn slope(&self, coordinate: f64) -> f64 {
+        let Variable { from, to, is_log, .. } = *self;
+        if is_log { self.value(coordinate) * libm::log(to / from) } else { to - from }
+    }
+}
+
+/// The region of a problem.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Region {
+    pub(super) variables: Vec<Variable>,
+    /// Parameters whose values are tried one by one: choices, counts, and parameters that move together.
+    pub(super) enumerated: Vec<usize>,
+}
+
+impl Region {
+    /// The region of a plan's axes.
+    ///
+    /// # Errors
+    /// The parameter whose values have no bounds.
+    pub(super) fn of(plan: &Plan) -> Result<Region, usize> {
+        let mut region = Region::default();
+        for axis in plan.axes().as_slice() {
+            region.add(plan.parameters(), axis)?;
+        }
+        Ok(region)
+    }
+
+    fn add(&mut self, parameters: &[Parameter<'_>], axis: &Axis) -> Result<(), usize> {
+        let is_alone = axis.parameters().len() == 1;
+        for (index, values) in axis.parameters() {
+            let is_whole = match parameters[*index].kind {
+                Kind::Choice(_) | Kind::Number(Range::Whole(..)) => true,
+                Kind::Number(_) | Kind::Following(..) => false,
+            };
+            let bounds = match values {
+                Values::Correlated { .. }
+                | Values::Sampled { distribution: Distribution::Normal { .. }, .. } => return Err(*index),
+                Values::Sampled { distribution: Distribution::Uniform { from, to }, .. } => {
+                    Some((*from, *to, false))
+                }
+                Values::Sampled { distribution: Distribution::LogUniform { from, to }, .. } => {
+                    Some((*from, *to, true))
+                }
+                Values::Sampled { distribution: Distribution::Among(list), .. } => Some(extremes(list)),
+                _ if !is_alone => None,
+                Values::List(list) | Values::Unchecked(list) => Some(extremes(list)),
+                Values::Linear { .. } | Values::Step { .. } => {
+                    Some((values.get(0), values.get(values.len() - 1), false))
+                }
+                Values::Log { .. } => Some((values.get(0), values.get(values.len() - 1), true)),
+            };
+            match bounds.filter(|(one, other, _)| !is_whole && one != other) {
+                Some((one, other, is_log)) => {
+                    let (from, to) = (one.min(other), one.max(other));
+                    let is_log = is_log && from > 0.0;
+                    self.variables.push(Variable { parameter: *index, from, to, is_log });
+                }
+                None => self.enumerated.push(*index),
+            }
+        }
+        Ok(())
+    }
+
+    /// The coordinates of a point with these values.
+    pub(super) fn coordinates(&self, values: &[f64]) -> Vec<f64> {
+        self.variables.iter().map(|variable| variable.coordinate(values[variable.parameter])).collect()
+    }
+
+    /// The enumerated values of a point.
+    pub(super) fn choice(&self, values: &[f64]) -> Vec<f64> {
+        self.enumerated.iter().map(|&parameter| values[parameter]).collect()
+    }
+
+    /// The varied parameters with their values at these coordinates of a choice.
+    pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
+        let continuous = self.variables.iter().zip(coordinates);
+        let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));
+        continuous.chain(self.enumerated.iter().copied().zip(choice.iter().copied())).collect()
+    }
+}
+
+fn extremes(list: &[f64]) -> (f64, f64, bool) {
+    let least = list.iter().copied().fold(f64::INFINITY, f64::min);
+    (least, list.iter().copied().fold(f64::NEG_INFINITY, f64::max), false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Variable;
+
+    #[test]
+    fn coordinates_and_values_are_inverse() {
+        for is_log in [false, true] {
+            let variable = Variable { parameter: 0, from: 2.0, to: 50.0, is_log };
+            for coordinate in [0.0, 0.1, 0.5, 1.0] {
+                let value = variable.value(coordinate);
+                assert!((variable.coordinate(value) - coordinate).abs() < 1e-14);
+                let step = 1e-6;
+                let slope = (variable.value(coordinate + step) - value) / step;
+                assert!(coordinate == 1.0 || (slope / variable.slope(coordinate) - 1.0).abs() < 1e-5);
+            }
+            assert_eq!([0.0, 1.0].map(|at| variable.value(at)), [2.0, 50.0]);
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! The search: rows of the grid, then refinements side by side.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{NoSlope, Rows as _};
+
+use super::answer::{LimitAt, Optimum, Other, Status};
+use super::evaluate::{Evaluator, Trial};
+use super::problem::Problem;
+use super::refine::refine;
+use super::sensitivity::{CONVERGED, active};
+use super::starts::{self, Start};
+use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
+use crate::run::{RunError, RunOptions};
+
+/// Ends of refinements are the same optimum if the relative difference of their numbers and the difference of their coordinates
+/// are at most one of these pairs. Where the number hardly changes, ends differ more.
+const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
+
+/// The time between two looks at the caller's wish to stop.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Settings of a search.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Threads and instructions.
+    pub run: RunOptions,
+    /// Most points of the grid that are refined.
+    pub starts: NonZeroUsize,
+    /// Most points of the grid that are computed.
+    pub points: u64,
+}
+
+impl Settings {
+    /// Starts that are refined unless the user says otherwise.
+    pub const STARTS: usize = 8;
+
+    /// Points of the grid that are computed unless the user says otherwise.
+    pub const POINTS: u64 = 4096;
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let starts = NonZeroUsize::new(Settings::STARTS).unwrap_or(NonZeroUsize::MIN);
+        Settings { run: RunOptions::default(), starts, points: Settings::POINTS }
+    }
+}
+
+/// The end of a refinement.
+struct End {
+    trial: Trial,
+    varied: Vec<(usize, f64)>,
+    missing: Vec<NoSlope>,
+    is_polished: bool,
+    rows: u64,
+    sloped: u64,
+}
+
+/// The best point of a problem; `None` if no start has a periodic motion, or the search was stopped.
+///
+/// `stops` is called several times a second on this thread, with the numbers of points and starts that are done and of all: true
+/// ends the search. The answer does not depend on the number of threads.
+///
+/// # Errors
+/// [`RunError`] if a thread cannot be started, or the model breaks its contract.
+pub fn optimise(
+    problem: &Problem,
+    settings: &Settings,
+    stops: &dyn Fn(u64, u64) -> bool,
+) -> Result<Option<Optimum>, RunError> {
+    let plan = starts::selected(problem.measured.clone(), settings.points);
+    let (computed, most) = (plan.selected(), settings.starts.get());
+    let all = computed + most as u64;
+    let mut is_stopped = false;
+    let found = starts::computed(problem, &plan, &settings.run, |run| {
+        is_stopped |= stops(run.progress().finished, all);
+        is_stopped
+    })?;
+    if is_stopped {
+        return Ok(None);
+    }
+    let starts: Vec<Begin> = starts::best(problem, found, most).into_iter().map(Begin::of_start).collect();
+    let Some(ends) = refined(problem, settings, &starts, |done| stops(computed + done, all))? else {
+        return Ok(None);
+    };
+    Ok(answer(problem, &ends, computed))
+}
+
+/// The best point of a problem from the designs of answers to other problems of the same plan; see [`optimise`].
+///
+/// # Errors
+/// As [`optimise`].
+pub fn optimise_from(
+    problem: &Problem,
+    settings: &Settings,
+    designs: &[&Optimum],
+    stops: &dyn Fn(u64, u64) -> bool,
+) -> Result<Option<Optimum>, RunError> {
+    let begin = |best: &&Optimum| Begin {
+        coordinates: problem.region.coordinates(&best.values),
+        choice: problem.region.choice(&best.values),
+    };
+    let starts: Vec<Begin> = designs.iter().map(begin).collect();
+    let all = starts.len() as u64;
+    let ends = refined(problem, settings, &starts, |done| stops(done, all))?;
+    Ok(ends.and_then(|ends| answer(problem, &ends, 0)))
+}
+
+/// The point from which a refinement begins.
+struct Begin {
+    coordinates: Vec<f64>,
+    choice: Vec<f64>,
+}
+
+impl Begin {
+    fn of_start(start: Start) -> Begin {
+        Begin { coordinates: start.trial.coordinates, choice: start.choice }
+    }
+}
+
+/// The ends of the refinements in the order of the starts; `None` if the search was stopped.
+fn refined(
+    problem: &Problem,
+    settings: &Settings,
+    starts: &[Begin],
+    stops: impl Fn(u64) -> bool,
+) -> Result<Option<Vec<End>>, RunError> {
+    let (next, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let (sender, receiver) = mpsc::channel();
+    let mut ends: Vec<Option<End>> = starts.iter().map(|_| None).collect();
+    let mut failure = None;
+    thread::scope(|scope| {
+        for _ in 0..settings.run.threads.get().min(starts.len()) {
+            let sender = sender.clone();
+            let (next, is_stopped) = (&next, &is_stopped);
+            let work = move || {
+                while !is_stopped.load(Ordering::Relaxed) {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(start) = starts.get(number) else { return };
+                    let end = end_of(problem, &settings.run, start, &|| is_stopped.load(Ordering::Relaxed));
+                    // The receiver waits for all senders.
+                    let _ = sender.send((number, end));
+                }
+            };
+            if let Err(error) = thread::Builder::new().spawn_scoped(scope, work) {
+                failure.get_or_insert(RunError::Threads(error));
+                is_stopped.store(true, Ordering::Relaxed);
+            }
+        }
+        drop(sender);
+        let mut done = 0;
+        loop {
+            match receiver.recv_timeout(LOOK) {
+                Ok((number, Ok(end))) => {
+                    done += 1;
+                    ends[number] = Some(end);
+                }
+                Ok((_, Err(error))) => {
+                    failure.get_or_insert(error);
+                    is_stopped.store(true, Ordering::Relaxed);
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            if stops(done) {
+                is_stopped.store(true, Ordering::Relaxed);
+            }
+        }
+    });
+    match failure {
+        Some(failure) => Err(failure),
+        None if is_stopped.into_inner() => Ok(None),
+        None => Ok(ends.into_iter().collect()),
+    }
+}
+
+/// The end of the refinement of one start.
+fn end_of(
+    problem: &Problem,
+    options: &RunOptions,
+    start: &Begin,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<End, RunError> {
+    let points = Evaluator::new(problem, options, start.choice.clone(), interrupted);
+    let refined = refine(&points, &start.coordinates);
+    let best = points.with_slopes(&refined.best.coordinates);
+    match points.failure() {
+        Some(failure) => Err(failure),
+        None => Ok(End {
+            varied: points.varied(&best.coordinates),
+            missing: points.missing(),
+            is_polished: refined.is_polished,
+            rows: points.rows.get(),
+            sloped: points.sloped.get(),
+            trial: Trial::clone(&best),
+        }),
+    }
+}
+
+/// The answer from the ends of all refinements.
+fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
+    let mut order: Vec<&End> = ends.iter().collect();
+    let sign = problem.aim.sign();
+    order.sort_by(|one, other| {
+        let by_excess = one.trial.excess.total_cmp(&other.trial.excess);
+        by_excess.then((sign * one.trial.goal).total_cmp(&(sign * other.trial.goal)))
+    });
+    let best = *order.first()?;
+    let End { trial, varied, missing, is_polished, .. } = best;
+    let (active, left_over) = active(problem, trial, *is_polished);
+    let is_confirmed = trial.coordinates.is_empty() || left_over <= CONVERGED;
+    let status = match trial.excess > 0.0 {
+        true => Status::Infeasible,
+        false if is_confirmed => Status::Optimal,
+        false => Status::Approximate,
+    };
+    let limits = problem.limits.iter().zip(&trial.sides).map(|(limit, &sides)| {
+        let excess = if limit.holds(sides) { 0.0 } else { (sides[0] - sides[1]) / limit.scale(sides) };
+        LimitAt { text: limit.text.clone(), sides, excess }
+    });
+    let mut row = trial.row.clone();
+    row.measures.truncate(problem.place());
+    let mut values = problem.measured.clone().at(varied).ok()?.point(0).values;
+    set_resonance(problem, &row.measures, &mut values);
+    Some(Optimum {
+        status,
+        goal: trial.goal,
+        values,
+        row,
+        varied: varied.clone(),
+        at_end: at_end(problem, varied),
+        active: if status == Status::Infeasible { Vec::new() } else { active },
+        limits: limits.collect(),
+        optima: optima(&order),
+        starts: ends.len(),
+        points: problem.plan.len(),
+        computed,
+        rows: computed + ends.iter().map(|end| end.rows).sum::<u64>(),
+        sloped: ends.iter().map(|end| end.sloped).sum(),
+        missing: missing.clone(),
+        is_polished: *is_polished,
+        left_over,
+    })
+}
+
+/// Sets the drive frequency to the resonance, if the design runs there.
+fn set_resonance(problem: &Problem, measures: &[f64], values: &mut [f64]) {
+    let Some(resonance) = problem.plan.resonance() else { return };
+    let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
+    let found = place.and_then(|place| measures.get(place));
+    let frequency = Parameter::index(problem.plan.parameters(), DRIVE_FREQUENCY);
+    if let Some((index, found)) = frequency.zip(found) {
+        values[index] = *found;
+    }
+}
+
+/// The varied numbers that are at an end of their axis, with both ends.
+fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> {
+    let region = &problem.region;
+    let continuous =
+        region.variables.iter().map(|variable| (variable.parameter, [variable.from, variable.to]));
+    let counts = problem.plan.axes().as_slice().iter().filter_map(|axis| match axis.parameters() {
+        [(parameter, values)] if region.enumerated.contains(parameter) => {
+            let is_number = !matches!(problem.plan.parameters()[*parameter].kind, Kind::Choice(_));
+            let all = (0..values.len()).map(|place| values.get(place));
+            let ends = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
+                [least.min(value), most.max(value)]
+            });
+            (is_number && ends[0] < ends[1]).then_some((*parameter, ends))
+        }
+        _ => None,
+    });
+    let is_at_end = |(parameter, ends): &(usize, [f64; 2])| {
+        let tolerance = 1e-6 * (ends[1] - ends[0]);
+        let value = varied.iter().find(|(other, _)| other == parameter).map(|(_, value)| *value);
+        value.is_some_and(|value| ends.iter().any(|end| (value - end).abs() <= tolerance))
+    };
+    continuous.chain(counts).filter(is_at_end).collect()
+}
+
+/// The distinct ends, in this order.
+fn optima(order: &[&End]) -> Vec<Other> {
+    let mut found: Vec<(Other, &Trial)> = Vec::new();
+    for end in order {
+        let same = found.iter_mut().find(|(other, trial)| {
+            let size = other.goal.abs().max(end.trial.goal.abs());
+            let choice = end.trial.coordinates.len()..;
+            other.is_feasible == (end.trial.excess == 0.0)
+                && other.varied[choice.clone()] == end.varied[choice]
+                && SAME.iter().any(|[numbers, coordinates]| {
+                    (other.goal - end.trial.goal).abs() <= numbers * size
+                        && starts::distance(trial, &end.trial) <= *coordinates
+                })
+        });
+        if let Some((other, _)) = same {
+            other.starts += 1;
+            continue;
+        }
+        let is_feasible = end.trial.excess == 0.0;
+        let other = Other { goal: end.trial.goal, varied: end.varied.clone(), is_feasible, starts: 1 };
+        found.push((other, &end.trial));
+    }
+    found.into_iter().map(|(other, _)| other).collect()
+}

@@ -1,0 +1,105 @@
+//! The bounds and limits that hold an optimum back, and their multipliers.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::answer::{Active, Edge};
+use super::evaluate::Trial;
+use super::problem::Problem;
+
+/// The distance from a limit, in units of its size, below which it may be active.
+const NEAR: f64 = 1e-4;
+
+/// The distance from a limit where the end was found by a pattern search.
+const NEAR_PATTERN: f64 = 5e-3;
+
+/// The distance from a bound, in coordinates, below which it may be active.
+const AT_BOUND: f64 = 1e-6;
+
+/// The gain that derivatives may promise at an optimum, as a share of the number per width of an axis.
+pub(super) const CONVERGED: f64 = 0.02;
+
+/// A bound or limit that may hold the optimum back.
+#[derive(Clone, Copy)]
+enum Holder {
+    Limit(usize),
+    /// The variable, and true for its largest value.
+    Bound(usize, bool),
+}
+
+/// The active bounds and limits of a point with derivatives, and the share of the number's derivatives that they leave over.
+pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<Active>, f64) {
+    let Some(goal) = at.slopes.first() else { return (Vec::new(), f64::NAN) };
+    let near = if is_polished { NEAR_PATTERN } else { NEAR };
+    let limits = (0..problem.limits.len()).filter(|&number| at.margin(problem, number) < near);
+    let bounds = at.coordinates.iter().enumerate().filter_map(|(number, coordinate)| {
+        let is_low = *coordinate <= AT_BOUND;
+        (is_low || *coordinate >= 1.0 - AT_BOUND).then_some(Holder::Bound(number, !is_low))
+    });
+    let mut holders: Vec<Holder> = limits.map(Holder::Limit).chain(bounds).collect();
+    // The gain per coordinate; each holder has a multiplier that is the gain per unit of its distance.
+    let gain = DVector::from_iterator(goal.len(), goal.iter().map(|slope| -problem.aim.sign() * slope));
+    let inward = |holder: &Holder| match *holder {
+        Holder::Limit(number) => DVector::from_column_slice(&at.slopes[1 + number]),
+        Holder::Bound(number, is_high) => {
+            let side = if is_high { -1.0 } else { 1.0 };
+            DVector::from_fn(goal.len(), |row, _| if row == number { side } else { 0.0 })
+        }
+    };
+    let multipliers = loop {
+        let columns: Vec<DVector<f64>> = holders.iter().map(|holder| -inward(holder)).collect();
+        if columns.is_empty() {
+            break DVector::zeros(0);
+        }
+        // Columns of one size: limits are in their own units.
+        let sizes: Vec<f64> = columns.iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
+        let scaled: Vec<DVector<f64>> =
+            columns.iter().zip(&sizes).map(|(column, size)| column / *size).collect();
+        let matrix = DMatrix::from_columns(&scaled);
+        let found = matrix.svd(true, true).solve(&gain, 1e-9);
+        let Ok(found) = found else { break DVector::zeros(holders.len()) };
+        let least = found.iter().enumerate().min_by(|one, other| one.1.total_cmp(other.1));
+        match least {
+            Some((place, &value)) if value < 0.0 => {
+                holders.remove(place);
+            }
+            _ => break DVector::from_fn(found.len(), |row, _| found[row] / sizes[row]),
+        }
+    };
+    let held: DVector<f64> = holders
+        .iter()
+        .zip(multipliers.iter())
+        .fold(DVector::zeros(goal.len()), |sum, (holder, multiplier)| sum - inward(holder) * *multiplier);
+    let size = if at.goal == 0.0 { 1.0 } else { at.goal.abs() };
+    let left_over = (&gain - held).amax() / size;
+    let mut active: Vec<Active> = holders
+        .iter()
+        .zip(multipliers.iter())
+        .map(|(holder, &multiplier)| described(problem, at, *holder, multiplier))
+        .collect();
+    active.retain(|active| active.per_unit != 0.0);
+    (active, left_over)
+}
+
+/// The answer's words for a holder. `multiplier` is the gain per unit by which the limit moves outwards.
+fn described(problem: &Problem, at: &Trial, holder: Holder, multiplier: f64) -> Active {
+    // The change of the number itself, not the gain.
+    let change = -problem.aim.sign() * multiplier;
+    let (edge, name, limit, per_unit) = match holder {
+        Holder::Limit(number) => {
+            let known = &problem.limits[number];
+            let [less, more] = at.sides[number];
+            let (limit, side) = if known.is_upper() { (more, 1.0) } else { (less, -1.0) };
+            (Edge::Limit, known.text.clone(), limit, side * change)
+        }
+        Holder::Bound(number, is_high) => {
+            let variable = problem.region.variables[number];
+            let per_value = change / variable.slope(at.coordinates[number]);
+            let name = problem.plan.parameters()[variable.parameter].name.to_owned();
+            let (edge, limit) =
+                if is_high { (Edge::Largest, variable.to) } else { (Edge::Smallest, variable.from) };
+            (edge, name, limit, if is_high { per_value } else { -per_value })
+        }
+    };
+    let percent = per_unit * limit.abs() / at.goal.abs();
+    Active { edge, name, limit, per_unit, percent }
+}

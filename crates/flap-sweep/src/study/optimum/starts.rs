@@ -1,0 +1,93 @@
+//! The starts of a problem: points of the grid, and the best distinct ones among them.
+
+use super::evaluate::Trial;
+use super::problem::Problem;
+use crate::plan::Plan;
+use crate::run::{Outcome, Run, RunError, RunOptions, rows};
+use crate::study::survey::spread;
+
+/// The distance of starts of the same choice, in coordinates, from which they are distinct.
+const DISTINCT: f64 = 0.2;
+
+/// A point of the grid.
+pub(super) struct Start {
+    pub(super) trial: Trial,
+    pub(super) choice: Vec<f64>,
+}
+
+/// The points of the grid that are computed: all, or `most` that are spread over it.
+pub(super) fn selected(plan: Plan, most: u64) -> Plan {
+    let plan = plan.with_all_points();
+    if plan.len() <= most {
+        return plan;
+    }
+    let mut list: Vec<u64> = (0..most).map(|number| spread(number, plan.len())).collect();
+    list.sort_unstable();
+    list.dedup();
+    // Indices below the length that rise.
+    plan.clone().with_points(list).unwrap_or(plan)
+}
+
+/// The rows of a plan's selected points that have a periodic motion. `stops` is called now and then: if it gives true, the list
+/// ends early.
+///
+/// # Errors
+/// As a sweep.
+pub(super) fn computed(
+    problem: &Problem,
+    plan: &Plan,
+    options: &RunOptions,
+    mut stops: impl FnMut(&Run<Outcome>) -> bool,
+) -> Result<Vec<Start>, RunError> {
+    let mut run = rows(plan, options, 0);
+    let mut starts = Vec::new();
+    let mut position = 0;
+    while let Some(batch) = run.next_batch()? {
+        for outcome in batch {
+            let point = plan.selected_point(position);
+            position += 1;
+            let Outcome::Ran(row) = outcome else { continue };
+            let trial = Trial::new(problem, problem.region.coordinates(&point.values), row);
+            if trial.excess.is_finite() {
+                starts.push(Start { trial, choice: problem.region.choice(&point.values) });
+            }
+        }
+        if stops(&run) {
+            run.stop();
+        }
+    }
+    Ok(starts)
+}
+
+/// The best starts: first the best one of each choice, then others that are distinct from those before. At most `most`.
+pub(super) fn best(problem: &Problem, mut starts: Vec<Start>, most: usize) -> Vec<Start> {
+    let sign = problem.aim.sign();
+    // A stable sort: of equal starts the first one comes first.
+    starts.sort_by(|one, other| {
+        let by_excess = one.trial.excess.total_cmp(&other.trial.excess);
+        by_excess.then((sign * one.trial.goal).total_cmp(&(sign * other.trial.goal)))
+    });
+    let has_feasible = starts.first().is_some_and(|start| start.trial.excess == 0.0);
+    starts.retain(|start| !has_feasible || start.trial.excess == 0.0);
+    let mut chosen: Vec<Start> = Vec::new();
+    let mut others: Vec<Start> = Vec::new();
+    for start in starts {
+        let is_new = chosen.iter().all(|before| before.choice != start.choice);
+        if is_new && chosen.len() < most { chosen.push(start) } else { others.push(start) }
+    }
+    for start in others {
+        let is_distinct = chosen
+            .iter()
+            .all(|before| before.choice != start.choice || distance(&before.trial, &start.trial) >= DISTINCT);
+        if is_distinct && chosen.len() < most {
+            chosen.push(start);
+        }
+    }
+    chosen
+}
+
+/// The largest difference of coordinates.
+pub(super) fn distance(one: &Trial, other: &Trial) -> f64 {
+    let pairs = one.coordinates.iter().zip(&other.coordinates);
+    pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
