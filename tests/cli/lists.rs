@@ -289,8 +289,8 @@ fn help_lists_the_groups_of_commands() {
     // The groups have all commands.
     let listed = |name: &str| help.lines().any(|line| line.trim_start().starts_with(&format!("{name} ")));
     for name in [
-        "sweep", "run", "respond", "vehicle", "check", "top", "describe", "results", "test", "device",
-        "models", "generate",
+        "sweep", "run", "respond", "vehicle", "optimise", "check", "top", "describe", "results", "test",
+        "device", "models", "generate",
     ] {
         assert!(listed(name), "{name}: {help}");
     }

@@ -25,6 +25,7 @@ mod live;
 mod look;
 mod mistakes;
 #[cfg(feature = "plots")]
+mod optimise;
 mod plot;
 mod point;
 mod replaced;

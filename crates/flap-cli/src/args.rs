@@ -7,6 +7,7 @@ mod generate;
 mod live;
 mod look;
 mod models;
+mod optimise;
 mod options;
 #[cfg(feature = "plots")]
 mod plot;
@@ -32,6 +33,7 @@ pub(crate) use generate::{CompletionsArgs, GenerateCommand, ManArgs, SchemaArgs}
 pub(crate) use live::LiveArgs;
 pub(crate) use look::{DescribeArgs, LookArgs, TopArgs};
 pub(crate) use models::ModelsArgs;
+pub(crate) use optimise::OptimiseArgs;
 pub(crate) use options::{Aim, OutputFormat, PointArgs, ReadArgs, SolverArgs, WorkArgs};
 #[cfg(feature = "plots")]
 pub(crate) use plot::{PictureKind, PlotArgs, Size};
@@ -74,6 +76,8 @@ pub(crate) enum Command {
     Respond(RespondArgs),
     /// Compute the force and torque of a vehicle, the effect of each input on them, and trims
     Vehicle(VehicleArgs),
+    /// Find the best design within the axes of a grid file, under conditions
+    Optimise(OptimiseArgs),
     /// Open a page in the browser with sliders for the parameters and curves that follow them
     #[cfg(feature = "live")]
     Live(LiveArgs),
@@ -104,7 +108,7 @@ pub(crate) enum Command {
 
 /// Titles of the groups of commands in `flap --help`, with their commands.
 const GROUPS: [(&str, &[&str]); 4] = [
-    ("Compute", &["sweep", "run", "respond", "vehicle", "live", "check"]),
+    ("Compute", &["sweep", "run", "respond", "vehicle", "optimise", "live", "check"]),
     ("Results", &["top", "describe", "plot", "results"]),
     ("Your robot", &["test", "device"]),
     ("Reference", &["models", "generate", "help"]),
@@ -115,7 +119,8 @@ Results are printed to stdout, everything else to stderr.
 
 Exit codes:
   0    done
-  1    with --strict: some points are not periodic; `results verify`: some files have no checksums
+  1    with --strict: some points are not periodic; `results verify`: some files have no checksums;
+       `optimise`: no design satisfies all conditions
   2    the command line or an input file must be corrected, or an input file does not exist
   3    reading or writing failed, or results are damaged
   130  interrupted; run the same command again to continue a sweep

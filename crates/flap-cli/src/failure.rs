@@ -35,7 +35,8 @@ pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses the rows that can be 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    /// Done, but with `--strict` some points are not periodic, or `flap results verify` could not verify some results.
+    /// Done, but with `--strict` some points are not periodic, `flap results verify` could not verify some results, or no design
+    /// satisfies the conditions of `flap optimise`.
     NotAll = 1,
     Usage = 2,
     System = 3,

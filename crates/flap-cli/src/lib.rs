@@ -64,6 +64,7 @@ fn run_command(command: &Command) -> Result<Exit, Failure> {
         Command::Run(args) => cmd::run::run(args),
         Command::Respond(args) => cmd::respond::run(args),
         Command::Vehicle(args) => cmd::vehicle::run(args),
+        Command::Optimise(args) => cmd::optimise::run(args),
         #[cfg(feature = "live")]
         Command::Live(args) => cmd::live::run(args),
         Command::Check(args) => cmd::check::run(args),

@@ -12,6 +12,7 @@ pub(crate) mod live;
 mod look;
 pub(crate) mod models;
 mod motion;
+pub(crate) mod optimise;
 pub(crate) mod outputs;
 mod point;
 pub(crate) mod respond;

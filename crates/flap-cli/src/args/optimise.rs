@@ -1,0 +1,83 @@
+//! `flap optimise`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{ArgGroup, value_parser};
+use flap_sweep::study::optimum::Settings;
+
+use super::options::{OutputFormat, OverwriteArgs, SolverArgs};
+use super::values::{rows, threads};
+
+#[derive(clap::Args)]
+#[command(after_help = OPTIMISE_HELP, group = ArgGroup::new("goal").required(true).multiple(true))]
+pub(crate) struct OptimiseArgs {
+    /// The grid file, whose axes are the bounds of the search; `-` for stdin
+    #[arg(value_name = "GRID")]
+    pub(crate) grid: PathBuf,
+
+    /// The number to make as large as possible: a measure, or an expression of measures and parameters
+    #[arg(long, visible_alias = "maximize", value_name = "EXPRESSION", group = "goal")]
+    pub(crate) maximise: Option<String>,
+
+    /// The number to make as small as possible
+    #[arg(long, visible_alias = "minimize", value_name = "EXPRESSION", group = "goal")]
+    pub(crate) minimise: Option<String>,
+
+    /// A condition that the design satisfies: a comparison of measures and parameters with <, <=, > or >=, or several joined
+    /// with `and`. A number may have its unit. May be repeated
+    #[arg(long = "where", value_name = "COMPARISON")]
+    pub(crate) conditions: Vec<String>,
+
+    /// With --maximise and --minimise: compute a front of N points, from the best value of one to the best value of the other
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
+    pub(crate) points: Option<u32>,
+
+    /// Most points of the grid from which a search starts: the best ones
+    #[arg(long, value_name = "N", default_value_t = Settings::STARTS, value_parser = starts)]
+    pub(crate) starts: usize,
+
+    /// Most points of the grid that are computed; of a larger grid, so many points that are spread over it
+    #[arg(long, value_name = "N", default_value_t = Settings::POINTS, value_parser = value_parser!(u64).range(1..=10_000_000))]
+    pub(crate) sample: u64,
+
+    /// Write the design as a device, a file that `flap run` takes
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+
+    /// Number of worker threads; it does not change the answer [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+/// A number of starts from 1 to 10 000.
+fn starts(text: &str) -> Result<usize, String> {
+    let number = rows(text).ok().map(NonZeroUsize::get).filter(|number| *number <= 10_000);
+    number.ok_or_else(|| "expected a whole number from 1 to 10000".to_owned())
+}
+
+const OPTIMISE_HELP: &str = "\
+The search computes the points of the grid, then improves the best ones with the derivatives of their rows. Between the \
+smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move together \
+take the values of the grid. Every motion begins at rest, as in a sweep.
+
+The status is `optimal` if the derivatives confirm the design, and `approximate` if they do not or are missing. It is `infeasible` if \
+no design satisfies all conditions: then the design exceeds them least, and the exit code is 1.
+
+With --points, each row of the answer is the design with the most of one number for a limit on the other. `--format csv` has all measures, for `flap plot`.
+
+Examples:
+  flap optimise grid.toml --maximise vehicle_lift_mgf --where 'stroke_pp_deg < 100 deg' --where 'strain_surface_max < 0.08 %'
+  flap optimise grid.toml --minimise power_mean_mw --where 'lift_mean_mn > 1.2 mN' --out best.toml
+  flap optimise grid.toml --maximise 'lift_mean_mn / power_mean_mw' --starts 20 --format json
+  flap optimise grid.toml --maximise lift_mean_mn --minimise power_mean_mw --points 15 --format csv > front.csv";

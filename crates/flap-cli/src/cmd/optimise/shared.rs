@@ -1,0 +1,74 @@
+//! The work that searches for one design and for fronts share.
+
+use std::cell::RefCell;
+use std::num::NonZeroUsize;
+use std::sync::atomic::Ordering;
+
+use flap_sweep::plan::Plan;
+use flap_sweep::run::{Progress, RunOptions};
+use flap_sweep::study::optimum::{Optimum, ProblemError, Settings, Which};
+
+use crate::args::OptimiseArgs;
+use crate::failure::{Exit, Failure};
+use crate::progress::Bar;
+use crate::{console, signals};
+
+/// The failure of a problem with a mistake, whose goal is that of --minimise or --maximise.
+pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
+    let goal = |goal: &Option<String>| goal.clone().unwrap_or_default();
+    let place = match error.which {
+        Which::Plan => args.grid.display().to_string(),
+        Which::Goal if is_smallest => format!("--minimise {}", goal(&args.minimise)),
+        Which::Goal => format!("--maximise {}", goal(&args.maximise)),
+        Which::Condition(number) => {
+            format!("--where {}", args.conditions.get(number).map_or("", String::as_str))
+        }
+    };
+    error.help.iter().fold(Failure::usage(format!("{place}: {error}")), Failure::help)
+}
+
+/// The settings of a search.
+pub(super) fn settings(args: &OptimiseArgs) -> Settings {
+    let run = RunOptions::default();
+    Settings {
+        run: RunOptions { threads: args.threads.unwrap_or(run.threads), ..run },
+        starts: NonZeroUsize::new(args.starts).unwrap_or(NonZeroUsize::MIN),
+        points: args.sample,
+    }
+}
+
+/// The result of `work`, which counts `units` and is stopped by signals; `None` if it was stopped or has no start.
+pub(super) fn watched<T, E>(
+    args: &OptimiseArgs,
+    units: &'static str,
+    work: impl FnOnce(&dyn Fn(u64, u64) -> bool) -> Result<Option<T>, E>,
+) -> Result<Result<T, Exit>, Failure>
+where
+    Failure: From<E>,
+{
+    let stop = signals::stop();
+    let bar = RefCell::new(Bar::new(units));
+    let found = work(&|finished, points| {
+        let is_stopped = stop.load(Ordering::Relaxed);
+        bar.borrow_mut().show(Progress { finished, points }, is_stopped);
+        is_stopped
+    });
+    bar.borrow().clear();
+    if let Some(found) = found? {
+        return Ok(Ok(found));
+    }
+    if stop.load(Ordering::Relaxed) {
+        console::say("interrupted: there is no answer yet");
+        return Ok(Err(Exit::Interrupted));
+    }
+    let grid = args.grid.display();
+    let failure = Failure::usage(format!("no point of {grid} that was computed has a periodic motion"));
+    Err(failure.help(format!("`flap sweep {grid}` shows the status of each point")))
+}
+
+/// The measures of the row: name, value and unit.
+pub(super) fn measures<'p>(plan: &'p Plan, best: &Optimum) -> Vec<(&'p str, f64, &'p str)> {
+    let columns = plan.rows().columns().iter().map(|column| (column.name.as_str(), column.unit));
+    let own = plan.measures().iter().map(|own| (own.name.as_str(), ""));
+    columns.chain(own).zip(&best.row.measures).map(|((name, unit), value)| (name, *value, unit)).collect()
+}
