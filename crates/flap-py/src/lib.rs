@@ -21,6 +21,7 @@ mod labels;
 mod listing;
 mod live;
 mod motion;
+mod optimise;
 mod origins;
 mod parameters;
 mod picture;
@@ -53,6 +54,7 @@ mod _flapwing {
         labels::{better, printed, scale, split_unit, unit_of, words},
         listing::{measures, params, uncertainty},
         live::LiveServer,
+        optimise::optimise,
         origins::origins,
         picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},

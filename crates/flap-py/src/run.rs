@@ -105,7 +105,12 @@ pub(crate) fn trajectory<'py>(
 
 /// Returns a row as a dictionary. Its entry `measures` has the model's measures, called `names`, then the measures of the grid's
 /// `[measure]`. Unknown numbers and flags are NaN.
-fn row_to_dict<'py>(py: Python<'py>, names: &[&str], plan: &Plan, row: &Row) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn row_to_dict<'py>(
+    py: Python<'py>,
+    names: &[&str],
+    plan: &Plan,
+    row: &Row,
+) -> PyResult<Bound<'py, PyDict>> {
     let measure = |index: usize| row.measures.get(index).copied().unwrap_or(f64::NAN);
     let measures = PyDict::new(py);
     for (i, name) in names.iter().enumerate() {

@@ -60,6 +60,11 @@ impl Watch {
         }
     }
 
+    /// Returns true if an exception ended the work.
+    pub(crate) fn is_ended(&self) -> bool {
+        self.error.is_some()
+    }
+
     /// Returns the exception that ended the work, if one did, as `Err`.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)

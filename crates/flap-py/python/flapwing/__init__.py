@@ -7,6 +7,7 @@
 `chirp` simulates a drive with a changing frequency, and `impulse` a free motion.
 `track_wing` and `forces_along` process the motion of a filmed wing.
 `fit` fits parameters to readings.
+`optimise` finds the best design within the axes of a grid.
 `live` opens a page with sliders for the parameters and curves that follow them.
 
 Results of many points are a `Table`, whose columns are NumPy arrays. It converts to pandas, polars, Arrow and xarray.
@@ -24,14 +25,19 @@ from ._experiments import chirp, forces_along, impulse, track_wing
 from ._flapwing import Diagnostic, Exclusions, Grid, GridError, __version__, presets
 from ._listing import measures, params, states
 from ._live import Live, live
+from ._optimise import optimise
 from ._point import resonance, run, trajectory
 from ._respond import respond
 from ._results import (
+    ActiveBound,
     BistableBand,
+    ConditionValue,
     DampedSine,
     DrivenPeak,
     FrequencyGap,
+    LocalOptimum,
     Measure,
+    Optimum,
     Parameter,
     Resonances,
     Row,
@@ -44,7 +50,9 @@ from ._vehicle import Vehicle, Wing
 from .fitting import Fit, FreeParameter, Readings, fit
 
 __all__ = [
+    "ActiveBound",
     "BistableBand",
+    "ConditionValue",
     "DampedSine",
     "Diagnostic",
     "DrivenPeak",
@@ -55,7 +63,9 @@ __all__ = [
     "Grid",
     "GridError",
     "Live",
+    "LocalOptimum",
     "Measure",
+    "Optimum",
     "Parameter",
     "Readings",
     "Resonances",
@@ -73,6 +83,7 @@ __all__ = [
     "impulse",
     "live",
     "measures",
+    "optimise",
     "params",
     "presets",
     "read",

@@ -11,6 +11,7 @@ from ._native import (
     NativeColours,
     NativeIdentity,
     NativeMeasure,
+    NativeOptimum,
     NativeOrigins,
     NativeParameter,
     NativeResonances,
@@ -41,6 +42,7 @@ __all__ = [
     "is_signed",
     "line_shades",
     "measures",
+    "optimise",
     "origins",
     "parameter",
     "params",
@@ -314,6 +316,21 @@ def resonance(
     spectrum_window: SupportsFloat | str,
 ) -> NativeResonances:
     """Compute the resonances of one point; see `flapwing.resonance`."""
+
+def optimise(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    goal: str,
+    is_largest: bool,
+    conditions: list[str],
+    starts: SupportsIndex,
+    sample: SupportsIndex,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> NativeOptimum:
+    """Finds the best design; see `flapwing.optimise`."""
 
 def chirp(
     design: Any,

@@ -119,6 +119,55 @@ class NativeResonances(TypedDict):
     gaps: list[NativeGap]
 
 
+class NativeActive(TypedDict):
+    """See `flapwing.ActiveBound`."""
+
+    kind: str
+    name: str
+    limit: float
+    multiplier: float
+    percent: float
+    text: str
+
+
+class NativeCondition(TypedDict):
+    """See `flapwing.ConditionValue`."""
+
+    text: str
+    smaller: float
+    larger: float
+    excess: float
+
+
+class NativeLocalOptimum(TypedDict):
+    """See `flapwing.LocalOptimum`."""
+
+    value: float
+    values: dict[str, float | str]
+    is_feasible: bool
+    starts: int
+
+
+class NativeOptimum(TypedDict):
+    """See `flapwing.Optimum`."""
+
+    status: str
+    value: float
+    values: dict[str, float | str]
+    row: NativeRow
+    active: list[NativeActive]
+    conditions: list[NativeCondition]
+    optima: list[NativeLocalOptimum]
+    at_end: dict[str, tuple[float, float]]
+    starts: int
+    points: int
+    points_computed: int
+    rows: int
+    rows_with_derivatives: int
+    is_polished: bool
+    device: str
+
+
 class NativeCorrelation(TypedDict):
     """The correlation of two parameters."""
 

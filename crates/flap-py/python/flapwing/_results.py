@@ -1,4 +1,4 @@
-"""Results other than tables: rows of single points, resonances, and parameters, measures and states of a design."""
+"""Results other than tables: rows, optima, resonances, and parameters, measures and states of a design."""
 
 from __future__ import annotations
 
@@ -10,11 +10,15 @@ from typing import Any
 from ._mistakes import unknown
 
 __all__ = [
+    "ActiveBound",
     "BistableBand",
+    "ConditionValue",
     "DampedSine",
     "DrivenPeak",
     "FrequencyGap",
+    "LocalOptimum",
     "Measure",
+    "Optimum",
     "Parameter",
     "Resonances",
     "Row",
@@ -291,6 +295,135 @@ class Resonances(_Result):
     driven: list[DrivenPeak]
     larger_at_hz: float
     gaps: list[FrequencyGap]
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveBound(_Result):
+    """A bound or condition that holds an optimum back. Its text is ``str(bound)``.
+
+    Attributes
+    ----------
+    kind : str
+        ``"limit"`` for a condition; ``"smallest"`` or ``"largest"`` for an end of an axis.
+    name : str
+        The condition, or the parameter of the axis.
+    limit : float
+        The number that the condition compares with, or the end of the axis in SI units.
+    multiplier : float
+        Change of the optimal value per unit of the limit (Lagrange multiplier).
+    percent : float
+        Change of the optimal value, in per cent of its magnitude, per per cent of the limit.
+    text : str
+        The effect of the limit in words.
+    """
+
+    kind: str
+    name: str
+    limit: float
+    multiplier: float
+    percent: float
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, eq=False)
+class ConditionValue(_Result):
+    """A condition at an optimum.
+
+    Attributes
+    ----------
+    text : str
+        The comparison, or the name of a condition of the grid.
+    smaller, larger : float
+        The side that must be smaller, and the side that must be larger.
+    excess : float
+        Share of the limit by which the condition is exceeded; 0 if it holds.
+    """
+
+    text: str
+    smaller: float
+    larger: float
+    excess: float
+
+
+@dataclass(frozen=True, eq=False)
+class LocalOptimum(_Result):
+    """An optimum that some starts of a search end at.
+
+    Attributes
+    ----------
+    value : float
+        Value of the goal.
+    values : dict of str to float or str
+        The varied parameters, in SI units, or names of options.
+    is_feasible : bool
+        True if all conditions hold.
+    starts : int
+        Number of starts that end there.
+    """
+
+    value: float
+    values: dict[str, float | str]
+    is_feasible: bool
+    starts: int
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum(_Result):
+    """The best design within the axes of a grid, by `optimise`.
+
+    Attributes
+    ----------
+    status : str
+        ``"optimal"`` if the derivatives confirm that no small change is better; ``"approximate"`` if they do not, or
+        are missing; ``"infeasible"`` if no design satisfies all conditions: then the design exceeds them least.
+    goal : str
+        The expression that is largest or smallest.
+    value : float
+        Its value.
+    values : dict of str to float or str
+        The varied and derived parameters, in SI units, or names of options.
+    row : Row
+        The row of the design.
+    active : list of ActiveBound
+        The bounds and conditions that hold the design back, with their multipliers.
+    conditions : list of ConditionValue
+        All conditions.
+    optima : list of LocalOptimum
+        The distinct optima that the starts end at, the best first.
+    at_end : dict of str to tuple of float
+        Parameters that are at an end of their axis, with the smallest and the largest value: a wider axis may have a
+        better design.
+    starts : int
+        Number of starts.
+    points, points_computed : int
+        Points of the grid, and points of it that were computed.
+    rows, rows_with_derivatives : int
+        Rows computed in all, and rows with derivatives among them.
+    is_polished : bool
+        True if derivatives were missing or misled the search, and a pattern search followed.
+    device : str
+        The design as the text of a device, for a file or for `run`; ``""`` for vehicles.
+    """
+
+    status: str
+    goal: str
+    value: float
+    values: dict[str, float | str]
+    row: Row
+    active: list[ActiveBound]
+    conditions: list[ConditionValue]
+    optima: list[LocalOptimum]
+    at_end: dict[str, tuple[float, float]]
+    starts: int
+    points: int
+    points_computed: int
+    rows: int
+    rows_with_derivatives: int
+    is_polished: bool
+    device: str
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,131 @@
+"""The best design within the axes of a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, SupportsIndex
+
+from . import _dask, _flapwing, _mistakes
+from ._native import NativeOptimum
+from ._progress import Progress, one_step, shown
+from ._results import ActiveBound, ConditionValue, LocalOptimum, Optimum, Row
+from ._types import Design, Value
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["optimise"]
+
+
+def optimise(
+    design: Design,
+    /,
+    *,
+    maximise: str | None = None,
+    minimise: str | None = None,
+    where: str | Sequence[str] = (),
+    starts: SupportsIndex = 8,
+    sample: SupportsIndex = 4096,
+    threads: SupportsIndex | None = None,
+    progress: Progress = False,
+    client: Client | None = None,
+    **keywords: Value,
+) -> Optimum:
+    """Find the best design within the axes of a grid, under conditions on measures and parameters.
+
+    The search computes the points of the grid, then improves the best ones with the derivatives of their rows. Between
+    the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move
+    together take the values of the grid. Every motion begins at rest, as in a sweep.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A grid (see `Grid`), whose axes are the bounds of the search.
+    maximise, minimise : str, optional
+        The number to make as large or as small as possible: a measure, or an expression of measures and parameters.
+        One of the two is needed.
+    where : str or sequence of str, optional
+        Conditions that the design satisfies: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
+        ``>=``, also joined with ``and``. A number may have its unit: ``"stroke_pp_deg < 100 deg"``.
+    starts : int, optional
+        Most points of the grid from which a search starts: the best ones. Default 8.
+    sample : int, optional
+        Most points of the grid that are computed; of a larger grid, so many points that are spread over it. Default
+        4096.
+    threads : int, optional
+        Number of threads, 1 or more. Default: one per core. The answer does not depend on it.
+    progress : bool or function, optional
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points and starts done
+        and in all. With `client`, there is one step.
+    client : distributed.Client, optional
+        Search on a worker of a Dask cluster, which needs the same build of flapwing.
+    **keywords : float or str
+        Parameters of all designs and solver settings, as for `run`.
+
+    Returns
+    -------
+    Optimum
+        The best design, the bounds and conditions that hold it back, and the optima that the starts end at. If no
+        design satisfies all conditions, its status is ``"infeasible"``.
+
+    Raises
+    ------
+    ValueError
+        A mistake in an expression or a condition; the grid varies no parameter; no point of it has a periodic motion.
+        GridError if there are mistakes in a grid.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> grid = {"preset": "ozaki2018-large", "axes": {"drive_frequency": [90, 100, 110, 120]}}
+    >>> best = flapwing.optimise(grid, maximise="lift_mean_mn", where="power_mean_mw < 30 mW")
+    >>> best.status
+    'optimal'
+    >>> round(best.row["power_mean_mw"], 2)
+    30.0
+    """
+    goals = {"maximise": maximise, "minimise": minimise}
+    given = {name: goal for name, goal in goals.items() if goal is not None}
+    if len(given) != 1:
+        raise ValueError("give one of maximise and minimise: a measure or an expression")
+    [(name, goal)] = given.items()
+    if not isinstance(goal, str):
+        raise _mistakes.refused(name, goal, 'it must be a measure or an expression, such as "lift_mean_mn"')
+    conditions = [where] if isinstance(where, str) else where
+    form = 'it must be a condition or a list of conditions, such as "stroke_pp_deg < 100 deg"'
+    if not isinstance(conditions, Sequence) or not all(isinstance(condition, str) for condition in conditions):
+        raise _mistakes.refused("where", where, form)
+    options: dict[str, Any] = {
+        "goal": goal,
+        "is_largest": name == "maximise",
+        "conditions": list(conditions),
+        "starts": starts,
+        "sample": sample,
+        "threads": threads,
+    }
+    found: NativeOptimum
+    if client is None:
+        with shown(progress) as show:
+            found = _flapwing.optimise(design, dict(keywords), progress=show, **options)
+    else:
+        with one_step(progress):
+            found = _dask.call(client, _flapwing.optimise, design, dict(keywords), **options)
+    return Optimum(
+        status=found["status"],
+        goal=goal,
+        value=found["value"],
+        values=found["values"],
+        row=Row(**found["row"]),
+        active=[ActiveBound(**bound) for bound in found["active"]],
+        conditions=[ConditionValue(**condition) for condition in found["conditions"]],
+        optima=[LocalOptimum(**optimum) for optimum in found["optima"]],
+        at_end=found["at_end"],
+        starts=found["starts"],
+        points=found["points"],
+        points_computed=found["points_computed"],
+        rows=found["rows"],
+        rows_with_derivatives=found["rows_with_derivatives"],
+        is_polished=found["is_polished"],
+        device=found["device"],
+    )
