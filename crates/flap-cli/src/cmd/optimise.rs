@@ -28,7 +28,7 @@ use crate::{job, print};
 /// Columns of the answer for programs.
 const NAMES: [&str; 7] = ["section", "name", "value", "unit", "limit", "per_unit", "percent_per_percent"];
 
-/// Measures that the table shows besides those of the goal and the conditions.
+/// Measures that the table shows besides the measures in the goal and the conditions.
 const MAIN: [&str; 6] = [
     "stroke_pp_deg",
     "pitch_pp_deg",
@@ -275,7 +275,7 @@ fn page(problem: &Problem, best: &Optimum) -> String {
     page
 }
 
-/// The conditions, and the effect of those that hold the optimum back.
+/// Returns the conditions, and the effect of the active conditions.
 fn conditions(best: &Optimum) -> String {
     let mut page = String::new();
     if !best.limits.is_empty() {

@@ -282,14 +282,14 @@ impl Plan {
         self
     }
 
-    /// The plan with these measures behind its own. Rows have no derivatives.
+    /// Returns the plan with these measures added at the end. Rows have no derivatives.
     pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
         self.space.measures.extend(more);
         self.space.gradient = None;
         self
     }
 
-    /// The plan with these conditions in place of its own.
+    /// Returns the plan with these conditions in place of the old conditions.
     pub(crate) fn with_conditions(mut self, conditions: Vec<Condition>) -> Plan {
         self.space.conditions = conditions;
         self

@@ -55,7 +55,7 @@ fn expressions<'n>(plan: &Plan, names: [&'n str; 2], point: &FrontPoint) -> Vec<
     names.into_iter().enumerate().filter(|(_, name)| !is_known(name)).collect()
 }
 
-/// The names of the columns of rows: those of a sweep, then the goals that are expressions.
+/// Returns the names of the columns of rows: the columns of a sweep, then the goals that are expressions.
 fn columns(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<String> {
     let mut columns = vec!["point".to_owned()];
     columns.extend(plan.differing().map(|index| plan.parameters()[index].name.to_owned()));

@@ -13,7 +13,7 @@ use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
 use crate::{console, signals};
 
-/// The failure of a problem with a mistake, whose goal is that of --minimise or --maximise.
+/// Returns the failure of a problem with a mistake in its goal, or in --minimise or --maximise.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
     let goal = |goal: &Option<String>| goal.clone().unwrap_or_default();
     let place = match error.which {

@@ -172,7 +172,7 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// The derivatives per coordinate: those of the row, or differences of rows where it has none.
+    /// Returns the derivatives per coordinate, from the row or else from differences of rows.
     fn slopes(&self, trial: &Trial, is_sloped: bool) -> Vec<Vec<f64>> {
         let Trial { coordinates, row, .. } = trial;
         let variables = &self.problem.region.variables;

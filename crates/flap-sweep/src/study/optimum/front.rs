@@ -47,8 +47,10 @@ pub enum FrontError {
 }
 
 /// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. Their limits on the
-/// second goal are evenly spaced. Each search starts from the points beside it. `None` if no start has a periodic motion, or the
-/// search was stopped by `stops`, which is called with the numbers of points of the front that are done and of all.
+/// second goal are evenly spaced. Each search starts from the points beside it. `stops` gets the number of finished points of
+/// the front and the number of all points; true stops the search.
+///
+/// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///
 /// If no design satisfies all conditions, the front has one point, which exceeds them least.
 ///

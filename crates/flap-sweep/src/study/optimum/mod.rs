@@ -1,5 +1,6 @@
-//! The best design within the axes of a plan: the point with the largest or smallest value of an expression, among the points
-//! that satisfy conditions on measures and parameters.
+//! The best design within the axes of a plan.
+//!
+//! The best design has the largest or smallest value of an expression, among all points that satisfy the conditions.
 //!
 //! The points of the plan are the starts. The best of them are refined by sequential quadratic programming with the exact
 //! derivatives of their rows. Every row belongs to a motion from rest, as the rows of a sweep do.

@@ -73,7 +73,7 @@ pub struct Problem {
 
 impl Problem {
     /// The problem of the point of `plan` with the best value of the expression `goal`, among the points that satisfy the
-    /// `conditions` and those of the plan.
+    /// `conditions` and the conditions of the plan.
     ///
     /// # Errors
     /// [`ProblemError`] for the first mistake.

@@ -47,7 +47,7 @@ struct Local {
 /// The end of a refinement.
 pub(super) struct Refined {
     pub(super) best: Rc<Trial>,
-    /// True if the last steps were those of a pattern search.
+    /// True if the last steps were steps of a pattern search.
     pub(super) is_polished: bool,
 }
 

@@ -18,8 +18,9 @@ use super::starts::{self, Start};
 use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::run::{RunError, RunOptions};
 
-/// Ends of refinements are the same optimum if the relative difference of their numbers and the difference of their coordinates
-/// are at most one of these pairs. Where the number hardly changes, ends differ more.
+/// Largest relative difference of the values, and largest difference of the coordinates, of ends that are one optimum.
+///
+/// One of the pairs must hold. If the value hardly changes, the coordinates of the ends differ more.
 const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// The time between two looks at the caller's wish to stop.
@@ -63,8 +64,8 @@ struct End {
 
 /// The best point of a problem; `None` if no start has a periodic motion, or the search was stopped.
 ///
-/// `stops` is called several times a second on this thread, with the numbers of points and starts that are done and of all: true
-/// ends the search. The answer does not depend on the number of threads.
+/// `stops` is called several times a second on this thread, with the number of finished points and starts, and of all.
+/// If it returns true, the search ends. The answer does not depend on the number of threads.
 ///
 /// # Errors
 /// [`RunError`] if a thread cannot be started, or the model breaks its contract.
