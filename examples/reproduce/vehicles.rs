@@ -23,7 +23,7 @@ pub(crate) const PAPER: Paper = Paper {
               These pages give no robot completely (wings, actuators and voltages), and few give torques.\n\
               You can therefore compare mostly signs, trends and ratios.\n\
               \n\
-              Unless a row gives another one, the vehicle ([Vehicles](../how-to/vehicle.md)) has two wings of `jafferis2016` at 200 V and 120 Hz.\n\
+              Unless a row gives another one, the vehicle ([Forces and torques of vehicles](../how-to/vehicle.md)) has two wings of `jafferis2016` at 200 V and 120 Hz.\n\
               Their shoulders are 1.5 mm left and right of the middle.\n\
               Torques are about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
               A positive roll lifts the left side, a positive pitch lowers the nose, and a positive yaw turns the nose to the left.",

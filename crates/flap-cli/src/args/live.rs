@@ -25,11 +25,11 @@ pub(crate) struct LiveArgs {
 }
 
 const LIVE_HELP: &str = "\
-Starts a server on this machine and prints the address of its page. The address contains a token: everybody who has it can \
-request rows. The server listens only on 127.0.0.1, reads only the file that you name, and writes no files. Ctrl-C stops it.
+Starts a server on this machine and prints the address of its page. The address contains a secret token. Anyone with the \
+address can make the server compute rows, so do not share it. The server listens only on 127.0.0.1, reads only the file that you name, and writes no files. Ctrl-C stops it.
 
 Examples:
   flap live jafferis2016
   flap live mybee.toml
   flap live sweep.toml --no-open --port 8123
-  ssh -L 8123:127.0.0.1:8123 server flap live mybee.toml --no-open --port 8123     (the page of another machine)";
+  ssh -L 8123:127.0.0.1:8123 server flap live mybee.toml --no-open --port 8123     (flap runs on `server`; open the address here)";

@@ -57,9 +57,9 @@ pub(crate) struct DescribeArgs {
 
 const DESCRIBE_HELP: &str = "\
 Prints three kinds of tables. The first has the number of rows of each status. The second has the smallest value, the 5th, \
-50th and 95th percentile and the largest value of each measure. The third, for each main measure, has the best row with the \
-value of each axis, and the values of the axis among the best tenth of the rows. If that range is wide, the axis matters \
-little. `at the end` means that a wider axis may contain better designs. An axis is a varied parameter; in results of \
+50th and 95th percentile and the largest value of each measure. There is one table of the third kind for each \
+main measure. For each axis, it has the value in the best row, and the values in the best tenth of the rows. If that range \
+is wide, the axis matters little. `at the end` means that a wider axis may contain better designs. An axis is a varied parameter; in results of \
 `flap respond`, the branch is an axis too.
 
 Examples:

@@ -33,7 +33,7 @@ pub(crate) struct OptimiseArgs {
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,
 
-    /// Most points of the grid from which a search starts: the best ones
+    /// Largest number of searches; each begins at one of the best points of the grid
     #[arg(long, value_name = "N", default_value_t = Settings::STARTS, value_parser = starts)]
     pub(crate) starts: usize,
 
@@ -67,8 +67,8 @@ fn starts(text: &str) -> Result<usize, String> {
 }
 
 const OPTIMISE_HELP: &str = "\
-The search computes the points of the grid, then improves the best ones with the derivatives of their rows. Between the \
-smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move together \
+The search first computes the points of the grid. It then improves the best points step by step, with the derivatives of \
+the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move together \
 take the values of the grid. Every motion begins at rest, as in a sweep.
 
 The status is `optimal` if the derivatives confirm the design, and `approximate` if they do not or are missing. It is `infeasible` if \

@@ -67,8 +67,8 @@ settled motion of the point before it. If the branches up and down settle to dif
 flap halves a step if a bistable band ends in it, or if the motion changes by more than a tenth, since it may hide a narrow \
 band. The summary has one line per design. It is printed to stdout; with `--out -`, to stderr.
 
-Rows are written in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, running curves have half \
-a second to finish. flap keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
+Rows are written in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
+second for the curves that are being computed. It keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
 FILE, records the command's options. Until all curves are complete, FILE.journal records the progress. If a run was \
 interrupted, run the same command again to continue it.
 

@@ -125,7 +125,7 @@ pub(crate) struct ResonanceArgs {
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 
-    /// Number of periods of the first mode to which the damped sine is fitted
+    /// Length of the motion to which the damped sine is fitted, in periods of the first mode
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(2..=1000))]
     pub(crate) window_cycles: u32,
 

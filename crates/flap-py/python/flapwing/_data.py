@@ -293,7 +293,7 @@ def _column(values: Any) -> np.ndarray:
 
 
 def is_text(column: np.ndarray) -> bool:
-    """Return True if a column has words."""
+    """Return True if the cells of a column are text instead of numbers."""
     return column.dtype.kind in "OUST"
 
 

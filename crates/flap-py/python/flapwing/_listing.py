@@ -10,7 +10,7 @@ __all__ = ["measures", "params", "states"]
 
 
 def params(design: Design, /) -> dict[str, Parameter]:
-    """Return the parameters of a design with their values, or of a model without values.
+    """Return the parameters of a design with their values. For a model, the parameters have no values.
 
     Parameters
     ----------

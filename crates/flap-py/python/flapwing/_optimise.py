@@ -33,8 +33,8 @@ def optimise(
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
-    The search computes the points of the grid, then improves the best ones with the derivatives of their rows. Between
-    the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move
+    The search first computes the points of the grid. It then improves the best points step by step, with the
+    derivatives of the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move
     together take the values of the grid. Every motion begins at rest, as in a sweep.
 
     Parameters
@@ -43,12 +43,12 @@ def optimise(
         A grid (see `Grid`), whose axes are the bounds of the search.
     maximise, minimise : str, optional
         The number to make as large or as small as possible: a measure, or an expression of measures and parameters.
-        One of the two is needed.
+        Give one of the two.
     where : str or sequence of str, optional
         Conditions that the design satisfies: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
         ``>=``, also joined with ``and``. A number may have its unit: ``"stroke_pp_deg < 100 deg"``.
     starts : int, optional
-        Most points of the grid from which a search starts: the best ones. Default 8.
+        Largest number of searches; each begins at one of the best points of the grid. Default 8.
     sample : int, optional
         Most points of the grid that are computed; of a larger grid, so many points that are spread over it. Default
         4096.

@@ -246,7 +246,7 @@ def resonance(
         Impulse on the resting stroke, as the amplitude (rad, or text with a unit) that the first mode alone would reach
         without damping. At most half a turn, not zero. Default ``"20 deg"``.
     fit_cycles : int, optional
-        Number of periods of the first mode to which the damped sine is fitted. Default 4.
+        Length of the motion to which the damped sine is fitted, in periods of the first mode. Default 4.
     spectrum_window : float or str, optional
         Length (s, or text with a unit) of the motion from which the spectrum is computed. Default 1.
     progress, client

@@ -378,7 +378,7 @@ class Optimum(_Result):
     ----------
     status : str
         ``"optimal"`` if the derivatives confirm that no small change is better; ``"approximate"`` if they do not, or
-        are missing; ``"infeasible"`` if no design satisfies all conditions: then the design exceeds them least.
+        are missing; ``"infeasible"`` if no design satisfies all conditions. The design then violates them least.
     goal : str
         The expression that is largest or smallest.
     value : float

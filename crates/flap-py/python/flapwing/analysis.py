@@ -29,7 +29,7 @@ __all__ = ["RankCorrelation", "Sensitivity", "non_dominated", "rank_correlations
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """The change of a measure with one parameter.
+    """The sensitivity of a measure to one parameter: the measure at a lower and at a higher value of the parameter.
 
     Attributes
     ----------

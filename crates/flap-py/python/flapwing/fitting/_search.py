@@ -99,7 +99,7 @@ class Target:
     loss: str
 
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
-        """Return model minus reading in standard errors, followed by the residuals of the priors.
+        """Return the residuals of the readings, (model - reading) / standard error, then the residuals of the priors.
 
         If the motion does not settle, the model's value is taken as zero, as for a wing at rest. This residual is so
         large that the search avoids it.
@@ -253,7 +253,7 @@ def weights(residuals: Array, loss: str) -> Array:
 
 
 def first_guesses(sets: list[DataSet]) -> dict[str, float]:
-    """Return first guesses of unknown standard errors: a share of the largest reading of each measure."""
+    """Return first estimates of unknown standard errors: 3 % of the largest reading of each measure."""
     largest: dict[str, float] = {}
     for one in sets:
         for measure, values in one.measured.items():
@@ -264,7 +264,7 @@ def first_guesses(sets: list[DataSet]) -> dict[str, float]:
 def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
 ) -> None:
-    """Return new guesses of unknown standard errors, from the residuals."""
+    """Update the estimates of unknown standard errors in `guesses`, from the residuals."""
     which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
     freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:

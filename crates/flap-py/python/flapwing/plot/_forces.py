@@ -47,8 +47,9 @@ def control_matrix(
     """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
 
     Columns are inputs, and rows are force and torque. The number is the change per unit of the input. Colours compare
-    the changes with one input: they show which force or torque the input changes most. 1 µN·m counts as 1 mN. A change
-    of less than a thousandth of the input's largest change is shown as ``≈0``.
+    the changes with one input: they show which force or torque the input changes most. To compare forces
+    with torques, 1 µN·m has the same weight as 1 mN. A number below 0.1 % of the largest number in its column is shown
+    as ``≈0``.
 
     Parameters
     ----------

@@ -201,7 +201,7 @@ def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """Return the parameters along x and y: the given ones, else axes of the grid."""
+    """Return the parameters along x and y. If x or y is not given, choose an axis of the grid."""
     for name in (x, y):
         if name is not None:
             data[name]

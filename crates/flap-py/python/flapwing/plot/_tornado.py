@@ -29,7 +29,7 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw the change of a measure with each parameter, as bars in the order of their length.
+    """Draw the sensitivity of a measure to each parameter, as bars in the order of their length.
 
     For a preset, each parameter is changed slightly. For a sample, bars show the rank correlation (Spearman) of each
     parameter with the measure, from -1 to 1.

@@ -203,7 +203,7 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _common(words: list[str], unit: str) -> str:
-    """Return a label for several signals: "Angle", as in `flap plot`, the last common word, or all words."""
+    """Return the label of an axis: "Angle" for degrees, the names of up to two signals, or their common last word."""
     if unit == "°":
         return "Angle"
     if len(words) <= 2:
