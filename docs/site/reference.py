@@ -234,10 +234,13 @@ def number(value: object) -> str:
 
 def python_pages():
     """A list of the public names of each module; Sphinx writes a page for each name from its docstring."""
-    described = {"__version__"}
+    described: set[int] = set()
     for module, summary in MODULES.items():
-        names = [name for name in importlib.import_module(module).__all__ if name not in described]
-        described.update(names)
+        public = {
+            name: getattr(importlib.import_module(module), name) for name in importlib.import_module(module).__all__
+        }
+        names = [name for name, thing in public.items() if name != "__version__" and id(thing) not in described]
+        described.update(map(id, public.values()))
         text = [f"# {module}", "", summary, "", "```{eval-rst}", f".. currentmodule:: {module}", ""]
         text += [".. autosummary::", "   :toctree: generated", "", *(f"   {name}" for name in names), "```", ""]
         yield f"reference/python/{module}.md", "\n".join(text)

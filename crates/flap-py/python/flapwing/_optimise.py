@@ -34,8 +34,9 @@ def optimise(
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
     The search first computes the points of the grid. It then improves the best points step by step, with the
-    derivatives of the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move
-    together take the values of the grid. Every motion begins at rest, as in a sweep.
+    derivatives of the measures. Between the smallest and the largest value of an axis, parameters take any value.
+    Options, counts and parameters that move together take the values of the grid. Every motion begins at rest, as in a
+    sweep.
 
     Parameters
     ----------
