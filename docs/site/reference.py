@@ -19,7 +19,7 @@ SECTION = re.compile(r"^(\S[^\n]*):$")
 ENTRY = re.compile(r"^ {2,6}(-\S.*?|\[?<?[A-Z][\w|<>\[\]./ -]*?\]?(?:\.\.\.)?)(?: {2,}(\S.*))?$")
 
 
-# The pages that show what a command is for.
+# The guide of each command: title and page.
 GUIDES = {
     "sweep": ("Your first sweep", "start/first-sweep"),
     "run": ("Devices", "how-to/devices"),

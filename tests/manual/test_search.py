@@ -10,7 +10,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
-# What users type, and the pages that may come first.
+# Words that users type, and the pages that may come first.
 SEARCHES = {
     "install": ["start/install"],
     "resonance": ["how-to/resonance"],

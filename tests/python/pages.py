@@ -82,8 +82,8 @@ class Page:
     def run(self) -> None:
         text = text_of(REPOSITORY / self.name)
         (self.folder / "examples").symlink_to(REPOSITORY / "examples")
-        files = {body: name for name, body in NAMED.findall(text)}
-        for body, name in files.items():
+        files = NAMED.findall(text)
+        for name, body in files:
             path = self.folder / name
             assert not path.exists(), f"{self.name} shows {name} twice"
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -115,13 +115,17 @@ class Page:
                 printed, error = self.attempt(lambda code=padded: self.execute(code))
                 self.names["printed"] = printed
             else:
-                if language == "toml" and body.startswith(("preset", "device")) and body not in files:
+                if (
+                    language == "toml"
+                    and body.startswith(("preset", "device"))
+                    and body not in [named for _, named in files]
+                ):
                     self.accepts(body)
                 place = ""
         assert error is None, f"{place}: {error}\n{end(printed)}"
 
     def attempt(self, run) -> tuple[str, Exception | None]:
-        """What `run` printed, and how it failed."""
+        """Call `run`, and return its printed output and its exception."""
         output = io.StringIO()
         error = None
         with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output), warnings.catch_warnings():
@@ -199,7 +203,7 @@ def renewed(printed: str, shown: str) -> str:
 
 
 def shows(printed: str, shown: str) -> bool:
-    """Whether `shown` is a part of `printed`; a line `...` stands for any lines. Blanks at the ends of lines do not count."""
+    """Return True if `printed` contains the lines `shown`. A line `...` stands for any lines; blanks at line ends do not count."""
     lines = [line.rstrip() for line in shown.splitlines()]
     parts = [r"(?:.*\n)*?" if line == "..." else re.escape(line) + r" *\n" for line in lines]
     return re.search("^" + "".join(parts), printed.rstrip("\n") + "\n", re.MULTILINE) is not None

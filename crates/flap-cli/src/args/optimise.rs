@@ -37,7 +37,7 @@ pub(crate) struct OptimiseArgs {
     #[arg(long, value_name = "N", default_value_t = Settings::STARTS, value_parser = starts)]
     pub(crate) starts: usize,
 
-    /// Most points of the grid that are computed; of a larger grid, so many points that are spread over it
+    /// Largest number of grid points to compute. Of a larger grid, this many points, spread over it, are computed
     #[arg(long, value_name = "N", default_value_t = Settings::POINTS, value_parser = value_parser!(u64).range(1..=10_000_000))]
     pub(crate) sample: u64,
 
@@ -68,13 +68,15 @@ fn starts(text: &str) -> Result<usize, String> {
 
 const OPTIMISE_HELP: &str = "\
 The search first computes the points of the grid. It then improves the best points step by step, with the derivatives of \
-the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and parameters that move together \
-take the values of the grid. Every motion begins at rest, as in a sweep.
+the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and \
+parameters that move together take the values of the grid. Every motion begins at rest, as in a sweep.
 
-The status is `optimal` if the derivatives confirm the design, and `approximate` if they do not or are missing. It is `infeasible` if \
-no design satisfies all conditions: then the design exceeds them least, and the exit code is 1.
+The status is `optimal` if the derivatives confirm the design, and `approximate` if they do not or are missing. It is \
+`infeasible` if no design satisfies all conditions. The answer is then the design that violates them least, and the exit \
+code is 1.
 
-With --points, each row of the answer is the design with the most of one number for a limit on the other. `--format csv` has all measures, for `flap plot`.
+With --points, each row is one design of the front: the best value of one goal under a limit on the other goal. With \
+`--format csv`, rows contain all measures, so that `flap plot` can draw them.
 
 Examples:
   flap optimise grid.toml --maximise vehicle_lift_mgf --where 'stroke_pp_deg < 100 deg' --where 'strain_surface_max < 0.08 %'

@@ -24,7 +24,7 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     pop(&mut stack)
 }
 
-/// The operations of the two operands of an operator that stands behind `operations`; `None` if there are not two.
+/// Returns the operations of both operands of a binary operator, which follows `operations`; `None` if there are not two operands.
 pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
     // Operands that are still to be found on the way back to the beginning of the right one.
     let mut missing = 1;
