@@ -7,10 +7,14 @@ import subprocess
 import time
 from pathlib import Path
 
+from selenium.common.exceptions import NoSuchElementException, StaleElementReferenceException
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.wait import WebDriverWait
+
+# The page has just replaced an element, or not made it yet.
+CHANGING = (NoSuchElementException, StaleElementReferenceException, AssertionError)
 
 COMMAND = os.environ.get("FLAP") or str(Path(__file__).parents[2] / "target/debug/flap")
 
@@ -81,7 +85,8 @@ class Page:
         """Waits until a condition holds: a function, or an expression of the page's language."""
         is_script = isinstance(condition, str)
         holds = (lambda _: self.script(f"return {condition}", *arguments)) if is_script else (lambda _: condition())
-        WebDriverWait(self.browser, seconds, poll_frequency=0.03).until(holds, condition if is_script else "")
+        waiting = WebDriverWait(self.browser, seconds, poll_frequency=0.03, ignored_exceptions=CHANGING)
+        waiting.until(holds, condition if is_script else "")
 
     def find(self, selector):
         return self.browser.find_element(By.CSS_SELECTOR, selector)
@@ -93,13 +98,25 @@ class Page:
         self.find(selector).click()
 
     def text(self, selector):
-        return self.find(selector).get_attribute("textContent")
+        return self.property(selector, "textContent")
 
     def texts(self, selector):
-        return [each.get_attribute("textContent") for each in self.find_all(selector)]
+        return self.properties(selector, "textContent")
 
     def value(self, selector):
-        return self.find(selector).get_attribute("value")
+        return self.property(selector, "value")
+
+    def property(self, selector, name):
+        """A property of the first element."""
+        found = self.properties(selector, name)
+        assert found, f"no element matches {selector}"
+        return found[0]
+
+    def properties(self, selector, name):
+        """A property of all elements, read at one moment: the page may replace its elements at any time."""
+        return self.script(
+            "return [...document.querySelectorAll(arguments[0])].map((each) => each[arguments[1]])", selector, name
+        )
 
     def type(self, selector, text):
         field = self.find(selector)

@@ -76,10 +76,12 @@ class LivePage(Page):
 
     def changed(self):
         """The parameters that are marked as changed, and their values as they are shown."""
-        return {
-            row.get_attribute("data-name"): self.value(f"#p-{row.get_attribute('data-name')}")
-            for row in self.find_all(".parameter.changed")
-        }
+        return self.script(
+            """
+            const rows = [...document.querySelectorAll(".parameter.changed")];
+            return Object.fromEntries(rows.map(({ dataset: { name } }) => [name, document.getElementById(`p-${name}`).value]))
+            """
+        )
 
     def choose(self, name, value):
         Select(self.find(f"#{name}")).select_by_value(value)
@@ -108,7 +110,7 @@ class LivePage(Page):
 
     def problem(self, name):
         """The problem of a field; empty if none is shown."""
-        return self.row(name).find_element(By.CSS_SELECTOR, ".problem").text
+        return self.property(f'.parameter[data-name="{name}"] .problem', "innerText")
 
     def wait_for_motion(self):
         self.wait(lambda: self.text("#motion-of") != "" and len(self.find_all("#series .u-over")) >= 3)
@@ -570,7 +572,7 @@ def test_impossible_values_are_marked_and_the_page_stays(page):
     for part in ("numbers", "motion"):
         page.wait(lambda: "old" in page.find(f"#{part}").get_attribute("class").split())
         assert "last possible design" in page.text(f"#{part} .old-note")
-    assert page.find("body").text.count(message) == 1
+    assert page.property("body", "innerText").count(message) == 1
     assert page.rows() == rows and page.number("lift_mean_mn") == lift
     page.give("wing_length", "3 cats")
     page.wait(lambda: "cats" in page.problem("wing_length"))
@@ -672,7 +674,7 @@ def test_a_vehicle_has_a_page(other):
     shown = [row.get_attribute("data-name") for row in page.find_all("#main-numbers .number")]
     assert {"force_up_mn", "torque_roll_unm", "lift_to_weight"} <= set(shown)
     assert not page.find(".scene").is_displayed() and not page.find("#play").is_displayed()
-    assert page.find("#motion-of").text.startswith("There is no single motion")
+    assert page.text("#motion-of").startswith("There is no single motion")
 
 
 def test_pictures_of_the_documentation_are_there_and_small():

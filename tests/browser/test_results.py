@@ -79,7 +79,7 @@ class Results(Page):
 
     def cells(self, column):
         """The texts of a column of the table."""
-        place = 1 + [heading.get_attribute("title") for heading in self.find_all("#table th")].index(column)
+        place = 1 + self.properties("#table th", "title").index(column)
         return self.texts(f"#table tbody td:nth-child({place})")
 
     def drag(self, begin, end, number=0, shift=False):
