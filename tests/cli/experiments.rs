@@ -43,8 +43,21 @@ fn a_waveform_from_a_file_drives_like_its_shape() {
     let slow = folder.flap("run arabagi2013-75hz --waveform wave.csv --set drive_frequency=60").stdout;
     assert!((value(&slow, "stroke_pp_deg") - value(&ended.stdout, "stroke_pp_deg")).abs() > 1.0);
 
+    assert!(!ended.stderr.contains("spline"), "{}", ended.stderr);
+
     folder.ends(0, "run arabagi2013-75hz --waveform wave.csv --once --trajectory t.csv --samples 50");
     assert_eq!(folder.read("t.csv").lines().count(), 1 + 51);
+}
+
+/// A spline through five samples of a square wave leaves the range of the samples, and so does the field.
+#[test]
+fn a_waveform_with_too_few_samples_is_warned_of() {
+    let folder = folder_with("wave.csv", "time_ms,wave\n0,1\n1,1\n1.1,-1\n4,-1\n5,1\n");
+    let ended = folder.ends(0, "run jafferis2016 --waveform wave.csv --set drive_voltage_pp=20");
+    ended.says("warning: wave.csv: the spline through the samples lies between -10.308 and 4.162");
+    ended.says("but the samples between -1.000 and 1.000; add samples where the wave changes quickly");
+    let field = 10.0 * (1.0 + 10.308) / 135.0;
+    assert!((value(&ended.stdout, "field_max_v_per_um") - field).abs() < 1e-4 * field, "{}", ended.stdout);
 }
 
 #[test]

@@ -89,3 +89,23 @@ fn impossible_records_are_refused() {
     assert!(reason(&[0.0, 1.0, f64::NAN, 2.0], &[0.0; 4], Repeat::Once).contains("sample 3"));
     assert!(reason(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 0.5, 0.3], Repeat::Periodic).contains("must be equal"));
 }
+
+/// Few samples: the spline leaves their range, and the smallest and the largest value include this.
+#[test]
+fn the_range_contains_values_between_samples() {
+    let times = [0.0, 1.0, 1.1, 4.0, 5.0];
+    for (values, repeat) in
+        [([1.0, 1.0, -1.0, -1.0, 1.0], Repeat::Periodic), ([0.0, 2.0, 1.0, 3.0, -1.0], Repeat::Once)]
+    {
+        let samples = Samples::new(&times, &values, repeat).unwrap();
+        let dense = (0..=200_000).map(|i| samples.motion(5.0 * f64::from(i) / 200_000.0)[0]);
+        let [low, high] =
+            dense.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+        let range = samples.range();
+        assert!(
+            (range[0] - low).abs() < 1e-6 && (range[1] - high).abs() < 1e-6,
+            "{range:?}, {low} to {high}"
+        );
+        assert!(range[0] < samples.sample_range()[0] - 0.5, "{range:?}");
+    }
+}

@@ -1,10 +1,13 @@
 //! Waveforms and motions from files.
 
-use flap_core::drive::Repeat;
+use std::path::Path;
+
+use flap_core::drive::{Repeat, Samples};
 use flap_sweep::files::record::{self, Record};
 
 use super::point::Chosen;
 use crate::args::RunArgs;
+use crate::console;
 use crate::failure::Failure;
 
 /// Reads the waveform or the stroke that the command line gives, and adds it to the point.
@@ -19,6 +22,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
         (None, None) => return Ok(()),
     };
     let samples = Record::read(path)?.samples(&quantity, repeat)?;
+    warn_of_overshoot(&samples, path, if args.stroke.is_some() { " rad" } else { "" });
     if args.point.set.iter().all(|(name, _)| name != "drive_frequency") {
         chosen.put("drive_frequency", 1.0 / samples.duration());
     }
@@ -29,4 +33,19 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     }
     chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
     Ok(())
+}
+
+/// Share of the range of the samples by which the spline may exceed it without a warning.
+const OVERSHOOT: f64 = 0.02;
+
+/// Warns if the spline through the samples exceeds them.
+fn warn_of_overshoot(samples: &Samples, path: &Path, unit: &str) {
+    let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
+    if (from - low).max(high - to) > OVERSHOOT * (to - from) {
+        console::warn(&format!(
+            "{}: the spline through the samples lies between {low:.3} and {high:.3}{unit}, but the samples between \
+             {from:.3} and {to:.3}{unit}; add samples where the wave changes quickly",
+            path.display()
+        ));
+    }
 }

@@ -66,6 +66,8 @@ struct Record {
     values: Vec<f64>,
     /// Mean value over the duration.
     mean: f64,
+    /// Smallest and largest value, also between samples.
+    range: [f64; 2],
     /// Second derivative with respect to phase at each sample.
     bends: Vec<f64>,
 }
@@ -109,7 +111,8 @@ impl Samples {
             }
         };
         let mean = mean(&phases, &values, &bends);
-        Ok(Samples(Arc::new(Record { duration, phases, values, mean, bends })))
+        let range = spline_range(&phases, &values, &bends);
+        Ok(Samples(Arc::new(Record { duration, phases, values, mean, range, bends })))
     }
 
     /// Returns the time from the first to the last sample (s).
@@ -137,8 +140,13 @@ impl Samples {
         [value, rate / duration, bend / (duration * duration)]
     }
 
+    /// Returns the smallest and the largest value, also between samples.
+    pub fn range(&self) -> [f64; 2] {
+        self.0.range
+    }
+
     /// Returns the smallest and the largest sample.
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub fn sample_range(&self) -> [f64; 2] {
         range(&self.0.values)
     }
 }
@@ -180,6 +188,27 @@ fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
         0.5 * width * (values[i] + values[i - 1]) - width * width * width / 24.0 * (bends[i] + bends[i - 1])
     });
     pieces.sum()
+}
+
+/// Returns the smallest and the largest value of a cubic spline.
+fn spline_range(phases: &[f64], values: &[f64], bends: &[f64]) -> [f64; 2] {
+    let extremes = (1..phases.len()).flat_map(|i| {
+        let width = phases[i] - phases[i - 1];
+        let (from, to) = (values[i - 1], values[i]);
+        let [bend_from, bend_to] = [bends[i - 1], bends[i]].map(|bend| bend * width * width / 6.0);
+        // With b from 0 to 1 in the piece, the slope is square b² + linear b + constant.
+        let square = 3.0 * (bend_to - bend_from);
+        let linear = 6.0 * bend_from;
+        let constant = to - from - bend_to - 2.0 * bend_from;
+        // Both roots without cancellation; a root that does not exist is not finite, or not within the piece.
+        let sum = -0.5 * (linear + (linear * linear - 4.0 * square * constant).sqrt().copysign(linear));
+        [sum / square, constant / sum].into_iter().filter(|b| (0.0..1.0).contains(b)).map(move |b| {
+            let a = 1.0 - b;
+            a * from + b * to + (a * a * a - a) * bend_from + (b * b * b - b) * bend_to
+        })
+    });
+    let [low, high] = range(values);
+    extremes.fold([low, high], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 /// Returns the smallest and the largest of `values`.
