@@ -27,6 +27,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let names: Vec<String> = columns.iter().map(|&column| source.names()[column].clone()).collect();
 
     let aim = aim.unwrap_or_else(|| Aim::of(&ranking));
+    let mut ranges: Vec<Range> = columns.iter().map(|_| Range::default()).collect();
     let mut best = Best { most: args.rows.get(), aim, rows: Vec::new() };
     let mut left_out = LeftOut::default();
     let mut row = StringRecord::new();
@@ -42,7 +43,10 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
         } else if value.is_nan() {
             left_out.empty += 1;
         } else {
-            best.add(value, columns.iter().map(|&column| row.get(column).unwrap_or_default()).collect());
+            let cells: Vec<&str> =
+                columns.iter().map(|&column| row.get(column).unwrap_or_default()).collect();
+            ranges.iter_mut().zip(&cells).for_each(|(range, cell)| range.add(cell));
+            best.add(value, cells);
             ranked += 1;
         }
     }
@@ -57,6 +61,17 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     );
     console::say(&format!("{shown} with the {direction} {ranking} of {of}{}", left_out.text()));
     print::table(*format, &names, &rows, || table(&names, &units, &rows))?;
+    let axes = source.names().iter().position(|name| name == "status").map_or(0..0, |end| 1..end);
+    let sampled = source.sample().to_vec();
+    for place in (0..columns.len()).filter(|&place| axes.contains(&columns[place])) {
+        if !sampled.contains(&names[place]) && ranges[place].ends_at(&rows[0][place]) {
+            let shown = Shown::of_column(&names[place], &units[place], rows[0][place].parse::<f64>());
+            let (name, value) = (shown.heading(&names[place]), shown.cell(&rows[0][place]));
+            console::say(&format!(
+                "the best row is at the end of {name}, {value}: rows beyond this value may be better"
+            ));
+        }
+    }
     Ok(Exit::Done)
 }
 
@@ -117,6 +132,30 @@ impl Best {
     fn sorted(mut self) -> Vec<Vec<String>> {
         self.cut();
         self.rows.into_iter().map(|(_, cells)| cells).collect()
+    }
+}
+
+/// The smallest and the largest number of a column.
+#[derive(Default)]
+struct Range {
+    low: Option<f64>,
+    high: Option<f64>,
+    /// True if the column has at least three different numbers.
+    has_inner: bool,
+}
+
+impl Range {
+    fn add(&mut self, cell: &str) {
+        let Ok(number) = cell.parse::<f64>() else { return };
+        let (low, high) = (self.low.unwrap_or(number), self.high.unwrap_or(number));
+        self.has_inner |= low < high && number != low && number != high;
+        (self.low, self.high) = (Some(low.min(number)), Some(high.max(number)));
+    }
+
+    /// Returns true if a cell has the first or the last of at least three numbers.
+    fn ends_at(&self, cell: &str) -> bool {
+        let number = cell.parse().ok();
+        self.has_inner && (number == self.low || number == self.high)
     }
 }
 

@@ -68,6 +68,11 @@ impl Source {
         self.units.of_column(&self.names()[column])
     }
 
+    /// Returns the parameters of the sample, if the sidecar lists them.
+    pub(crate) fn sample(&self) -> &[String] {
+        &self.sample
+    }
+
     /// Reads the next row into `row`; returns false after the last row.
     pub(crate) fn next(&mut self, row: &mut StringRecord) -> Result<bool, Failure> {
         let found = self.reader.next(row).map_err(|error| {

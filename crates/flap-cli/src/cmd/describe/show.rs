@@ -39,13 +39,20 @@ fn page(description: &Description) -> String {
         tables.push(table.text_within(console::width()));
     }
     if !description.columns.is_empty() {
-        let mut table =
-            Table::with_headings(&["column", "unit", "rows", "min", "5 %", "median", "95 %", "max"]);
+        let mut table = Table::with_headings(&[
+            "column", "unit", "rows", "mean", "sd", "min", "5 %", "median", "95 %", "max",
+        ]);
         for spread in &description.columns {
-            let numbers = spread.percentiles().map(|(_, number)| number);
-            let shown = Shown::of_column(&spread.column, &spread.unit, numbers);
+            // The standard error of the mean is only in csv and json: the table would be too wide.
+            let numbers = spread.statistics().into_iter().filter(|(name, _)| *name != "se");
+            let numbers: Vec<f64> = numbers.map(|(_, number)| number).collect();
+            let shown = Shown::of_column(&spread.column, &spread.unit, numbers.iter().copied());
             let head = [spread.column.clone(), shown.unit().to_owned(), spread.count.to_string()];
-            table.row(head.into_iter().chain(numbers.map(|number| shown.number(number))).collect::<Vec<_>>());
+            table.row(
+                head.into_iter()
+                    .chain(numbers.into_iter().map(|number| shown.number(number)))
+                    .collect::<Vec<_>>(),
+            );
         }
         tables.push(table.text_within(console::width()));
     }
@@ -119,7 +126,7 @@ fn csv(description: &Description) -> Option<String> {
     }
     for spread in &description.columns {
         line(["columns", &spread.column, "", "count", &spread.count.to_string()])?;
-        for (name, number) in spread.percentiles() {
+        for (name, number) in spread.statistics() {
             line(["columns", &spread.column, "", name, &text::float(number)])?;
         }
     }

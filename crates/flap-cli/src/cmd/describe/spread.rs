@@ -1,11 +1,11 @@
-//! The spread of a measure: its percentiles.
+//! The spread of a measure: mean, standard deviation and percentiles.
 
 use flap_sweep::picture::sample::percentile;
 use serde::Serialize;
 
 use crate::data::columns::Column;
 
-/// Percentiles of the values of a column; NaN (null in JSON) if there are no values.
+/// Mean, standard deviation and percentiles of the values of a column; NaN (null in JSON) if there are too few values.
 #[derive(Serialize)]
 pub(super) struct Spread {
     pub(super) column: String,
@@ -13,6 +13,11 @@ pub(super) struct Spread {
     pub(super) unit: String,
     /// Number of values.
     pub(super) count: usize,
+    pub(super) mean: f64,
+    /// Standard deviation, with the divisor `count` - 1.
+    pub(super) sd: f64,
+    /// Standard error of the mean: `sd` over the square root of `count`.
+    pub(super) se: f64,
     pub(super) min: f64,
     pub(super) p5: f64,
     pub(super) median: f64,
@@ -21,19 +26,33 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Returns the percentiles of the numbers in `rows`. Empty cells are ignored.
+    /// Returns the spread of the numbers in `rows`. Empty cells are ignored.
     pub(super) fn of(column: &Column, numbers: &[f64], rows: &[usize]) -> Spread {
         let mut values: Vec<f64> =
             rows.iter().map(|&row| numbers[row]).filter(|number| !number.is_nan()).collect();
         values.sort_by(f64::total_cmp);
         let [min, p5, median, p95, max] = [0.0, 0.05, 0.5, 0.95, 1.0].map(|share| percentile(&values, share));
+        let count = values.len();
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let sum_of_squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        let sd = if count > 1 { (sum_of_squares / (count - 1) as f64).sqrt() } else { f64::NAN };
+        let se = sd / (count as f64).sqrt();
         let (column, unit) = (column.name.clone(), column.unit.clone());
-        Spread { column, unit, count: values.len(), min, p5, median, p95, max }
+        Spread { column, unit, count, mean, sd, se, min, p5, median, p95, max }
     }
 
-    /// Returns the percentiles with their names, in rising order.
-    pub(super) fn percentiles(&self) -> [(&'static str, f64); 5] {
-        let Spread { min, p5, median, p95, max, .. } = *self;
-        [("min", min), ("p5", p5), ("median", median), ("p95", p95), ("max", max)]
+    /// Returns the statistics with their names.
+    pub(super) fn statistics(&self) -> [(&'static str, f64); 8] {
+        let Spread { mean, sd, se, min, p5, median, p95, max, .. } = *self;
+        [
+            ("mean", mean),
+            ("sd", sd),
+            ("se", se),
+            ("min", min),
+            ("p5", p5),
+            ("median", median),
+            ("p95", p95),
+            ("max", max),
+        ]
     }
 }
