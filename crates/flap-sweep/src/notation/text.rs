@@ -166,8 +166,8 @@ const SHORTEST_PART: usize = 4;
 
 /// Returns the most similar one of `names`, if any is close to `name`.
 ///
-/// It is the first that begins with `name` (`lift_mean_mn` for `lift`), the first that contains it as a word, or the
-/// closest spelling.
+/// It is the mean of a measure (`lift_mean_mn` for `lift`), the first that begins with `name`, the first that contains
+/// it as a word, or the closest spelling.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // The time of a comparison is proportional to the product of both lengths.
     if name.len() > LONGEST_NAME {
@@ -183,8 +183,9 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         places.any(|(at, part)| begins(&candidate[..at]) && ends(&candidate[at + part.len()..]))
     };
     if name.len() >= SHORTEST_PART {
-        let begins = names.iter().find(|(candidate, _)| candidate.starts_with(name));
-        if let Some((_, candidate)) = begins.or_else(|| names.iter().find(is_word)) {
+        let begins = |begin: &str| names.iter().find(|(candidate, _)| candidate.starts_with(begin));
+        let found = begins(&format!("{name}_mean_")).or_else(|| begins(name));
+        if let Some((_, candidate)) = found.or_else(|| names.iter().find(is_word)) {
             return Some(candidate);
         }
     }

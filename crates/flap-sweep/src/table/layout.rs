@@ -454,7 +454,8 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "error_estimate",
         kind: CellKind::Number,
-        doc: "largest estimated relative error of stroke, pitch, lift and power; inf if it cannot be estimated",
+        doc: "numerical error, estimated: the largest relative error of stroke, pitch, lift and power, without the errors \
+              of the model; inf if there is no estimate",
         cell: |_, row| Cell::Number(row.error_estimate),
     },
     Fixed {
