@@ -1,10 +1,12 @@
 //! Arguments of commands on grid files: `flap sweep` and `flap check`.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use flap_sweep::plan::selection::Shard;
 
 use super::options::{BeginArgs, OutputFormat};
+use super::values::threads;
 
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
@@ -67,6 +69,14 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
+    /// Number of threads for which the time is estimated, as fast as the threads of this machine [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<NonZeroUsize>,
+
+    /// Estimate the time of part I of N equal parts, as of `flap sweep --shard I/N`
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+
     /// Output format
     ///
     /// csv and json have one value per row, with its section, name and key.
@@ -75,11 +85,12 @@ pub(crate) struct CheckArgs {
 }
 
 const CHECK_HELP: &str = "\
-Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and an estimate \
-of the time that the sweep takes. For the estimate, flap runs up to 256 points for about a second. The command lists the \
+Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and estimates \
+of the time that the sweep takes and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. The command lists the \
 parameters that differ from the preset, and warns if a value is more than a hundred times larger or smaller. If a grid has \
 more than a million points, excluded points are counted in a sample of a million points.
 
 Examples:
   flap check grid.toml
+  flap check grid.toml --shard 1/16 --threads 32
   flap check - < grid.toml";

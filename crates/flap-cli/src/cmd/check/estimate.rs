@@ -1,16 +1,19 @@
-//! Estimates the time of a sweep by running some of its points.
+//! Estimates the time of a sweep, and the size of its rows, by running some of its points.
 
 use std::collections::BTreeSet;
+use std::num::NonZeroUsize;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, Row, Status};
+use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::{Admission, Plan};
-use flap_sweep::run::RunOptions;
+use flap_sweep::run::{RunOptions, Sink};
 use flap_sweep::study::survey::spread;
+use flap_sweep::table::layout::Layout;
 
 use crate::duration;
 
@@ -36,6 +39,8 @@ pub(super) struct Estimate {
     pub(super) invalid: Option<String>,
     /// Lower and upper bound of the likely time (s). `None` if no point was run.
     pub(super) seconds: Option<[f64; 2]>,
+    /// Size of the rows as CSV (bytes). `None` if no point was run.
+    pub(super) bytes: Option<f64>,
     /// True if all points of the sample ran to their ends; otherwise the time has only a lower bound.
     is_complete: bool,
     /// Number of threads.
@@ -45,7 +50,7 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// Returns the estimated time as a line.
+    /// Returns the estimates as a line.
     pub(super) fn line(&self) -> Option<String> {
         let [low, high] = self.seconds?;
         let time = if self.is_complete {
@@ -55,14 +60,24 @@ impl Estimate {
         };
         let threads = count(self.threads as u64, "thread");
         let points = count(self.tried as u64, "point");
-        Some(format!("estimate: {time} on {threads}, from runs of {points} spread over the grid"))
+        let size = self.bytes.map_or_else(String::new, |bytes| format!(" and {} of CSV", size(bytes)));
+        Some(format!("estimate: {time} on {threads}{size}, from runs of {points} spread over the grid"))
     }
 }
 
-/// Runs some points of `plan` to estimate the time of `points` points.
-pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
-    let threads = RunOptions::default().threads.get();
-    let trial = Trial::run(plan, threads);
+/// Returns a number of bytes with two digits and a decimal prefix.
+fn size(bytes: f64) -> String {
+    let units = [(1e12, "TB"), (1e9, "GB"), (1e6, "MB"), (1e3, "kB")];
+    let (length, name) = units.into_iter().find(|(length, _)| bytes >= *length).unwrap_or((1.0, "B"));
+    let number = bytes / length;
+    if number < 9.95 && length > 1.0 { format!("{number:.1} {name}") } else { format!("{number:.0} {name}") }
+}
+
+/// Runs some points of `plan` to estimate the time of `points` points on `threads` threads, by default one per core.
+pub(super) fn of(plan: &Plan, points: u64, threads: Option<NonZeroUsize>) -> Estimate {
+    let cores = RunOptions::default().threads;
+    let threads = threads.unwrap_or(cores).get();
+    let mut trial = Trial::run(plan, cores.get());
     if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = &trial
         && trial.is_complete()
     {
@@ -71,7 +86,10 @@ pub(super) fn of(plan: &Plan, points: u64) -> Estimate {
     }
     Estimate {
         invalid: None,
-        seconds: trial.seconds(points),
+        seconds: trial
+            .seconds(points)
+            .map(|bounds| bounds.map(|time| time * cores.get() as f64 / threads as f64)),
+        bytes: trial.bytes_of_row().map(|bytes| bytes * points as f64),
         is_complete: trial.is_complete(),
         threads,
         tried: trial.works.len(),
@@ -100,6 +118,8 @@ struct Trial<'a> {
     work: f64,
     /// Number of valid points.
     valid: u64,
+    /// The rows of the valid points as CSV.
+    rows: CsvSink<Vec<u8>>,
     /// Index and reason of the first invalid point.
     first_reason: Option<(u64, String)>,
 }
@@ -119,6 +139,7 @@ impl Trial<'_> {
             done: 0,
             work: 0.0,
             valid: 0,
+            rows: CsvSink::new(Vec::new(), Vec::new()),
             first_reason: None,
         });
         thread::scope(|scope| {
@@ -156,6 +177,12 @@ impl Trial<'_> {
         let work = self.work + 0.5 * mean * (self.begun - self.done) as f64;
         let seconds = points as f64 * mean * self.took.as_secs_f64() / work;
         Some([seconds / (1.0 + error), seconds * (1.0 + error)])
+    }
+
+    /// Returns the mean size of a row as CSV (bytes); none if no point was run.
+    fn bytes_of_row(&mut self) -> Option<f64> {
+        let _ = self.rows.flush();
+        (self.valid > 0).then(|| self.rows.target().len() as f64 / self.valid as f64)
     }
 
     /// True if all points of the sample have rows.
@@ -209,7 +236,7 @@ impl Trial<'_> {
             || self.started.elapsed() >= LONGEST_BEGIN;
     }
 
-    fn done(&mut self, number: u64, row: Row) {
+    fn done(&mut self, number: u64, mut row: Row) {
         let work = row.rhs_evals as f64;
         self.done += 1;
         self.work += work;
@@ -223,6 +250,10 @@ impl Trial<'_> {
             self.note_invalid(number, row.reason.unwrap_or_default());
         } else {
             self.valid += 1;
+            let point = self.plan.point(self.index(number));
+            self.plan.add_own_measures(&point.values, &mut row.measures);
+            // A row without derivatives is shorter than a row of the sweep.
+            let _ = self.rows.write(&Layout::of(self.plan).cells(&point, &row));
         }
     }
 
@@ -279,6 +310,15 @@ mod tests {
 
         fn done(&mut self, _index: u64, row: Row) {
             self.work += row.rhs_evals as f64;
+        }
+    }
+
+    #[test]
+    fn sizes_have_two_digits_or_more() {
+        let cases =
+            [(87.0, "87 B"), (1024.0, "1.0 kB"), (9.96e6, "10 MB"), (1.52e9, "1.5 GB"), (2.1e14, "210 TB")];
+        for (bytes, text) in cases {
+            assert_eq!(size(bytes), text);
         }
     }
 
