@@ -64,19 +64,19 @@ fn every_form_of_a_value_satisfies_the_schema() {
         "[params]\nactuator_extension_ratio = \"5 %\"",
         "[params]\nactuator_extension_ratio = \".05\"",
         "[params]\ndrive_frequency = \"resonance\"\n[resonance]\nof = \"lift\"\nfrom = \"90 Hz\"\ntolerance = 0.1",
-        "[params]\ndrag_max = 3.0",
+        "[params]\ndrag_coefficient_max = 3.0",
         "[params]\nwing_area = { value = \"54 mm^2\", sd = 1e-6, source = \"a photograph\" }\n\
          actuator_extension_ratio = { value = 0.3, relative_sd = \"5 %\" }\n\
          [[correlation]]\nbetween = [\"wing_area\", \"actuator_extension_ratio\"]\ncoefficient = -0.5\n\
          [sample]\nmethod = \"sobol\"\nn = 8\nof = \"device\"",
-        "[axes]\ndrag_max = [3.0, 4]",
+        "[axes]\ndrag_coefficient_max = [3.0, 4]",
         "[axes]\nwing_area = { from = \"50 mm^2\", to = 6e-5, n = 3, scale = \"log\" }",
         "[axes]\nwing_area = { from = \"50 mm^2\", to = \"60 mm^2\", step = \"1 mm^2\" }",
         "[sample]\nmethod = \"file\"\npath = \"designs.csv\"",
         "[sample]\nmethod = \"random\"\nn = 3\nseed = 0\n[sample.parameters]\nwing_area = [5e-5, 6e-5]\n\
          wing_length = { relative_sd = 0.05, from = \"10 mm\" }",
         "[measure]\nown = \"2 * lift_mean_mn\"\n[output]\ncolumns = [\"own\", \"lift_mean_mn\", \"cycles\"]",
-        "[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"wing_area\", \"drag_max\"]",
+        "[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"wing_area\", \"drag_coefficient_max\"]",
         "[solver]\nrtol = 1e-5\nmax_cycles = 10\nnewton = false",
     ] {
         let grid = format!("preset = \"jafferis2016\"\n{section}\n");

@@ -68,15 +68,6 @@ def test_out_of_range(arguments, says):
     assert refused(ValueError, PRESET, **arguments) == says
 
 
-def test_former_names_warn_and_work():
-    now = flapwing.evaluate("jafferis2016", {"drag_coefficient_max": [3.0]})
-    with pytest.warns(FutureWarning, match="`drag_max` is the former name of `drag_coefficient_max`"):
-        former = flapwing.evaluate("jafferis2016", {"drag_max": [3.0]})
-    assert former["lift_mean_mn"] == now["lift_mean_mn"]
-    with pytest.warns(FutureWarning, match="`drag_min` is the former name"):
-        flapwing.Grid({"preset": "jafferis2016", "params": {"drag_min": 0.2}})
-
-
 @pytest.mark.parametrize("name", ["drive_bias", "drive_frequency", "rtol", "atol", "settle_tol"])
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 10**400])
 def test_not_finite(name, value):

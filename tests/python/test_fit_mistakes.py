@@ -269,12 +269,6 @@ def test_arguments_that_are_refused(keywords, error, says):
     assert says in str(caught.value)
 
 
-def test_former_names_work_with_a_warning():
-    with pytest.warns(FutureWarning, match="`drag_max` is the former name of `drag_coefficient_max`"):
-        found = flapwing.fit(PRESET, DATA, ["drag_max"], sigma="3 %", starts=1, profile=False)
-    assert list(found.values) == ["drag_coefficient_max"]
-
-
 def test_designs_that_are_refused():
     grid = {"preset": PRESET, "axes": {"drive_frequency": [100, 110]}}
     with pytest.raises(ValueError, match="the design has 2 points, but a fit takes one\nleave out its axes"):

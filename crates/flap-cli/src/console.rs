@@ -1,9 +1,7 @@
 //! Output: results go to stdout, everything else to stderr.
 
-use std::collections::BTreeSet;
 use std::env;
 use std::io::{self, Write};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstyle::{AnsiColor, Style};
@@ -39,15 +37,6 @@ pub(crate) fn results(text: &str) -> io::Result<()> {
 pub(crate) fn warn(text: &str) {
     let style = Style::new().bold().fg_color(Some(AnsiColor::BrightYellow.into()));
     complain(&format!("{style}warning{style:#}: {text}"));
-}
-
-/// Prints a warning as [`warn`] does, but the same text only once.
-pub(crate) fn warn_once(text: &str) {
-    static WARNED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let is_new = WARNED.lock().is_ok_and(|mut warned| warned.insert(text.to_owned()));
-    if is_new {
-        warn(text);
-    }
 }
 
 /// Breaks a long help line into lines that fit the terminal. Later lines are indented to the first word.

@@ -32,6 +32,9 @@ crate::parameters! {
     }
 }
 
+/// Powers with which the stiffness E w t^3 / (12 l) of a bending flexure scales with its thickness t and length l.
+pub(crate) const FLEXURE: &[(&str, f64)] = &[("hinge_thickness", 3.0), ("hinge_length", -1.0)];
+
 impl HingeParameters {
     /// A hinge without loss and without dimensions.
     pub(crate) const NONE: HingeParameters =

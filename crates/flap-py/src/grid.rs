@@ -227,9 +227,8 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     with_warnings(py, plan)
 }
 
-/// Returns the plan, and warns about each former name in its grid.
+/// Returns the plan, and warns about parameters of a vehicle without effect.
 fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
-    plan.renamed().iter().try_for_each(|parameter| parameters::warn_renamed(py, parameter))?;
     plan.unreached().iter().try_for_each(|parameter| parameters::warn_unreached(py, parameter))?;
     Ok(plan)
 }

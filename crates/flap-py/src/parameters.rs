@@ -6,7 +6,7 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
-use pyo3::exceptions::{PyFutureWarning, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
@@ -33,19 +33,7 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
 
 /// Returns the index of the parameter `name`.
 pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
-    let index =
-        Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))?;
-    let parameter = &simulator.parameters()[index];
-    if parameter.name != name {
-        Python::attach(|py| warn_renamed(py, parameter))?;
-    }
-    Ok(index)
-}
-
-/// Warns about the former name of a parameter.
-pub(crate) fn warn_renamed(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
-    let text = CString::new(parameter.renamed())?;
-    PyErr::warn(py, &py.get_type::<PyFutureWarning>(), &text, 2)
+    Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))
 }
 
 /// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own.

@@ -15,7 +15,7 @@ pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_,
     parameters::value_of(&model.parameters()[index], value)
 }
 
-/// Return the name of a parameter of a preset or a model, also for its former name.
+/// Return the name of a parameter of a preset or a model. Raise ValueError for an unknown name.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, /))]
 pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<String> {

@@ -13,6 +13,7 @@ use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::Range;
 use flap_sweep::study::deviation;
+use flap_sweep::study::linked::{self, Linked};
 use flap_sweep::study::survey;
 
 use super::{far, grid};
@@ -27,8 +28,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = grid::read(&args.grid)?;
     far::warn(&deviation::of(&plan));
     match args.format {
-        OutputFormat::Table => console::results(&page(&plan))?,
-        format => print::table(format, &NAMES, &rows(&plan), String::new)?,
+        OutputFormat::Table => console::results(&page(&plan, args))?,
+        format => print::table(format, &NAMES, &rows(&plan, args), String::new)?,
     }
     Ok(Exit::Done)
 }
@@ -37,12 +38,16 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 const NAMES: [&str; 4] = ["section", "name", "key", "value"];
 
 /// Returns the summary with one value per row, for csv and json.
-fn rows(plan: &Plan) -> Vec<Vec<String>> {
+fn rows(plan: &Plan, args: &CheckArgs) -> Vec<Vec<String>> {
     let row = |section: &str, name: &str, key: &str, value: String| {
         vec![section.to_owned(), name.to_owned(), key.to_owned(), value]
     };
     let excluded = Excluded::of(plan);
-    let estimate = estimate::of(plan, excluded.runs);
+    let estimate = estimate::of(
+        plan,
+        args.shard.map_or(excluded.runs, |shard| excluded.runs.div_ceil(shard.of())),
+        args.threads,
+    );
     let mut rows = vec![
         row("sweep", "", "model", plan.simulator().name().to_owned()),
         row("sweep", "", "preset", plan.preset().to_owned()),
@@ -70,18 +75,26 @@ fn rows(plan: &Plan) -> Vec<Vec<String>> {
         rows.push(row("differs_from_preset", name, "here", deviation.shown()));
         rows.push(row("differs_from_preset", name, "preset", deviation.preset_shown()));
     }
+    for Linked { parameter, value, varied, formula } in linked::of(plan) {
+        rows.push(row("linked", parameter.name, "value", text::value(parameter, value)));
+        rows.push(row("linked", parameter.name, "scales_with", varied.join(" ")));
+        rows.push(row("linked", parameter.name, "derived", formula));
+    }
     rows.extend(settings(plan.solver()).map(|(name, value)| row("solver", name, "value", value)));
     if let Some([low, high]) = estimate.seconds {
         rows.push(row("estimate", "", "seconds_from", text::float(low)));
         rows.push(row("estimate", "", "seconds_to", text::float(high)));
         rows.push(row("estimate", "", "threads", estimate.threads.to_string()));
+        if let Some(bytes) = estimate.bytes {
+            rows.push(row("estimate", "", "csv_bytes", format!("{bytes:.0}")));
+        }
         rows.push(row("estimate", "", "points_tried", estimate.tried.to_string()));
     }
     rows.extend(estimate.invalid.map(|invalid| row("estimate", "", "invalid", invalid)));
     rows
 }
 
-fn page(plan: &Plan) -> String {
+fn page(plan: &Plan, args: &CheckArgs) -> String {
     let points = text::count(plan.len(), "point");
     let mut page = format!("{points} of {} from {}\n", plan.simulator().name(), plan.preset());
     page += &plan.vehicle().map(wings).unwrap_or_default();
@@ -93,6 +106,7 @@ fn page(plan: &Plan) -> String {
         page += &ends(plan);
     }
     page += &deviations(plan);
+    page += &links(&linked::of(plan));
     if let Some(resonance) = plan.resonance() {
         page += "\n";
         page += &at_resonance(resonance.range());
@@ -104,7 +118,11 @@ fn page(plan: &Plan) -> String {
     if let Some(path) = &plan.output().path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
     }
-    let estimate = estimate::of(plan, excluded.runs);
+    let estimate = estimate::of(
+        plan,
+        args.shard.map_or(excluded.runs, |shard| excluded.runs.div_ceil(shard.of())),
+        args.threads,
+    );
     for line in estimate.line().into_iter().chain(estimate.invalid) {
         let _ = write!(page, "\n{}\n", wrapped(&line, 0));
     }
@@ -153,6 +171,24 @@ fn deviations(plan: &Plan) -> String {
         table.row([name, deviation.shown(), deviation.preset_shown(), deviation.ratio()]);
     }
     "\n".to_owned() + &table.text_within(console::width())
+}
+
+/// Returns the parameters that stay the same although they usually change with a varied one, and formulas for them;
+/// empty if there are none.
+fn links(linked: &[Linked<'_>]) -> String {
+    if linked.is_empty() {
+        return String::new();
+    }
+    let mut text = "\n".to_owned();
+    for Linked { parameter, value, varied, .. } in linked {
+        let value = table::assignment(parameter, *value);
+        let _ = writeln!(text, "{value} stays the same while {} varies", varied.join(" and "));
+    }
+    text += "in most robots these parameters change together; if they do in yours, add to the grid file:\n  [derived]\n";
+    for Linked { parameter, formula, .. } in linked {
+        let _ = writeln!(text, "  {} = \"{formula}\"", parameter.name);
+    }
+    text
 }
 
 /// Returns the first and the last value of an axis, or the distribution of a sample, as text.

@@ -22,9 +22,6 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
         grid::read(path, models::all())
     };
     let plan = plan?;
-    for parameter in plan.renamed() {
-        console::warn(&format!("{}: {}", plan.source().name, parameter.renamed()));
-    }
     for parameter in plan.unreached() {
         console::warn(&format!(
             "{}: `{1}` has no effect: every wing sets its own `{1}`",

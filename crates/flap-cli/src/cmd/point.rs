@@ -165,11 +165,7 @@ pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure
 
 /// Returns the index of the parameter `name`.
 pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
-    let found = Parameter::index(parameters, name);
-    if let Some(index) = found.filter(|&index| parameters[index].name != name) {
-        console::warn(&parameters[index].renamed());
-    }
-    found.ok_or_else(|| {
+    Parameter::index(parameters, name).ok_or_else(|| {
         let names = parameters.iter().map(|parameter| parameter.name);
         let failure = Failure::usage(format!("there is no parameter `{name}`"));
         if let Some(reason) = grid::why_absent(parameters, name) {

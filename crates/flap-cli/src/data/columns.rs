@@ -5,7 +5,6 @@ use flap_sweep::notation::text;
 
 use crate::console;
 use crate::failure::Failure;
-use crate::models;
 
 /// Columns of a file. Only the columns that are needed have cells.
 pub(crate) struct Table {
@@ -62,30 +61,9 @@ impl Table {
     }
 }
 
-/// Returns the position of a column by its name, or by the former name of a parameter.
+/// Returns the position of a column by its name.
 pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
-    let found = names.clone().position(|known| known == name);
-    found.or_else(|| renamed(names.clone(), name)).ok_or_else(|| unknown(names, name))
-}
-
-/// Returns the position of a parameter's column if the file and the user have different names for it, one of them a former name.
-pub(crate) fn renamed<'n>(mut names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Option<usize> {
-    let parameters = models::all().iter().flat_map(|model| model.parameters());
-    for parameter in parameters.filter(|parameter| !parameter.former.is_empty()) {
-        if parameter.former == name
-            && let Some(place) = names.clone().position(|known| known == parameter.name)
-        {
-            console::warn_once(&parameter.renamed());
-            return Some(place);
-        }
-        // Results of earlier versions have former names.
-        if parameter.name == name
-            && let Some(place) = names.position(|known| known == parameter.former)
-        {
-            return Some(place);
-        }
-    }
-    None
+    names.clone().position(|known| known == name).ok_or_else(|| unknown(names, name))
 }
 
 fn unknown<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Failure {

@@ -248,9 +248,8 @@ struct Names<'n>(&'n [String]);
 
 impl Scope for Names<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning> {
-        let known = self.0.iter().map(String::as_str);
-        let column =
-            known.clone().position(|known| known == name).or_else(|| columns::renamed(known, name))?;
+        let mut known = self.0.iter().map(String::as_str);
+        let column = known.position(|known| known == name)?;
         Some(match name {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),

@@ -71,7 +71,7 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 ///     pub struct Beam {
 ///         ["shape"]
 ///         /// Length.
-///         length: f64 = ("m", "L", Number(Positive), former: "beam_length"),
+///         length: f64 = ("m", "L", Number(Positive), is_fitted: true),
 ///         ["substance"]
 ///         /// Material.
 ///         material: Material = ("", "", Choice(Material::NAMES)),
@@ -94,7 +94,7 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 /// let names: Vec<&str> = Row::TABLE.iter().map(|row| row.name).collect();
 /// assert_eq!(names, ["beams", "length", "material"]);
 /// assert_eq!(Row::TABLE[2].group, "substance");
-/// assert_eq!(Row::TABLE[1].former, "beam_length");
+/// assert!(Row::TABLE[1].is_fitted && !Row::TABLE[0].is_fitted);
 /// let row = Row::from_values(&[3.0, 0.1, 1.0]);
 /// assert_eq!(row.beam.material, Material::Steel);
 /// assert_eq!(row.to_values(), [3.0, 0.1, 1.0]);

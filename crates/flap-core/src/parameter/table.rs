@@ -15,16 +15,18 @@ pub struct Parameter<'a> {
     pub doc: &'a str,
     /// Part of the robot, such as `hinge`. It is a heading in lists of parameters.
     pub group: &'a str,
-    /// Name in earlier versions, which is still accepted; empty if there is none.
-    pub former: &'static str,
     /// Value if no preset sets the parameter; NaN if there is none.
     pub default: f64,
     /// True if the published value was fitted to measurements of one vehicle. It need not be valid for another.
     pub is_fitted: bool,
+    /// Parameters whose change usually changes this one too, with the exponent. A wing's inertia grows with the fourth
+    /// power of its length if the wing keeps its shape and thickness. Models do not apply these powers: `flap check`
+    /// reports them.
+    pub scales_with: &'static [(&'static str, f64)],
 }
 
 impl<'a> Parameter<'a> {
-    /// Returns a parameter without group, former name and default, whose value is not fitted.
+    /// Returns a parameter without group and default, whose value is not fitted.
     pub const fn new(
         name: &'a str,
         unit: &'static str,
@@ -39,21 +41,15 @@ impl<'a> Parameter<'a> {
             kind,
             doc,
             group: "",
-            former: "",
             default: f64::NAN,
             is_fitted: false,
+            scales_with: &[],
         }
     }
 
-    /// Returns the message about a former name.
-    pub fn renamed(&self) -> String {
-        format!("`{}` is the former name of `{}`; flap still accepts it", self.former, self.name)
-    }
-
-    /// Returns the index in `table` of the parameter with this name or former name.
+    /// Returns the index in `table` of the parameter with this name.
     pub fn index(table: &[Parameter<'_>], name: &str) -> Option<usize> {
-        let now = table.iter().position(|parameter| parameter.name == name);
-        now.or_else(|| table.iter().position(|parameter| !name.is_empty() && parameter.former == name))
+        table.iter().position(|parameter| parameter.name == name)
     }
 }
 

@@ -252,7 +252,7 @@ def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
     """Return the value in SI units of a parameter of a preset or a model, from a number or text with a unit."""
 
 def parameter(model: str, parameter: str, /) -> str:
-    """Return the name of a parameter of a preset or a model, also for its former name."""
+    """Return the name of a parameter of a preset or a model. Raise ValueError for an unknown name."""
 
 def quantity(name: str, text: str, unit: str, /) -> float:
     """Parse text such as `"3 mm"` and return the number in `unit`, which must be of the same kind."""

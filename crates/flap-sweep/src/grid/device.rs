@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use flap_core::parameter::{Parameter, Preset};
+use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 
@@ -181,7 +181,6 @@ pub(super) fn read(
         let Some((index, parameter)) = lookup.parameter(&entry) else {
             continue;
         };
-        report_both_names(parameter, &entry, index, &set, lookup.problems);
         set.push((index, entry.key_span.clone()));
         // No value: the resonance is computed later.
         if resonance::is_asked_for(&entry) {
@@ -195,21 +194,6 @@ pub(super) fn read(
         errors.set(index, error);
     }
     set
-}
-
-/// Reports a parameter that the section sets by its name and by its former name.
-fn report_both_names(
-    parameter: &Parameter,
-    entry: &Entry<'_>,
-    index: usize,
-    set: &[(usize, Range<usize>)],
-    problems: &mut Problems,
-) {
-    if let Some((_, before)) = set.iter().find(|(other, _)| *other == index) {
-        let message = format!("`{}` is set twice: `{}` is its former name", parameter.name, parameter.former);
-        let diagnostic = problems.report(entry.key_span.clone(), message).label("again here");
-        diagnostic.related(before.clone(), "first here").help("keep one of them");
-    }
 }
 
 type Chosen = (&'static dyn Simulator, &'static Preset);

@@ -6,7 +6,6 @@
 mod axes;
 mod device;
 pub mod diagnostic;
-mod former;
 mod formula;
 mod gradient;
 mod lookup;

@@ -16,7 +16,7 @@ use super::lookup::Lookup;
 use super::problems::{self, Problems};
 use super::table::{self, Entry};
 use super::vehicle::{self, VehicleSettings};
-use super::{axes, former, gradient, output, resonance, sample, solver};
+use super::{axes, gradient, output, resonance, sample, solver};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
@@ -103,7 +103,6 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         gradient,
         solver,
         output,
-        renamed: former::used(document, robot.model().parameters()),
         unreached,
         source: (*source).clone(),
     }))

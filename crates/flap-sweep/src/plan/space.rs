@@ -67,8 +67,6 @@ pub(crate) struct Space {
     pub(crate) solver: SolverSettings,
     /// File for rows, and its columns.
     pub(crate) output: Output,
-    /// Parameters that the grid file calls by former names.
-    pub(crate) renamed: Vec<&'static Parameter<'static>>,
     /// Parameters of all wings that the grid sets or varies, although each wing has its own value.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
     /// Grid file, for provenance.
@@ -177,11 +175,6 @@ impl Plan {
     /// Returns the file for rows, and its columns.
     pub fn output(&self) -> &Output {
         &self.space.output
-    }
-
-    /// Returns the parameters that the grid file calls by former names.
-    pub fn renamed(&self) -> &[&'static Parameter<'static>] {
-        &self.space.renamed
     }
 
     /// Returns the parameters of all wings that the grid file sets or varies without effect, because each wing has

@@ -1,9 +1,10 @@
-//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, most important
-//! parameters, surveys, optima. Also experiments on single points.
+//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked
+//! parameters, most important parameters, surveys, optima. Also experiments on single points.
 
 pub mod control;
 pub mod deviation;
 pub mod experiment;
+pub mod linked;
 pub mod optimum;
 pub mod response;
 pub mod strongest;

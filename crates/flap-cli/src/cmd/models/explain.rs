@@ -67,7 +67,7 @@ fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> R
         Failure::usage(format!("there is no model, preset, parameter, column, setting or status `{name}`"));
     let mut names: Vec<&str> =
         models::all().iter().map(|model| model.name()).chain(models::presets()).collect();
-    names.extend(known.iter().filter(|entry| !entry.is_former).map(|entry| entry.name.as_str()));
+    names.extend(known.iter().map(|entry| entry.name.as_str()));
     Err(failure.nearest(name, names, "`flap models MODEL` lists the parameters and columns of a model"))
 }
 

@@ -171,16 +171,13 @@ pub(super) fn shown(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Returns symbol, allowed values and former name of a parameter.
+/// Returns symbol and allowed values of a parameter.
 fn more(parameter: &Parameter) -> String {
     let mut text = String::new();
     if !parameter.symbol.is_empty() {
         let _ = write!(text, ". Symbol: {}", parameter.symbol);
     }
     let _ = write!(text, ". Allowed: {}", allowed(parameter));
-    if !parameter.former.is_empty() {
-        let _ = write!(text, ". Former name: {}", parameter.former);
-    }
     if parameter.is_fitted {
         text += ". The published value was fitted to one vehicle";
     }

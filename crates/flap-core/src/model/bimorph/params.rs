@@ -1,7 +1,7 @@
 //! Parameters of the bimorph model and their published values.
 
 use crate::drive::{DriveConstants, WaveformParameters};
-use crate::linkage::HingeParameters;
+use crate::linkage::{FLEXURE, HingeParameters};
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
@@ -26,7 +26,7 @@ crate::parameters! {
         /// Transmission ratio: stroke per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)) 3333.0,
         /// Stiffness of the transmission, at the actuator's tip: T^2 kappa_t.
-        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true) 197.7,
+        transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true, scales_with: &[("transmission_ratio", 2.0)]) 197.7,
         /// Growth of the transmission ratio T + T_3 x^2 with the square of the tip's displacement x. Not in the
         /// paper.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
@@ -40,25 +40,25 @@ crate::parameters! {
         /// Distance from the transmission's flexure to the wing's tip.
         wing_length: f64 = ("m", "R", Number(Positive)) 17e-3,
         /// Wing area.
-        wing_area: f64 = ("m^2", "A_w", Number(Positive)) 54.59e-6,
+        wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
         /// Wing shape: radius of the area's second moment about the stroke axis, over wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
         /// Wing width: largest distance from the hinge's axis.
-        wing_width: f64 = ("m", "W", Number(Positive)) 4.5e-3,
+        wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
         /// Wing shape: radius of the area's second moment about the hinge's axis, over wing_width.
         wing_width_2: f64 = ("", "w_2", Number(Positive)) 0.43,
         /// Wing inertia about the stroke axis.
-        wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive)) 51.1e-12,
+        wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive), scales_with: &[("wing_length", 4.0)]) 51.1e-12,
         /// Added inertia: inertia of the air that moves with the wing, about the stroke axis.
-        added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative)) 10.22e-12,
+        added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative), scales_with: &[("wing_length", 5.0), ("air_density", 1.0)]) 10.22e-12,
         /// Wing inertia about the hinge's axis.
-        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true) 0.95 * 1.29e-12,
+        wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true, scales_with: &[("wing_length", 4.0)]) 0.95 * 1.29e-12,
         /// Product of inertia that couples stroke and hinge.
-        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), is_fitted: true) 0.29 * 2.8e-12,
+        wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), is_fitted: true, scales_with: &[("wing_length", 4.0)]) 0.29 * 2.8e-12,
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true) 0.985 * 1.52e-6,
+        hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true, scales_with: FLEXURE) 0.985 * 1.52e-6,
         /// Damping of the wing hinge. Not in the paper.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and dimensions of the hinge.
@@ -68,15 +68,15 @@ crate::parameters! {
         /// Density of air. Assumed: not given in the paper.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Drag coefficient at an attack angle of 90 deg (pitch 0).
-        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), former: "drag_max", is_fitted: true) 1.25 * 3.4,
+        drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), is_fitted: true) 1.25 * 3.4,
         /// Drag coefficient at an attack angle of 0 (pitch 90 deg).
-        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), former: "drag_min", is_fitted: true) 0.39 * 0.4,
+        drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), is_fitted: true) 0.39 * 0.4,
         /// Lift coefficient at an attack angle of 45 deg.
-        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), former: "lift_max", is_fitted: true) 1.8,
+        lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), is_fitted: true) 1.8,
         /// Radial centre of pressure: lever arm of the drag about the stroke axis.
-        pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true) 1.42 * 9.56e-3,
+        pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true, scales_with: &[("wing_length", 1.0)]) 1.42 * 9.56e-3,
         /// Lever arm of the rotational drag about the hinge's axis.
-        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true) 0.39 * 1.93e-3,
+        rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true, scales_with: &[("wing_length", 1.0)]) 0.39 * 1.93e-3,
         /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
         pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true) 0.132,
         /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).

@@ -27,24 +27,24 @@ crate::parameters! {
         /// Wing length, from the wing's root to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
         /// Mean chord.
-        mean_chord: f64 = ("m", "c", Number(Positive)) 6.51e-3,
+        mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
         /// Distance from the stroke axis to the wing's root. Not given in the paper.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
         /// Chord at half of the wing length. Not given in the paper. Only for flow_direction = "uniform".
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Wing mass.
-        wing_mass: f64 = ("kg", "M_w", Number(Positive)) 2.31e-6,
+        wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
         /// Distance of the wing's centre of mass from its root, along the span.
-        mass_centre_span: f64 = ("m", "r_g", Number(Any)) 9.42e-3,
+        mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
         /// Chordwise position of the wing's centre of mass, positive towards the leading edge. It is negative in a
         /// real wing (the paper prints its magnitude).
-        mass_centre_chord: f64 = ("m", "y_g", Number(Any)) -2.48e-3,
+        mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
         /// Wing inertia about the spanwise axis through the centre of mass.
-        wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative)) 4.81e-12,
+        wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,
         /// Wing inertia about the chordwise axis through the centre of mass.
-        wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative)) 5.07e-11,
+        wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 5.07e-11,
         /// Product of inertia of the wing about its centre of mass, signed as in Eq. (17).
-        wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any)) 3.62e-13,
+        wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any), scales_with: &[("wing_length", 4.0)]) 3.62e-13,
         /// Inertia of the leading-edge part about the stroke axis.
         leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)) 3.89e-9,
 
@@ -88,7 +88,7 @@ crate::parameters! {
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
         /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. Only
         /// for flow_direction = "uniform".
-        rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative)) 4.68e-10,
+        rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.68e-10,
 
         ["actuator"]
         /// Actuator length.
@@ -131,9 +131,9 @@ crate::parameters! {
         /// Density of air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)) 1.29,
         /// Drag coefficient at an attack angle of 90 deg.
-        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative), former: "drag_max") 5.0,
+        drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative)) 5.0,
         /// Drag coefficient at an attack angle of 0.
-        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative), former: "drag_min") 0.4,
+        drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative)) 0.4,
         /// Rotational drag coefficient, Eq. (32).
         rotation_drag: f64 = ("", "C_rd", Number(NonNegative)) 3.5,
         /// Centre of pressure: shift in chords per radian of attack, Eq. (24).

@@ -6,7 +6,7 @@
 
 use crate::aero::ChordTable;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
-use crate::linkage::HingeParameters;
+use crate::linkage::{FLEXURE, HingeParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
@@ -93,7 +93,7 @@ crate::parameters! {
 
         ["hinge"]
         /// Stiffness of the wing hinge.
-        hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive)) 50e-6,
+        hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive), scales_with: FLEXURE) 50e-6,
         /// Damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)) 5e-9,
         /// Loss factor and dimensions of the hinge.
@@ -105,7 +105,7 @@ crate::parameters! {
         /// Wing length, from root to tip; assumed.
         wing_length: f64 = ("m", "L_w", Number(Positive)) 24e-3,
         /// Chord at the root; assumed. The chord is root_chord times a polynomial in x, 0 at the root and 1 at the tip.
-        root_chord: f64 = ("m", "c_0", Number(Positive)) 8.3e-3,
+        root_chord: f64 = ("m", "c_0", Number(Positive), scales_with: &[("wing_length", 1.0)]) 8.3e-3,
         /// Constant term of the chord polynomial; assumed.
         chord_term_0: f64 = ("", "p_0", Number(Any)) 1.0,
         /// Coefficient of x in the chord polynomial; assumed.
@@ -121,19 +121,19 @@ crate::parameters! {
         /// Position of the rotation axis, in chords behind the leading edge.
         axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
         /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
-        wing_mass: f64 = ("kg", "m_w", Number(Positive)) 9.577e-6,
+        wing_mass: f64 = ("kg", "m_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 9.577e-6,
         /// Distance of the wing's centre of mass from the stroke axis; assumed.
-        mass_centre_radius: f64 = ("m", "R_CG", Number(Any)) 15.22e-3,
+        mass_centre_radius: f64 = ("m", "R_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 15.22e-3,
         /// Distance of the wing's centre of mass from the rotation axis, positive towards the trailing edge; assumed.
-        mass_centre_depth: f64 = ("m", "beta_CG", Number(Any)) 1.569e-3,
+        mass_centre_depth: f64 = ("m", "beta_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 1.569e-3,
         /// Wing inertia about the spanwise axis through the centre of mass; assumed.
-        wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative)) 8.333e-11,
+        wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 8.333e-11,
         /// Wing inertia about the normal through the centre of mass; assumed.
-        wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative)) 4.269e-10,
+        wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.269e-10,
         /// Wing inertia about the chordwise axis through the centre of mass; assumed.
-        wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative)) 3.436e-10,
+        wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 3.436e-10,
         /// Product of inertia about the centre of mass, positive if the wing is deeper towards the tip; assumed.
-        wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any)) -8.38e-12,
+        wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any), scales_with: &[("wing_length", 4.0)]) -8.38e-12,
 
         ["air"]
         /// Density of air; assumed.

@@ -91,7 +91,7 @@ class Names:
         return True
 
     def parameter(self, name: str) -> str:
-        """Return the name of a parameter, also for its former name. Raise ValueError for an unknown name."""
+        """Return the name of a parameter. Raise ValueError for an unknown name."""
         return name if name in self.parameters else _flapwing.parameter(self.model, name)
 
     def unit(self, name: str) -> str:

@@ -261,27 +261,14 @@ fn sections(model: &'static dyn Simulator) -> Value {
     })
 }
 
-/// Returns a table with a key for each parameter. It accepts former names, but editors do not offer them.
+/// Returns a table with a key for each parameter.
 fn keyed<'p>(
     description: &str,
     parameters: impl IntoIterator<Item = &'p Parameter<'p>>,
     schema: impl Fn(&Parameter) -> Value,
 ) -> Value {
-    let (mut now, mut former) = (Map::new(), Map::new());
-    for parameter in parameters {
-        now.insert(parameter.name.to_owned(), schema(parameter));
-        if !parameter.former.is_empty() {
-            let rule = json!({
-                "description": parameter.renamed(), "deprecated": true, "allOf": [schema(parameter)]
-            });
-            former.insert(format!("^{}$", parameter.former), rule);
-        }
-    }
-    let mut table = sections::table(description, now);
-    if !former.is_empty() {
-        table["patternProperties"] = Value::Object(former);
-    }
-    table
+    let keys = parameters.into_iter().map(|parameter| (parameter.name.to_owned(), schema(parameter)));
+    sections::table(description, keys.collect())
 }
 
 /// Returns a single value, or a table with its standard error. The drive frequency may also be the resonance.
@@ -313,11 +300,9 @@ fn correlation(parameters: &[Parameter]) -> Value {
     json!({"description": about("correlation"), "type": "array", "items": pair})
 }
 
-/// Returns the names of parameters of the wanted kinds, including former names.
+/// Returns the names of parameters of the wanted kinds.
 fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind) -> bool) -> Vec<&'p str> {
-    let wanted = parameters.iter().filter(|parameter| is_wanted(parameter.kind));
-    let names = wanted.flat_map(|parameter| [parameter.name, parameter.former]);
-    names.filter(|name| !name.is_empty()).collect()
+    parameters.iter().filter(|parameter| is_wanted(parameter.kind)).map(|parameter| parameter.name).collect()
 }
 
 fn sample(parameters: &Value) -> Value {

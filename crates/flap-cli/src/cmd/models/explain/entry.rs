@@ -19,15 +19,13 @@ pub(super) struct Entry {
     rest: String,
     /// Indented lines.
     pub(super) text: String,
-    /// True for the former name of a parameter.
-    pub(super) is_former: bool,
 }
 
 impl Entry {
     /// Returns an entry for a name that does not depend on the model.
     pub(super) fn new(name: impl Into<String>, what: impl Into<String>, text: String) -> Entry {
         let (name, what) = (name.into(), what.into());
-        Entry { name, what, models: Vec::new(), rest: String::new(), text, is_former: false }
+        Entry { name, what, models: Vec::new(), rest: String::new(), text }
     }
 
     /// Returns an entry for a name of a model.
@@ -43,11 +41,6 @@ impl Entry {
     /// Returns the entry with text after the models.
     pub(super) fn with_rest(self, rest: impl Into<String>) -> Entry {
         Entry { rest: rest.into(), ..self }
-    }
-
-    /// Returns the entry, marked as a former name.
-    pub(super) fn former(self) -> Entry {
-        Entry { is_former: true, ..self }
     }
 
     /// Returns the kind of thing that has this name, with its models.
@@ -119,6 +112,12 @@ pub(super) fn of_table(parameter: &Parameter) -> String {
         if !value.is_empty() {
             let _ = writeln!(page, "  {what:<8}  {value}");
         }
+    }
+    let powers: Vec<String> = (parameter.scales_with.iter())
+        .map(|(name, power)| if *power == 1.0 { (*name).to_owned() } else { format!("{name}^{power}") })
+        .collect();
+    if !powers.is_empty() {
+        let _ = writeln!(page, "  {:<8}  usually with {}; see `flap check`", "scales", powers.join(" * "));
     }
     page
 }

@@ -64,14 +64,8 @@ fn settings() -> impl Iterator<Item = Entry> {
 
 /// The parameters and columns of a model.
 fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
-    let table = || model.parameters().iter().enumerate();
-    let parameters = table().map(move |(index, parameter)| {
+    let parameters = model.parameters().iter().enumerate().map(move |(index, parameter)| {
         Entry::of(model.name(), parameter.name, "a parameter", of_parameter(model, index, parameter))
-    });
-    let renamed = table().filter(|(_, parameter)| !parameter.former.is_empty());
-    let renamed = renamed.map(move |(index, parameter)| {
-        let what = format!("the former name of {}, a parameter", parameter.name);
-        Entry::of(model.name(), parameter.former, what, of_parameter(model, index, parameter)).former()
     });
     let own = model.columns().len();
     let columns = measures(model).into_iter().enumerate().map(move |(place, column)| {
@@ -79,7 +73,7 @@ fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
         let entry = Entry::of(model.name(), column.name, "a measure", text);
         if place < own { entry } else { entry.with_rest(" with drive_frequency = \"resonance\"") }
     });
-    parameters.chain(renamed).chain(columns)
+    parameters.chain(columns)
 }
 
 /// The columns of a model's trajectories.
