@@ -110,7 +110,7 @@ fn parameters_are_listed_with_units_and_values() {
     for text in [&model.stdout, &preset.stdout] {
         assert!(line(text, "drive_frequency").contains(" Hz "));
         assert!(line(text, "lift_mean_mn").contains(" mN "));
-        assert!(line(text, "floquet_max").contains("factor by which a change of the motion grows"));
+        assert!(line(text, "floquet_max").contains("factor by which a small change of the motion grows"));
         assert!(line(text, "resonance_hz").contains(" Hz "));
         for column in ["residual", "cycles", "error_estimate"] {
             line(text, column);
@@ -406,7 +406,7 @@ fn names_are_explained() {
     let resonance = "resonance_hz: a measure of the models bimorph, direct-drive and four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
     let gaps = folder.ends(0, "models resonance_gaps").stdout;
-    let meaning = "number of search points without a periodic motion: a larger peak may lie there";
+    let meaning = "number of points in the search for the resonance without a periodic motion; at such a point may lie a larger peak";
     assert_eq!(gaps, resonance.replace("_hz", "_gaps") + "  " + meaning + "\n", "once for all models");
 
     let fixed = folder.ends(0, "models floquet_max").stdout;
@@ -414,7 +414,7 @@ fn names_are_explained() {
         fixed.starts_with("floquet_max: a column of the rows of every model\n  factor by which"),
         "{fixed}"
     );
-    assert!(fixed.contains("below 1 the motion is stable, near 1 it settles slowly"), "{fixed}");
+    assert!(fixed.contains("below 1 the motion is stable, near 1 the motion settles slowly"), "{fixed}");
     for (status, meaning) in Status::ALL.into_iter().zip(STATUSES) {
         let told = folder.ends(0, &format!("models {}", status.name())).stdout;
         assert_eq!(told, format!("{}: a status of rows\n  {meaning}\n", status.name()));

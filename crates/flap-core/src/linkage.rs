@@ -22,12 +22,13 @@ pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) ->
 crate::parameters! {
     /// Loss factor and size of the wing hinge.
     pub struct HingeParameters {
-        /// Loss factor of the wing hinge. It acts as a damping of loss factor times stiffness over the drive's
-        /// angular frequency.
+        /// Loss factor of the wing hinge. The loss factor adds a viscous damping: loss factor times stiffness, divided
+        /// by the angular drive frequency.
         hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Thickness of the hinge's flexure. Affects hinge_strain_max alone.
+        /// Thickness of the flexure of the wing hinge. The thickness affects only the column hinge_strain_max.
         hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
-        /// Length of the hinge's flexure between the rigid parts. Affects hinge_strain_max alone.
+        /// Length of the flexure of the wing hinge, between the rigid parts. The length affects only the column
+        /// hinge_strain_max.
         hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is empty without it")),
     }
 }

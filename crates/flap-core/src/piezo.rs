@@ -57,11 +57,13 @@ impl<const L: usize> Laminate<L> {
 crate::parameters! {
     /// Dielectric loss and charge recovery.
     pub struct ElectricalParameters {
-        /// Dielectric loss of the actuator, tan delta. It adds the current G (V - mean of V) with G = w C tan delta.
-        /// Measured impedances of such plates correspond to 0.13 to 0.16 at large signals.
+        /// Dielectric loss factor tan delta of the actuator. The loss adds the current G (V - mean of V) with G = w C
+        /// tan delta. Here w is the angular drive frequency, C the capacitance and V the voltage. Impedances measured
+        /// on such actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
-        /// Share of the power returned by the actuator that the supply recovers. It affects power_supply_mw alone.
-        /// Ozaki and Ohta 2020 measured 0.58 on a capacitive load.
+        /// Share of the power returned by the actuator that the power supply recovers, between 0 and 1. The share
+        /// affects only the column power_supply_mw. Ozaki and Ohta (2020) measured a share of 0.58 on a capacitive
+        /// load.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }

@@ -176,7 +176,12 @@ fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<St
             Kind::Number => number(measure),
             Kind::Condition => text::truth(measure),
         };
-        vec![own.name.clone(), value, String::new(), "[measure] in the grid file".to_owned()]
+        vec![
+            own.name.clone(),
+            value,
+            String::new(),
+            "measure of the table [measure] in the grid file".to_owned(),
+        ]
     });
     of_model.chain(own).collect()
 }

@@ -23,29 +23,29 @@ crate::choice! {
 crate::parameters! {
     /// Chords at stations along the span, interpolated linearly in between.
     pub struct ChordTable {
-        /// Source of the wing's chord: the model's own shape, or the table chord_0 to chord_10.
+        /// Source of the chord of the wing: the chord shape of the model, or the table chord_0 to chord_10.
         chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
-        /// Chord at 0 % of the wing's length, the root. Only for chord_table = "on".
+        /// Chord at 0 % of the length of the wing, the root. This parameter has an effect only if chord_table is "on".
         chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 10 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 10 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_1: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 20 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 20 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_2: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 30 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 30 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_3: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 40 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 40 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_4: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 50 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 50 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_5: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 60 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 60 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_6: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 70 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 70 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_7: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 80 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 80 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_8: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 90 % of the wing's length. Only for chord_table = "on".
+        /// Chord at 90 % of the length of the wing. This parameter has an effect only if chord_table is "on".
         chord_9: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 100 % of the wing's length, the tip. Only for chord_table = "on".
+        /// Chord at 100 % of the length of the wing, the tip. This parameter has an effect only if chord_table is "on".
         chord_10: f64 = ("m", "", Number(NonNegative), default: 0.0),
     }
 }

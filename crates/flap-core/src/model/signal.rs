@@ -191,8 +191,8 @@ impl Measure {
     /// Returns the measure in words that the signal's description continues.
     pub(crate) fn describe(self) -> &'static str {
         match self {
-            Measure::Amplitude => "half of largest minus smallest",
-            Measure::PeakToPeak => "largest minus smallest",
+            Measure::Amplitude => "half of the difference between the largest and the smallest",
+            Measure::PeakToPeak => "difference between the largest and the smallest",
             Measure::Mean => "mean",
             Measure::Max => "largest",
             Measure::Min => "smallest",

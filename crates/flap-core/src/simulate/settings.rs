@@ -60,12 +60,12 @@ impl SolverSettings {
         Setting::new(
             "rtol",
             number(0.1, |s| s.rtol, |s, rtol| *s = s.with_rtol(rtol)),
-            "relative error per integration step",
+            "largest relative error of one integration step",
         ),
         Setting::new(
             "atol",
             number(f64::INFINITY, |s| s.atol, |s, atol| s.atol = atol),
-            "absolute error per integration step, in units of each state's typical size",
+            "largest absolute error of one integration step, in units of each state's typical size",
         )
         .following("rtol / 100"),
         Setting::new(
@@ -76,7 +76,7 @@ impl SolverSettings {
         Setting::new(
             "max_cycles",
             SettingKind::Count { get: |s| s.max_cycles, set: |s, max_cycles| s.max_cycles = max_cycles },
-            "largest number of marched drive periods; a motion that has not settled by then is unsettled",
+            "number of drive periods after which a motion that has not settled counts as unsettled",
         ),
         Setting::new(
             "max_steps",
@@ -93,7 +93,7 @@ impl SolverSettings {
         Setting::new(
             "newton",
             SettingKind::Flag { get: |s| s.newton, set: |s, newton| s.newton = newton },
-            "true to find orbits by Newton's iteration; if false, points settle by marching alone",
+            "true to find orbits by Newton's iteration; if false, flap integrates periods until the motion settles",
         ),
         Setting::new(
             "progressive",
@@ -103,8 +103,8 @@ impl SolverSettings {
         Setting::new(
             "symmetry",
             SettingKind::Flag { get: |s| s.symmetry, set: |s, symmetry| s.symmetry = symmetry },
-            "true to find and measure orbits whose second half mirrors the first over half periods; if false, all periods \
-             are whole",
+            "true to integrate half of a period if the second half of the orbit mirrors the first; if false, flap always \
+             integrates whole periods",
         ),
     ];
 

@@ -30,27 +30,26 @@ impl Columns {
     pub(super) fn new(model: &[Column], mounts: &[Mount]) -> Columns {
         let mut columns = Columns { all: Vec::new(), sources: Vec::new() };
         let words = [
-            "mean force of the air on the wings, forward",
-            "mean force of the air on the wings, to the left",
-            "mean force of the air on the wings, upwards",
-            "mean torque about the x axis; positive values lift the left side",
-            "mean torque about the y axis; positive values lower the nose",
-            "mean torque about the z axis; positive values turn the nose to the left",
+            "mean forward force of the air on all wings",
+            "mean force of the air on all wings to the left",
+            "mean upward force of the air on all wings",
+            "mean torque of the air on all wings about the x axis; positive values lift the left side",
+            "mean torque of the air on all wings about the y axis; positive values lower the nose",
+            "mean torque of the air on all wings about the z axis; positive values turn the nose to the left",
         ];
         for (i, (name, doc)) in FORCES.into_iter().chain(TORQUES).zip(words).enumerate() {
             columns.add(name, if i < 3 { "mN" } else { "uN*m" }, doc, Source::Wrench(i));
         }
-        let doc = "force_up_mn over the weight of total_mass; empty if total_mass is not set";
+        let doc = "force_up_mn divided by the weight of total_mass; empty if total_mass is not set";
         columns.add("lift_to_weight", "", doc, Source::LiftToWeight);
         for (i, column) in model.iter().enumerate() {
             if column.over_wings == OverWings::Sum {
-                let doc = format!("sum over the wings: {}", column.doc);
+                let doc = format!("sum over all wings: {}", column.doc);
                 columns.add(&*column.name, column.unit, doc, Source::Sum(i));
             }
         }
         if let Some(power) = model.iter().position(|column| column.name == "power_mean_mw") {
-            let doc =
-                "force_up_mn in grams-force over power_mean_mw; empty unless the power is more than zero";
+            let doc = "force_up_mn in grams-force, divided by power_mean_mw; empty unless the power is more than zero";
             columns.add("efficiency_gf_per_w", "gf/W", doc, Source::Efficiency(power));
         }
         for (wing, mount) in mounts.iter().enumerate() {

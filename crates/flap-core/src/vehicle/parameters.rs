@@ -14,19 +14,19 @@ const VEHICLE: &str = "vehicle";
 /// Parameters of a position.
 #[rustfmt::skip]
 const PLACE: [(&str, &str, &str); 6] = [
-    ("position_x", "m", "Position of the shoulder, forward"),
-    ("position_y", "m", "Position of the shoulder, to the left (for a mirrored wing to the right)"),
-    ("position_z", "m", "Position of the shoulder, upwards"),
-    ("plane_roll", "rad", "Roll of the stroke plane; positive values lift the wing's tip"),
-    ("plane_pitch", "rad", "Pitch of the stroke plane; positive values lower its front"),
-    ("plane_yaw", "rad", "Yaw of the stroke plane; positive values turn its front away from the wing's side"),
+    ("position_x", "m", "Forward position of the shoulder of a wing"),
+    ("position_y", "m", "Position of the shoulder of a wing to the left (to the right for a mirrored wing)"),
+    ("position_z", "m", "Upward position of the shoulder of a wing"),
+    ("plane_roll", "rad", "Roll of the stroke plane; positive values lift the tip of the wing"),
+    ("plane_pitch", "rad", "Pitch of the stroke plane; positive values lower the front of the plane"),
+    ("plane_yaw", "rad", "Yaw of the stroke plane; positive values turn the front of the plane away from the wing"),
 ];
 
 /// Parameters of the vehicle as a whole.
 const WHOLE: [Parameter<'static>; 4] = [
-    about("about_x", "Reference point of the torques, such as the centre of mass: position forward."),
-    about("about_y", "Reference point of the torques: position to the left."),
-    about("about_z", "Reference point of the torques: position upwards."),
+    about("about_x", "Forward position of the reference point of the torques, such as the centre of mass."),
+    about("about_y", "Position to the left of the reference point of the torques."),
+    about("about_z", "Upward position of the reference point of the torques."),
     Parameter {
         group: VEHICLE,
         ..Parameter::new(
@@ -34,7 +34,7 @@ const WHOLE: [Parameter<'static>; 4] = [
             "kg",
             "",
             Kind::Following(Positive, "not known"),
-            "Mass of the whole vehicle, for lift_to_weight.",
+            "Mass of the whole vehicle, which determines the column lift_to_weight.",
         )
     },
 ];
@@ -105,7 +105,7 @@ impl Table {
                     name: format!("{wing}_{rest}"),
                     unit,
                     kind: Kind::Number(Any),
-                    doc: format!("{doc}. Applies to the wing {wing}."),
+                    doc: format!("{doc}. This parameter belongs to the wing {wing}."),
                     group: group.clone(),
                     default: 0.0,
                 })

@@ -33,17 +33,21 @@ pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
 /// Returns the measures of rows at the resonance: the model's, then measures about the resonance.
 fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
     let of = of.name();
-    let margin = "distance of the resonance from the nearer end of the range; zero if the largest value is at that end";
-    let gaps = "number of search points without a periodic motion: a larger peak may lie there";
+    let margin = &*format!(
+        "distance of resonance_hz from the nearer end of the searched range; zero if the {of} is largest at that end"
+    );
+    let gaps = "number of points in the search for the resonance without a periodic motion; at such a point may lie a larger peak";
     let added = [
         (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
         (
             "resonance_second_hz",
             "Hz",
-            &*format!("drive frequency of another peak of the {of}, if it is within 5 % of the largest"),
+            &*format!(
+                "drive frequency of another peak of the {of}, if its height is within 5 % of the largest peak"
+            ),
         ),
         (RESONANCE_MARGIN_HZ, "Hz", margin),
-        ("resonance_points", "", "number of points run in the search"),
+        ("resonance_points", "", "number of points that flap computed in the search for the resonance"),
         ("resonance_gaps", "", gaps),
     ];
     let added = added.map(|(name, unit, doc)| Column {

@@ -78,7 +78,7 @@ impl<'p> Layout<'p> {
             .map(|column| Column::new(&column.name, column.unit, CellKind::Number, &column.doc));
         let own = plan.measures().iter().map(|own| {
             let kind = if own.kind() == expression::Kind::Number { CellKind::Number } else { CellKind::Flag };
-            Column::new(&own.name, "", kind, "[measure] in the grid file")
+            Column::new(&own.name, "", kind, "measure of the table [measure] in the grid file")
         });
         let measures = models.chain(own).enumerate();
         let measures = measures.map(|(index, column)| Behind::Measure(Measure { index, column }));
@@ -176,18 +176,24 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
 
 /// Returns the column with the reasons for missing derivatives of a row.
 fn gradient_gap() -> Column {
-    let doc = "reasons for missing derivatives of the row, such as edge;zero; empty if none is missing";
+    let doc =
+        "reasons for missing derivatives of the row, such as edge;zero; empty if no derivative is missing";
     Column::new("gradient_gap", "", CellKind::Text, doc)
 }
 
 /// Returns the column with the branch of a curve.
 fn branch() -> Column {
-    Column::new("branch", "", CellKind::Text, "branch of the motion: up, down, or unstable between the two")
+    Column::new(
+        "branch",
+        "",
+        CellKind::Text,
+        "branch of the motion: up, down, or unstable (between the branches up and down)",
+    )
 }
 
 /// Returns the column that is true where a curve is bistable.
 fn bistable() -> Column {
-    let doc = "true if the branches up and down have different motions at this value of the parameter; empty if neither is periodic";
+    let doc = "true if the branches up and down have different motions at the same value of the parameter; empty if neither motion is periodic";
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
@@ -243,7 +249,7 @@ impl Entry<'_> {
             Entry::Bistable => bistable(),
             Entry::Measure(measure) => measure.column.clone(),
             Entry::State(_, name) => {
-                let doc = "state at the beginning of a drive period of the motion";
+                let doc = "state of the equations of motion at the beginning of a drive period";
                 Column::new(name, split_unit(name).1, CellKind::Number, doc)
             }
         }
@@ -398,7 +404,7 @@ pub(crate) struct Fixed {
 pub(crate) const POINT: Fixed = Fixed {
     name: "point",
     kind: CellKind::Whole,
-    doc: "index of the point in the grid, from 0",
+    doc: "index of the point in the grid, counted from 0",
     cell: |point, _| Cell::Whole(point.index),
 };
 
@@ -406,7 +412,7 @@ pub(crate) const POINT: Fixed = Fixed {
 pub(crate) const STATUS: Fixed = Fixed {
     name: "status",
     kind: CellKind::Text,
-    doc: "result of the search for an orbit, such as periodic or unsettled",
+    doc: "result of the search for an orbit (a periodic motion), such as periodic or unsettled",
     cell: |_, row| Cell::Text(row.status.name()),
 };
 
@@ -423,45 +429,45 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",
         kind: CellKind::Whole,
-        doc: "integrated drive periods, including the measured ones",
+        doc: "number of integrated drive periods, including the measured periods",
         cell: |_, row| Cell::Whole(row.cycles.into()),
     },
     Fixed {
         name: "residual",
         kind: CellKind::Number,
-        doc: "change of the state over the last period of the motion, in units of the typical sizes of its components",
+        doc: "change of the state over the last period of the motion, relative to the typical size of each state",
         cell: |_, row| Cell::Number(row.residual),
     },
     Fixed {
         name: "period",
         kind: CellKind::Whole,
-        doc: "drive periods until the motion repeats; 0 if no orbit was found",
+        doc: "number of drive periods after which the motion repeats; 0 if no orbit was found",
         cell: |_, row| Cell::Whole(row.period.into()),
     },
     Fixed {
         name: "floquet_max",
         kind: CellKind::Number,
-        doc: "factor by which a change of the motion grows or decays per orbit in the end: below 1 the motion is stable, near 1 it \
-              settles slowly",
+        doc: "factor by which a small change of the motion grows or decays per orbit (largest Floquet multiplier): below 1 the \
+              motion is stable, near 1 the motion settles slowly",
         cell: |_, row| Cell::Number(row.floquet_max),
     },
     Fixed {
         name: "stable",
         kind: CellKind::Flag,
-        doc: "true if nearby motions approach the orbit",
+        doc: "true if the motion returns to the orbit after a small change",
         cell: |_, row| Cell::Flag(row.stable()),
     },
     Fixed {
         name: "error_estimate",
         kind: CellKind::Number,
-        doc: "numerical error, estimated: the largest relative error of stroke, pitch, lift and power, without the errors \
-              of the model; inf if there is no estimate",
+        doc: "estimated numerical error: the largest relative error of stroke, pitch, lift and power, without the errors of \
+              the model; inf if flap cannot estimate the error",
         cell: |_, row| Cell::Number(row.error_estimate),
     },
     Fixed {
         name: "rhs_evals",
         kind: CellKind::Whole,
-        doc: "evaluations of the equations of motion",
+        doc: "number of evaluations of the equations of motion",
         cell: |_, row| Cell::Whole(row.rhs_evals),
     },
 ];
@@ -470,6 +476,6 @@ pub(crate) const RUN: [Fixed; 7] = [
 pub(crate) const CURVE: Fixed = Fixed {
     name: "curve",
     kind: CellKind::Whole,
-    doc: "index of the design in the grid, from 0",
+    doc: "index of the design in the grid, counted from 0",
     cell: |point, _| Cell::Whole(point.index),
 };

@@ -11,75 +11,78 @@ crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
     pub struct Params {
         ["drive"]
-        /// Drive voltage, peak to peak. The plates' voltages lie between 0 and this value, in antiphase, Eq. (7).
-        /// With harmonics, this is the fundamental alone.
+        /// Peak-to-peak drive voltage. If drive_offset is 0, the voltages of both plates lie between 0 and
+        /// drive_voltage_pp, in antiphase, Eq. (7). If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak
+        /// voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
-        /// Drive frequency. The paper sweeps it at 15 Hz/s.
+        /// Drive frequency. The experiments of the paper sweep the drive frequency at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 120.0,
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
-        /// Bias between the plates: half of it is added to the voltage of plate 1 and subtracted from the voltage of
-        /// plate 2. Not in the paper.
+        /// Constant voltage difference between the two plates. Half of drive_offset is added to the voltage of plate 1,
+        /// and half is subtracted from the voltage of plate 2. The paper does not contain this parameter.
         drive_offset: f64 = ("V", "", Number(Any), default: 0.0) 0.0,
 
         ["transmission"]
-        /// Transmission ratio: stroke per displacement of the actuator's tip.
+        /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)) 3333.0,
-        /// Stiffness of the transmission, at the actuator's tip: T^2 kappa_t.
+        /// Stiffness T^2 kappa_t of the transmission at the actuator's tip, with the transmission ratio T and the
+        /// rotational stiffness kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true, scales_with: &[("transmission_ratio", 2.0)]) 197.7,
-        /// Growth of the transmission ratio T + T_3 x^2 with the square of the tip's displacement x. Not in the
-        /// paper.
+        /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
+        /// The paper does not contain this parameter.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Damping of the stroke about the stroke axis. Not in the paper.
+        /// Viscous damping of the stroke about the stroke axis. The paper does not contain this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor of the stroke's springs (actuator and transmission together). It acts as a damping of loss
-        /// factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the springs that act on the stroke: the actuator and the transmission together. The loss
+        /// factor adds a viscous damping: loss factor times stiffness, divided by the angular drive frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["wing"]
         /// Distance from the transmission's flexure to the wing's tip.
         wing_length: f64 = ("m", "R", Number(Positive)) 17e-3,
-        /// Wing area.
+        /// Area of one wing.
         wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
-        /// Wing shape: radius of the area's second moment about the stroke axis, over wing_length.
+        /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
-        /// Wing width: largest distance from the hinge's axis.
+        /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
-        /// Wing shape: radius of the area's second moment about the hinge's axis, over wing_width.
+        /// Radius of the second moment of the wing area about the hinge's axis, divided by wing_width.
         wing_width_2: f64 = ("", "w_2", Number(Positive)) 0.43,
-        /// Wing inertia about the stroke axis.
+        /// Moment of inertia of the wing about the stroke axis.
         wing_inertia_stroke: f64 = ("kg*m^2", "I_zz", Number(Positive), scales_with: &[("wing_length", 4.0)]) 51.1e-12,
-        /// Added inertia: inertia of the air that moves with the wing, about the stroke axis.
+        /// Added inertia about the stroke axis: moment of inertia of the air that moves with the wing.
         added_inertia_stroke: f64 = ("kg*m^2", "I_am", Number(NonNegative), scales_with: &[("wing_length", 5.0), ("air_density", 1.0)]) 10.22e-12,
-        /// Wing inertia about the hinge's axis.
+        /// Moment of inertia of the wing about the hinge's axis.
         wing_inertia_hinge: f64 = ("kg*m^2", "I_xx", Number(Positive), is_fitted: true, scales_with: &[("wing_length", 4.0)]) 0.95 * 1.29e-12,
-        /// Product of inertia that couples stroke and hinge.
+        /// Product of inertia of the wing, which couples stroke and pitch.
         wing_inertia_product: f64 = ("kg*m^2", "I_xz", Number(Any), is_fitted: true, scales_with: &[("wing_length", 4.0)]) 0.29 * 2.8e-12,
 
         ["hinge"]
-        /// Stiffness of the wing hinge.
+        /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true, scales_with: FLEXURE) 0.985 * 1.52e-6,
-        /// Damping of the wing hinge. Not in the paper.
+        /// Viscous damping of the wing hinge. The paper does not contain this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
-        /// Density of air. Assumed: not given in the paper.
+        /// Density of the air. The value is assumed, because the paper does not give one.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
-        /// Drag coefficient at an attack angle of 90 deg (pitch 0).
+        /// Drag coefficient of the wing at an attack angle of 90 deg (pitch 0).
         drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), is_fitted: true) 1.25 * 3.4,
-        /// Drag coefficient at an attack angle of 0 (pitch 90 deg).
+        /// Drag coefficient of the wing at an attack angle of 0 (pitch 90 deg).
         drag_coefficient_min: f64 = ("", "b_min", Number(NonNegative), is_fitted: true) 0.39 * 0.4,
-        /// Lift coefficient at an attack angle of 45 deg.
+        /// Lift coefficient of the wing at an attack angle of 45 deg.
         lift_coefficient_max: f64 = ("", "b_L", Number(NonNegative), is_fitted: true) 1.8,
-        /// Radial centre of pressure: lever arm of the drag about the stroke axis.
+        /// Lever arm of the drag about the stroke axis (radial centre of pressure).
         pressure_radius: f64 = ("m", "R_cp", Number(Positive), is_fitted: true, scales_with: &[("wing_length", 1.0)]) 1.42 * 9.56e-3,
         /// Lever arm of the rotational drag about the hinge's axis.
         rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true, scales_with: &[("wing_length", 1.0)]) 0.39 * 1.93e-3,
-        /// Chordwise centre of pressure at an attack angle of 0, in mean widths A_w/R, Eq. (11).
+        /// Chordwise centre of pressure at an attack angle of 0, as a fraction of the mean wing width A_w/R, Eq. (11).
         pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true) 0.132,
-        /// Chordwise centre of pressure at an attack angle of 90 deg, in mean widths A_w/R, Eq. (11).
+        /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width A_w/R, Eq.
+        /// (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
 
         ["actuator"]
@@ -87,62 +90,73 @@ crate::parameters! {
         actuator_length: f64 = ("m", "l_pzt", Number(Positive)) 9e-3,
         /// Mean width of the actuator.
         actuator_width: f64 = ("m", "w_n", Number(Positive)) 1.125e-3,
-        /// Width of the actuator at its base over its mean width, between 0 and 2.
+        /// Width of the actuator at its base, divided by its mean width. The ratio lies between 0 and 2.
         actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
-        /// Length of the actuator's rigid extension over actuator_length.
+        /// Length of the actuator's rigid extension, divided by actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
-        /// Mass of the actuator, as a mass at its tip. Not in the paper's equations, which leave out about 7 mg.
+        /// Mass of the actuator, as a point mass at the actuator's tip. The equations of the paper leave out this mass,
+        /// which is about 7 mg.
         actuator_mass: f64 = ("kg", "", Number(NonNegative)) 0.0,
         /// Thickness of each piezoelectric plate.
         piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)) 135e-6,
-        /// Thickness of the carbon-fibre layer between the plates.
+        /// Thickness of the carbon-fibre layer between the two piezoelectric plates.
         shim_thickness: f64 = ("m", "t_cf", Number(NonNegative)) 50e-6,
         /// Young's modulus of the carbon-fibre layer.
         shim_modulus: f64 = ("Pa", "E_cf", Number(NonNegative)) 340e9,
-        /// Young's modulus of the plates without compression, Eq. (4).
+        /// Young's modulus of the piezoelectric plates without compression, Eq. (4).
         piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
-        /// Young's modulus of the plates under large compression, Eq. (4).
+        /// Young's modulus of the piezoelectric plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
-        /// Strain at the middle of the modulus transition, negative in compression, Eq. (4).
+        /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
+        /// negative in compression.
         modulus_strain: f64 = ("", "eps_0", Number(Any)) -0.047e-2,
-        /// Steepness of the modulus against strain, Eq. (4).
+        /// Steepness, with respect to strain, of the transition between piezo_modulus_min and piezo_modulus_max, Eq.
+        /// (4).
         modulus_steepness: f64 = ("", "a_1", Number(Positive)) 8000.0,
-        /// Piezoelectric stress per field at small fields, Eq. (6).
+        /// Piezoelectric stress per electric field at small fields, Eq. (6).
         piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)) 14.0,
-        /// Piezoelectric stress per field after the transition, without its decline, Eq. (6).
+        /// Piezoelectric stress per electric field at large fields, without the reduction by stress_decline, Eq. (6).
         piezo_stress_max: f64 = ("N/(V*m)", "f_31,max", Number(NonNegative)) 29.0,
-        /// Field at the middle of the transition of the piezoelectric stress per field, Eq. (6).
+        /// Electric field in the middle of the transition between piezo_stress_min and piezo_stress_max, Eq. (6).
         stress_field: f64 = ("V/m", "E_0", Number(Any)) 0.4e6,
-        /// Steepness of the transition of the piezoelectric stress per field, Eq. (6).
+        /// Steepness, with respect to the electric field, of the transition between piezo_stress_min and
+        /// piezo_stress_max, Eq. (6).
         stress_steepness: f64 = ("m/V", "a_3", Number(NonNegative)) 10e-6,
-        /// Relative decline of the piezoelectric stress per field, Eq. (6).
+        /// Relative reduction of piezo_stress_max per electric field, Eq. (6).
         stress_decline: f64 = ("m/V", "a_4", Number(Any)) 69e-9,
-        /// Relative change of the plates' force with strain, Eq. (6).
+        /// Relative change of the force of a piezoelectric plate per strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)) -230.0,
-        /// Factor on the plates' force for losses in the actuator's attachment.
+        /// Factor that multiplies the force of the piezoelectric plates. The factor describes losses in the attachment
+        /// of the actuator. A factor of 1 means no loss.
         force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true) 0.7,
-        /// Factor on the actuator's stiffness for losses in its attachment.
+        /// Factor that multiplies the stiffness of the actuator. The factor describes losses in the attachment of the
+        /// actuator. A factor of 1 means no loss.
         stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true) 0.79,
-        /// Factor on the actuator's stiffness that fits its free deflection to the measured one.
+        /// Second factor that multiplies the stiffness of the actuator. The factor adjusts the computed free deflection
+        /// of the actuator to the measured deflection. A factor of 1 means no correction.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
-        /// Force of plate 2 over the force of plate 1 at the same voltage. Not in the paper.
+        /// Force of plate 2, divided by the force of plate 1 at the same voltage. The paper does not contain this
+        /// parameter.
         plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["vehicle"]
-        /// Capacitance of a vehicle's two actuators together: four plates.
+        /// Total capacitance of the two actuators of a vehicle, which have four plates.
         vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)) 10.1e-9,
-        /// Mass of the vehicle with its two actuators and wings, Table II. It is subtracted in payload_mg.
+        /// Mass of the vehicle with its two actuators and two wings, Table II. To compute the column payload_mg, flap
+        /// subtracts this mass from the usable lift.
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]
-        /// Transition of the piezoelectric stress with field, Eq. (6): corrected, or as printed (which halves the force).
+        /// Transition of the piezoelectric stress with the electric field, Eq. (6): corrected, or as printed. The
+        /// printed equation halves the force.
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
-        /// Attack angle on which the chordwise centre of pressure depends, Eq. (11): folded to at most 90 deg,
-        /// relative to the motion, or as printed (which breaks mirror symmetry).
+        /// Attack angle that determines the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative
+        /// to the motion, or as printed. The printed equation breaks the mirror symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
-        /// Stiffness of the actuator: grows with strain, Eq. (4), or constant at its value for zero strain.
+        /// Stiffness of the actuator: dependent on the strain, Eq. (4), or constant. The constant stiffness is the
+        /// stiffness at zero strain.
         actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)) ActuatorStiffness::StrainDependent,
     }
 

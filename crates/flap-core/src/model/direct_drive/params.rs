@@ -12,9 +12,10 @@ crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
     pub struct Params {
         ["drive"]
-        /// Drive voltage, peak to peak: twice the paper's V_0. With harmonics, this is the fundamental alone.
+        /// Peak-to-peak drive voltage: twice the V_0 of the paper. If drive_shape is "harmonics", drive_voltage_pp is
+        /// the peak-to-peak voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
-        /// Constant part of the drive voltage. The paper's drive is V_0 sin(wt) + V_0.
+        /// Constant part of the drive voltage. The drive voltage of the paper is V_0 sin(w t) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 209.0,
@@ -24,78 +25,90 @@ crate::parameters! {
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
 
         ["wing"]
-        /// Wing length, from the wing's root to its tip.
+        /// Wing length, from the root of the wing to its tip.
         wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
-        /// Mean chord.
+        /// Mean chord of the wing.
         mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
-        /// Distance from the stroke axis to the wing's root. Not given in the paper.
+        /// Distance from the stroke axis to the root of the wing. The paper does not give this distance.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
-        /// Chord at half of the wing length. Not given in the paper. Only for flow_direction = "uniform".
+        /// Chord of the wing at half of the wing length. The paper does not give this chord. This parameter has an
+        /// effect only if flow_direction is "uniform".
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
-        /// Wing mass.
+        /// Mass of the wing.
         wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
-        /// Distance of the wing's centre of mass from its root, along the span.
+        /// Distance of the wing's centre of mass from the root of the wing, along the span.
         mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
-        /// Chordwise position of the wing's centre of mass, positive towards the leading edge. It is negative in a
-        /// real wing (the paper prints its magnitude).
+        /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The position of a real
+        /// wing is negative, but the paper prints its magnitude.
         mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
-        /// Wing inertia about the spanwise axis through the centre of mass.
+        /// Moment of inertia of the wing about the spanwise axis through its centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,
-        /// Wing inertia about the chordwise axis through the centre of mass.
+        /// Moment of inertia of the wing about the chordwise axis through its centre of mass.
         wing_inertia_chord: f64 = ("kg*m^2", "J_wy", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 5.07e-11,
-        /// Product of inertia of the wing about its centre of mass, signed as in Eq. (17).
+        /// Product of inertia of the wing about its centre of mass, with the sign of Eq. (17).
         wing_inertia_product: f64 = ("kg*m^2", "J_wxy", Number(Any), scales_with: &[("wing_length", 4.0)]) 3.62e-13,
-        /// Inertia of the leading-edge part about the stroke axis.
+        /// Moment of inertia of the leading-edge part about the stroke axis.
         leading_edge_inertia: f64 = ("kg*m^2", "J_B", Number(NonNegative)) 3.89e-9,
 
         ["hinge"]
-        /// Stiffness of the wing hinge.
+        /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
-        /// Damping of the wing hinge. Not in the paper.
+        /// Viscous damping of the wing hinge. The paper does not contain this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
-        /// Direction of flow for the translational forces. "uniform" is the direction of the wing's mean velocity, as
-        /// in the paper. "blade" is the direction of each blade element's own velocity. With "blade", shape moments,
-        /// rotation_moment and midspan_chord follow from the chord shape, and values given for them are not used.
+        /// Direction of the flow for the translational forces: of the whole wing ("uniform"), or of each blade element
+        /// ("blade"). The direction "uniform" follows from the mean velocity of the wing, as in the paper. The
+        /// direction "blade" follows from the velocity of each blade element. With "blade", flap computes the shape
+        /// moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for these
+        /// parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
-        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord, whose constant
-        /// term is 1. Not in the paper: fitted to its shape moments. Only for flow_direction = "blade".
+        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord. The constant term
+        /// of this series is 1. The paper gives no chord shape: the coefficients were fitted to the shape moments of
+        /// the paper. This parameter has an effect only if flow_direction is "blade".
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
-        /// Chord shape: coefficient of the Legendre polynomial P_2. Not in the paper.
+        /// Chord shape: coefficient of the Legendre polynomial P_2(2r/R - 1) in chord / mean_chord. The coefficient was
+        /// fitted to the shape moments of the paper. This parameter has an effect only if flow_direction is "blade".
         chord_legendre_2: f64 = ("", "a_2", Number(Any)) -0.0913,
-        /// Chord shape: coefficient of the Legendre polynomial P_3. Not in the paper.
+        /// Chord shape: coefficient of the Legendre polynomial P_3(2r/R - 1) in chord / mean_chord. The coefficient was
+        /// fitted to the shape moments of the paper. This parameter has an effect only if flow_direction is "blade".
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
         /// every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
-        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). All shape moments are only for
-        /// flow_direction = "uniform".
+        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). This parameter has an effect
+        /// only if flow_direction is "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
-        /// Wing shape moment: normalised integral of chord^4.
+        /// Wing shape moment: normalised integral of chord^4 along the span. This parameter has an effect only if
+        /// flow_direction is "uniform".
         shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)) 1.04,
-        /// Wing shape moment: normalised integral of radius * chord^2.
+        /// Wing shape moment: normalised integral of radius * chord^2 along the span. This parameter has an effect only
+        /// if flow_direction is "uniform".
         shape_moment_12: f64 = ("", "I_w1,2", Number(Positive)) 0.88,
-        /// Wing shape moment: normalised integral of radius * chord^3.
+        /// Wing shape moment: normalised integral of radius * chord^3 along the span. This parameter has an effect only
+        /// if flow_direction is "uniform".
         shape_moment_13: f64 = ("", "I_w1,3", Number(Positive)) 0.89,
-        /// Wing shape moment: normalised integral of radius^2 * chord.
+        /// Wing shape moment: normalised integral of radius^2 * chord along the span. This parameter has an effect only
+        /// if flow_direction is "uniform".
         shape_moment_21: f64 = ("", "I_w2,1", Number(Positive)) 0.82,
-        /// Wing shape moment: normalised integral of radius^2 * chord^2.
+        /// Wing shape moment: normalised integral of radius^2 * chord^2 along the span. This parameter has an effect
+        /// only if flow_direction is "uniform".
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)) 0.84,
-        /// Wing shape moment: normalised integral of radius^3 * chord.
+        /// Wing shape moment: normalised integral of radius^3 * chord along the span. This parameter has an effect only
+        /// if flow_direction is "uniform".
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. Only
-        /// for flow_direction = "uniform".
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. This
+        /// parameter has an effect only if flow_direction is "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.68e-10,
 
         ["actuator"]
-        /// Actuator length.
+        /// Length of the actuator.
         actuator_length: f64 = ("m", "L_A", Number(Positive)) 10.5e-3,
-        /// Actuator width at the root.
+        /// Width of the actuator at its root.
         actuator_root_width: f64 = ("m", "w_r", Number(Positive)) 6.0e-3,
-        /// Actuator width at the tip.
+        /// Width of the actuator at its tip.
         actuator_tip_width: f64 = ("m", "w_t", Number(NonNegative)) 2.4e-3,
         /// Thickness of the piezoelectric layer.
         piezo_thickness: f64 = ("m", "t_0", Number(Positive)) 100e-6,
@@ -105,49 +118,51 @@ crate::parameters! {
         shim_thickness: f64 = ("m", "t_2", Number(NonNegative)) 100e-6,
         /// Young's modulus of the piezoelectric layer.
         piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)) 14.3e9,
-        /// Young's modulus of the adhesive.
+        /// Young's modulus of the adhesive layer.
         adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)) 5.0e9,
-        /// Young's modulus of the shim, already halved because of its slits.
+        /// Young's modulus of the shim. The value is already halved because of the slits in the shim.
         shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)) 50.3e9,
         /// Density of the piezoelectric layer.
         piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)) 8000.0,
-        /// Density of the adhesive.
+        /// Density of the adhesive layer.
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
-        /// Density of the shim, already halved because of its slits.
+        /// Density of the shim. The value is already halved because of the slits in the shim.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
-        /// Piezoelectric coefficient. Its sign only mirrors the motion.
+        /// Piezoelectric coefficient. The sign of the coefficient only mirrors the motion.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
-        /// Permittivity of the piezoelectric layer (the paper does not state if free or clamped).
+        /// Permittivity of the piezoelectric layer. The paper does not state if the value is for a free or a clamped
+        /// layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Damping of the stroke about the stroke axis. Not in the paper.
+        /// Viscous damping of the stroke about the stroke axis. The paper does not contain this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor of the stroke's spring, the actuator. It acts as a damping of loss factor times stiffness over
-        /// the drive's angular frequency.
+        /// Loss factor of the actuator, which is the spring of the stroke. The loss factor adds a viscous damping: loss
+        /// factor times stiffness, divided by the angular drive frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["air"]
-        /// Density of air.
+        /// Density of the air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)) 1.29,
-        /// Drag coefficient at an attack angle of 90 deg.
+        /// Drag coefficient of the wing at an attack angle of 90 deg.
         drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative)) 5.0,
-        /// Drag coefficient at an attack angle of 0.
+        /// Drag coefficient of the wing at an attack angle of 0.
         drag_coefficient_min: f64 = ("", "C_Dmin", Number(NonNegative)) 0.4,
-        /// Rotational drag coefficient, Eq. (32).
+        /// Coefficient of the rotational drag, Eq. (32).
         rotation_drag: f64 = ("", "C_rd", Number(NonNegative)) 3.5,
-        /// Centre of pressure: shift in chords per radian of attack, Eq. (24).
+        /// Shift of the centre of pressure in chords, per radian of attack angle, Eq. (24).
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
-        /// Centre of pressure at zero attack, in chords from the leading edge, Eq. (24).
+        /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
-        /// Attack angle on which the centre of pressure depends. It is relative to the motion, folded to at most 90
-        /// deg, or as printed (which breaks mirror symmetry).
+        /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion, folded to at most 90
+        /// deg, or as printed. The printed equation breaks the mirror symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
-        /// Moments of the added mass: as in the paper, or with the gyroscopic terms of the Lagrangian form.
+        /// Moments of the added mass, Eqs. (28) to (30): as in the paper, or with the gyroscopic terms of a Lagrangian
+        /// derivation.
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
-        /// Sign of the added-mass term of the lift, Eq. (35): corrected, or as printed.
+        /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
     }
 

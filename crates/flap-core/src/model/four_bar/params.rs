@@ -17,7 +17,8 @@ crate::parameters! {
     /// one.
     pub struct Params {
         ["drive"]
-        /// Drive voltage, peak to peak.
+        /// Peak-to-peak drive voltage. If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak voltage of
+        /// the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 150.0,
         /// Constant part of the drive voltage.
         drive_bias: f64 = ("V", "V_dc", Number(Any)) 50.0,
@@ -27,150 +28,163 @@ crate::parameters! {
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
-        /// Voltage at which the actuator exerts no force at zero stroke; assumed: not in the paper.
+        /// Voltage at which the actuator exerts no force at zero stroke. The value is assumed, because the paper does
+        /// not give one.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
-        /// Actuator length; assumed: determines the force of the drive.
+        /// Length of the actuator. The value is assumed, and determines the force of the drive.
         actuator_length: f64 = ("m", "L", Number(Positive)) 16e-3,
-        /// Actuator width, uniform; assumed: determines the force of the drive.
+        /// Width of the actuator, which is uniform. The value is assumed, and determines the force of the drive.
         actuator_width: f64 = ("m", "w", Number(Positive)) 18e-3,
-        /// Thickness of the piezoelectric layer; assumed: a commercial sheet.
+        /// Thickness of the piezoelectric layer. The value is assumed: the thickness of a commercial sheet.
         piezo_thickness: f64 = ("m", "h_p", Number(Positive)) 127e-6,
-        /// Thickness of the shim; assumed.
+        /// Thickness of the shim. The value is assumed.
         shim_thickness: f64 = ("m", "h_s", Number(NonNegative)) 76e-6,
-        /// Young's modulus of the piezoelectric layer; assumed: PZT-5H.
+        /// Young's modulus of the piezoelectric layer. The value is assumed: the modulus of PZT-5H.
         piezo_modulus: f64 = ("Pa", "E_p", Number(Positive)) 62e9,
-        /// Young's modulus of the shim; assumed: steel.
+        /// Young's modulus of the shim. The value is assumed: the modulus of steel.
         shim_modulus: f64 = ("Pa", "E_s", Number(NonNegative)) 193e9,
-        /// Density of the piezoelectric layer; assumed: PZT-5H.
+        /// Density of the piezoelectric layer. The value is assumed: the density of PZT-5H.
         piezo_density: f64 = ("kg/m^3", "rho_p", Number(NonNegative)) 7800.0,
-        /// Density of the shim; assumed: steel.
+        /// Density of the shim. The value is assumed: the density of steel.
         shim_density: f64 = ("kg/m^3", "rho_s", Number(NonNegative)) 7900.0,
-        /// Piezoelectric coefficient, its magnitude; assumed: PZT-5H.
+        /// Magnitude of the piezoelectric coefficient. The value is assumed: the coefficient of PZT-5H.
         piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)) 320e-12,
-        /// Permittivity of the unstressed piezoelectric layer; assumed: PZT-5H. It affects the current alone.
+        /// Permittivity of the unstressed piezoelectric layer. The value is assumed: the permittivity of PZT-5H. The
+        /// permittivity affects only the current.
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)) 3800.0 * EPSILON_0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
 
         ["transmission"]
-        /// Stiffness in series between the actuator's tip and the slider-crank.
+        /// Stiffness of the spring between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)) 1400.0,
 
-        /// Radius of the slider-crank on the input link; assumed: adjusted to the first resonance.
+        /// Radius of the slider-crank on the input link. The value is assumed: the radius was adjusted to the first
+        /// resonance.
         crank_radius: f64 = ("m", "L_c", Number(Positive)) 3.285e-3,
-        /// Length of the slider-crank's connecting rod; assumed.
+        /// Length of the connecting rod of the slider-crank. The value is assumed.
         connecting_rod: f64 = ("m", "L_s", Number(Positive)) 5e-3,
-        /// Ground link: distance between the four-bar's fixed pivots.
+        /// Length of the ground link: distance between the fixed pivots of the four-bar.
         ground_link: f64 = ("m", "L_0", Number(Positive)) 13.5e-3,
-        /// Input link, driven by the slider-crank.
+        /// Length of the input link of the four-bar, which the slider-crank drives.
         input_link: f64 = ("m", "L_1", Number(Positive)) 12.1e-3,
-        /// Coupler link.
+        /// Length of the coupler link of the four-bar.
         coupler_link: f64 = ("m", "L_2", Number(Positive)) 10e-3,
-        /// Output link, which carries the wing.
+        /// Length of the output link of the four-bar, which carries the wing.
         output_link: f64 = ("m", "L_3", Number(Positive)) 5e-3,
-        /// Angle of the output link to the ground link at zero stroke; assumed: the angle of the largest
-        /// transmission.
+        /// Angle between the output link and the ground link at zero stroke. The value is assumed: the angle of the
+        /// largest transmission ratio.
         neutral_angle: Option<f64> = ("rad", "psi_n", Following(Any, "the angle between 30 and 80 deg at which the transmission is stationary")) None,
-        /// Mass of the input link; assumed: carbon fibre.
+        /// Mass of the input link. The value is assumed: the mass of a carbon-fibre link.
         input_link_mass: f64 = ("kg", "m_L1", Number(NonNegative)) 11.616e-6,
-        /// Mass of the coupler link; assumed: carbon fibre.
+        /// Mass of the coupler link. The value is assumed: the mass of a carbon-fibre link.
         coupler_link_mass: f64 = ("kg", "m_L2", Number(NonNegative)) 9.6e-6,
-        /// Mass of the output link; assumed: carbon fibre.
+        /// Mass of the output link. The value is assumed: the mass of a carbon-fibre link.
         output_link_mass: f64 = ("kg", "m_L3", Number(NonNegative)) 4.8e-6,
-        /// Inertia of the input link about its centre; assumed: a uniform rod.
+        /// Moment of inertia of the input link about its centre. The value is assumed: the inertia of a uniform rod.
         input_link_inertia: Option<f64> = ("kg*m^2", "J_L1", Following(NonNegative, "input_link_mass * input_link^2 / 12")) None,
-        /// Inertia of the coupler link about its centre; assumed: a uniform rod.
+        /// Moment of inertia of the coupler link about its centre. The value is assumed: the inertia of a uniform rod.
         coupler_link_inertia: Option<f64> = ("kg*m^2", "J_L2", Following(NonNegative, "coupler_link_mass * coupler_link^2 / 12")) None,
-        /// Inertia of the output link about its centre; assumed: a uniform rod.
+        /// Moment of inertia of the output link about its centre. The value is assumed: the inertia of a uniform rod.
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
-        /// Damping of the stroke by the transmission's flexures; assumed: modal damping ratios of 4 to 9 percent.
+        /// Viscous damping of the stroke by the flexures of the transmission. The value is assumed: it gives modal
+        /// damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)) 2e-7,
-        /// Loss factor of the stroke's springs (actuator and series spring together). It acts as a damping of loss
-        /// factor times stiffness over the drive's angular frequency.
+        /// Loss factor of the springs that act on the stroke: the actuator and the series spring together. The loss
+        /// factor adds a viscous damping: loss factor times stiffness, divided by the angular drive frequency.
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
 
         ["hinge"]
-        /// Stiffness of the wing hinge.
+        /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive), scales_with: FLEXURE) 50e-6,
-        /// Damping of the wing hinge.
+        /// Viscous damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)) 5e-9,
         /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing"]
-        /// Distance from the stroke axis to the wing's root; assumed.
+        /// Distance from the stroke axis to the root of the wing. The value is assumed.
         wing_offset: f64 = ("m", "r_0", Number(NonNegative)) 4e-3,
-        /// Wing length, from root to tip; assumed.
+        /// Wing length, from the root of the wing to its tip. The value is assumed.
         wing_length: f64 = ("m", "L_w", Number(Positive)) 24e-3,
-        /// Chord at the root; assumed. The chord is root_chord times a polynomial in x, 0 at the root and 1 at the tip.
+        /// Chord of the wing at its root. The value is assumed. The chord is root_chord times a polynomial in x, where
+        /// x is 0 at the root and 1 at the tip.
         root_chord: f64 = ("m", "c_0", Number(Positive), scales_with: &[("wing_length", 1.0)]) 8.3e-3,
-        /// Constant term of the chord polynomial; assumed.
+        /// Constant term of the chord polynomial. The value is assumed.
         chord_term_0: f64 = ("", "p_0", Number(Any)) 1.0,
-        /// Coefficient of x in the chord polynomial; assumed.
+        /// Coefficient of x in the chord polynomial, where x is 0 at the root of the wing and 1 at its tip. The value
+        /// is assumed.
         chord_term_1: f64 = ("", "p_1", Number(Any)) 1.0,
-        /// Coefficient of x^2 in the chord polynomial; assumed.
+        /// Coefficient of x^2 in the chord polynomial, where x is 0 at the root of the wing and 1 at its tip. The value
+        /// is assumed.
         chord_term_2: f64 = ("", "p_2", Number(Any)) 0.0,
-        /// Coefficient of x^3 in the chord polynomial; assumed.
+        /// Coefficient of x^3 in the chord polynomial, where x is 0 at the root of the wing and 1 at its tip. The value
+        /// is assumed.
         chord_term_3: f64 = ("", "p_3", Number(Any)) 0.0,
-        /// Coefficient of x^4 in the chord polynomial; assumed: zero chord at the tip.
+        /// Coefficient of x^4 in the chord polynomial, where x is 0 at the root of the wing and 1 at its tip. The value
+        /// is assumed, so that the chord is zero at the tip.
         chord_term_4: f64 = ("", "p_4", Number(Any)) -2.0,
         /// The chord as a table.
         chords: ChordTable = (flatten) ChordTable::off(),
-        /// Position of the rotation axis, in chords behind the leading edge.
+        /// Distance of the rotation axis from the leading edge, in chords.
         axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
-        /// Wing mass; assumed: spar, veins and membrane, scaled to the second resonance.
+        /// Mass of the wing. The value is assumed: the mass of spar, veins and membrane, scaled to the second
+        /// resonance.
         wing_mass: f64 = ("kg", "m_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 9.577e-6,
-        /// Distance of the wing's centre of mass from the stroke axis; assumed.
+        /// Distance of the wing's centre of mass from the stroke axis. The value is assumed.
         mass_centre_radius: f64 = ("m", "R_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 15.22e-3,
-        /// Distance of the wing's centre of mass from the rotation axis, positive towards the trailing edge; assumed.
+        /// Distance of the wing's centre of mass from the rotation axis, positive towards the trailing edge. The value
+        /// is assumed.
         mass_centre_depth: f64 = ("m", "beta_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 1.569e-3,
-        /// Wing inertia about the spanwise axis through the centre of mass; assumed.
+        /// Moment of inertia of the wing about the spanwise axis through its centre of mass. The value is assumed.
         wing_inertia_span: f64 = ("kg*m^2", "J_xx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 8.333e-11,
-        /// Wing inertia about the normal through the centre of mass; assumed.
+        /// Moment of inertia of the wing about the normal of its surface through its centre of mass. The value is
+        /// assumed.
         wing_inertia_normal: f64 = ("kg*m^2", "J_yy", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.269e-10,
-        /// Wing inertia about the chordwise axis through the centre of mass; assumed.
+        /// Moment of inertia of the wing about the chordwise axis through its centre of mass. The value is assumed.
         wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 3.436e-10,
-        /// Product of inertia about the centre of mass, positive if the wing is deeper towards the tip; assumed.
+        /// Product of inertia of the wing about its centre of mass, positive if the wing is deeper towards the tip. The
+        /// value is assumed.
         wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any), scales_with: &[("wing_length", 4.0)]) -8.38e-12,
 
         ["air"]
-        /// Density of air; assumed.
+        /// Density of the air. The value is assumed.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
-        /// Lift coefficient, Eq. (9): constant term.
+        /// Constant term of the lift coefficient, Eq. (9).
         lift_offset: f64 = ("", "0.225", Number(Any)) 0.225,
-        /// Lift coefficient, Eq. (9): amplitude of the sine.
+        /// Amplitude of the sine in the lift coefficient, Eq. (9).
         lift_amplitude: f64 = ("", "1.58", Number(Any)) 1.58,
-        /// Lift coefficient, Eq. (9): factor of the attack angle.
+        /// Factor that multiplies the attack angle in the lift coefficient, Eq. (9).
         lift_slope: f64 = ("", "2.13", Number(Any)) 2.13,
-        /// Lift coefficient, Eq. (9): angle subtracted.
+        /// Angle that is subtracted in the sine of the lift coefficient, Eq. (9).
         lift_phase: f64 = ("rad", "7.2 deg", Number(Any)) LIFT_PHASE,
-        /// Drag coefficient, Eq. (10): constant term.
+        /// Constant term of the drag coefficient, Eq. (10).
         drag_offset: f64 = ("", "1.92", Number(Any)) 1.92,
-        /// Drag coefficient, Eq. (10): amplitude of the cosine.
+        /// Amplitude of the cosine in the drag coefficient, Eq. (10).
         drag_amplitude: f64 = ("", "1.55", Number(Any)) 1.55,
-        /// Drag coefficient, Eq. (10): factor of the attack angle.
+        /// Factor that multiplies the attack angle in the drag coefficient, Eq. (10).
         drag_slope: f64 = ("", "2.04", Number(Any)) 2.04,
-        /// Drag coefficient, Eq. (10): angle subtracted.
+        /// Angle that is subtracted in the cosine of the drag coefficient, Eq. (10).
         drag_phase: f64 = ("rad", "9.82 deg", Number(Any)) DRAG_PHASE,
-        /// Rotational drag coefficient, Eq. (6).
+        /// Coefficient of the rotational drag, Eq. (6).
         rotation_drag: f64 = ("", "C_rot", Number(NonNegative)) 2.0,
-        /// Centre of pressure: shift in chords per radian of attack, Eq. (17).
+        /// Shift of the centre of pressure in chords, per radian of attack angle, Eq. (17).
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
-        /// Centre of pressure at zero attack, in chords, Eq. (17).
+        /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
 
         ["readings of the paper"]
-        /// Chordwise lever arms of Eqs. (8) and (17): as printed (as if the rotation axis were the leading edge), or
-        /// from the rotation axis.
+        /// Chordwise lever arms of Eqs. (8) and (17): as printed, or from the rotation axis. The printed arms take the
+        /// leading edge as the rotation axis.
         arms: Arms = ("", "", Choice(Arms::NAMES)) Arms::Printed,
-        /// Sign of the pitch acceleration's term of the added-mass lift, Eq. (7): corrected, or as printed.
+        /// Sign of the term with the pitch acceleration in the added-mass lift, Eq. (7): corrected, or as printed.
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)) AddedMassSign::Corrected,
         ["strips of the wing"]
-        /// Strips of the wing: at Gauss-Legendre nodes, or of equal width with their midpoints.
+        /// Division of the wing into strips: at the nodes of the Gauss-Legendre rule, or of equal width.
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)) Quadrature::Gauss,
-        /// Number of strips, a whole number from 1 to 64.
+        /// Number of strips of the wing: a whole number from 1 to 64.
         strips: f64 = ("", "N", Number(STRIPS)) 16.0,
     }
 
