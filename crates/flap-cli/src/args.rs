@@ -78,7 +78,7 @@ pub(crate) enum Command {
     Vehicle(VehicleArgs),
     /// Find the best design within the axes of a grid file, under conditions
     Optimise(OptimiseArgs),
-    /// Open a page in the browser with sliders for the parameters and curves that follow them
+    /// Open a page in the browser with sliders for the parameters, and curves that change with the sliders
     #[cfg(feature = "live")]
     Live(LiveArgs),
     /// Check a grid file and summarize the sweep that it describes
@@ -115,7 +115,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
 ];
 
 const EXIT_CODES: &str = "\
-Results are printed to stdout, everything else to stderr.
+flap prints results to stdout, and all other messages to stderr.
 
 Exit codes:
   0    done

@@ -8,13 +8,13 @@ use super::values::{density, length, line_density, mass};
 
 #[derive(Subcommand)]
 pub(crate) enum DeviceCommand {
-    /// Print the device file of a preset, for you to edit
+    /// Print the device file of a preset, which you can edit
     ///
-    /// The file lists every parameter with its value, unit, range and meaning.
+    /// The device file lists every parameter with its value, unit, range and meaning.
     New(NewArgs),
     /// Compute the parameters of a wing from its outline, and print them as a device file
     ///
-    /// The parameters are areas, radii, inertias, and a table of the chord.
+    /// These parameters are areas, radii, inertias, and a table of the chord.
     Wing(WingArgs),
 }
 
@@ -23,7 +23,7 @@ pub(crate) enum DeviceCommand {
     after_help = "Examples:\n  flap device new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap device new mybee.toml > copy.toml"
 )]
 pub(crate) struct NewArgs {
-    /// Preset, device file or grid file whose values are printed
+    /// Preset, device file or grid file whose values flap prints
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 }
@@ -33,11 +33,11 @@ pub(crate) struct NewArgs {
 pub(crate) struct WingArgs {
     /// CSV file with the outline of the wing, from root to tip
     ///
-    /// Columns: `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`.
+    /// The columns are `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`.
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// Preset, device file or grid file that the wing is added to; its model decides which parameters are computed
+    /// Preset, device file or grid file to which flap adds the wing. Its model determines the parameters that flap computes
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 
@@ -49,7 +49,7 @@ pub(crate) struct WingArgs {
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) thickness: Option<f64>,
 
-    /// Density of the membrane, such as `1400 kg/m^3`
+    /// Density of the wing's membrane, such as `1400 kg/m^3`
     #[arg(long, value_name = "DENSITY", value_parser = density)]
     pub(crate) density: Option<f64>,
 
@@ -59,15 +59,15 @@ pub(crate) struct WingArgs {
 
     /// Measured mass of the wing, such as `0.6 mg`
     ///
-    /// The masses of membrane and spar are scaled to this mass. Without --thickness and --density, the mass is
-    /// spread evenly over the area.
+    /// flap scales the masses of membrane and spar so that their sum is this mass. Without --thickness and --density, the mass
+    /// is spread evenly over the area of the wing.
     #[arg(long, value_name = "MASS", value_parser = mass)]
     pub(crate) mass: Option<f64>,
 }
 
 const WING_HELP: &str = "\
-Distances are measured from the hinge's axis: the leading edge lies ahead of it, the trailing edge behind it. Between \
-stations, the edges are straight. Some parameters must change together with the wing: see the manual, How to, Wings.
+Distances are measured from the hinge's axis: the leading edge lies ahead of this axis, the trailing edge behind \
+it. Between two rows of the file, the edges of the wing are straight. Some parameters must change together with the wing: see the manual, How to, Wings.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

@@ -33,7 +33,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  flap generate man ~/.local/share/man/man1")]
 pub(crate) struct ManArgs {
-    /// Folder for the pages; existing pages are overwritten
+    /// Folder for the manual pages; flap overwrites existing pages
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
 }

@@ -10,7 +10,7 @@ use super::values;
 #[derive(clap::Args)]
 #[command(after_help = TOP_HELP)]
 pub(crate) struct TopArgs {
-    /// Column by which rows are ranked
+    /// Column by which flap ranks the rows
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: String,
 
@@ -27,9 +27,10 @@ pub(crate) struct TopArgs {
 }
 
 const TOP_HELP: &str = "\
-Lists the varied and derived parameters of the best rows, the column that ranks them, and their status. The table shows \
-six digits and prefixes of units; csv and json contain the cells of FILE. Rows without a value are left out. Rows with equal \
-values keep their order. If FILE is unfinished, the rows up to the last checkpoint are ranked.
+flap lists the best rows: their varied and derived parameters, the column that ranks the rows, and their status. The table \
+shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking column is \
+empty are left out. Rows with equal values keep their order. If FILE is unfinished, flap ranks the rows up to the last \
+checkpoint.
 
 Examples:
   flap top sweep.csv --by efficiency_gf_per_w
@@ -47,7 +48,8 @@ pub(crate) struct DescribeArgs {
 
     /// Columns to summarize, separated by commas [default: all columns after the parameters]
     ///
-    /// Columns of numbers are summarized by percentiles. In columns of words, such as true and false, each word is counted.
+    /// For a column with numbers, flap prints percentiles. For a column with text, such as true and false, flap counts how often
+    /// each text occurs.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -56,11 +58,12 @@ pub(crate) struct DescribeArgs {
 }
 
 const DESCRIBE_HELP: &str = "\
-Prints three kinds of tables. The first has the number of rows of each status. The second has the smallest value, the 5th, \
-50th and 95th percentile and the largest value of each measure. There is one table of the third kind for each \
-main measure. For each axis, it has the value in the best row, and the values in the best tenth of the rows. If that range \
-is wide, the axis matters little. `at the end` means that a wider axis may contain better designs. An axis is a varied parameter; in results of \
-`flap respond`, the branch is an axis too.
+flap prints three kinds of tables. The first table has the number of rows of each status. The second table has the smallest \
+value, the 5th, 50th and 95th percentile and the largest value of each measure. The third kind of table shows the best value \
+of each axis for one main measure. For each axis, this table has the value in the best row, and the range of values in the \
+best tenth of the rows. If this range is wide, the axis has little influence. `at the end` means that the best value is at \
+an end of the axis: a wider axis may contain better designs. An axis is a varied parameter; in results of `flap respond`, \
+the branch is an axis too.
 
 Examples:
   flap describe sweep.csv
@@ -74,14 +77,14 @@ pub(crate) struct LookArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// Better direction of the measure [default: min for power, current, strain, field, drag and force, max for other columns]
+    /// Better direction of the measure: larger or smaller values [default: min for power, current, strain, field, drag and force, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 
-    /// Use only the rows that satisfy this condition. May be repeated
+    /// Use only the rows that satisfy this condition. You can repeat --where
     ///
-    /// COLUMN=VALUE takes a number as in the file, a number with a unit, or a word. A comparison may have several parts, as in
-    /// 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
+    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a word. A comparison may have several parts,
+    /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 

@@ -8,15 +8,15 @@ pub(crate) struct ModelsArgs {
     /// Names to list or explain [default: list the models and their presets]
     ///
     /// For a model, a preset, a device file or a grid file, flap lists parameters and columns.
-    /// For a parameter, a column, a setting or a status, it prints the meaning.
+    /// For a parameter, a column, a setting or a status, flap prints the meaning.
     #[arg(value_name = "NAME|FILE")]
     pub(crate) names: Vec<String>,
 
-    /// Explain names only as names of this model, or of the model of this preset
+    /// Explain the names only for this model, or for the model of this preset
     #[arg(long, value_name = "MODEL|PRESET", requires = "names")]
     pub(crate) model: Option<String>,
 
-    /// Print whole meanings instead of first sentences, and the symbols and allowed values of parameters
+    /// Print whole meanings instead of first sentences, and also the symbols and allowed values of parameters
     #[arg(long, requires = "names")]
     pub(crate) long: bool,
 

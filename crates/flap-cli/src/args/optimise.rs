@@ -12,40 +12,41 @@ use super::values::{rows, threads};
 #[derive(clap::Args)]
 #[command(after_help = OPTIMISE_HELP, group = ArgGroup::new("goal").required(true).multiple(true))]
 pub(crate) struct OptimiseArgs {
-    /// The grid file, whose axes are the bounds of the search; `-` for stdin
+    /// Grid file, whose axes are the bounds of the search; `-` reads a grid from stdin
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// The number to make as large as possible: a measure, or an expression of measures and parameters
+    /// Goal that flap makes as large as possible: a measure, or an expression of measures and parameters
     #[arg(long, visible_alias = "maximize", value_name = "EXPRESSION", group = "goal")]
     pub(crate) maximise: Option<String>,
 
-    /// The number to make as small as possible
+    /// Goal that flap makes as small as possible: a measure, or an expression of measures and parameters
     #[arg(long, visible_alias = "minimize", value_name = "EXPRESSION", group = "goal")]
     pub(crate) minimise: Option<String>,
 
-    /// A condition that the design satisfies: a comparison of measures and parameters with <, <=, > or >=, or several joined
-    /// with `and`. A number may have its unit. May be repeated
+    /// Condition that the design must satisfy: a comparison of measures and parameters with <, <=, > or >=, or several
+    /// comparisons joined with `and`. A number may have a unit. You can repeat --where
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// With --maximise and --minimise: compute a front of N points, from the best value of one to the best value of the other
+    /// Compute a front of N designs between two goals: from the best value of the first goal to the best value of the second.
+    /// Requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,
 
-    /// Largest number of searches; each begins at one of the best points of the grid
+    /// Largest number of searches; each search begins at one of the best points of the grid
     #[arg(long, value_name = "N", default_value_t = Settings::STARTS, value_parser = starts)]
     pub(crate) starts: usize,
 
-    /// Largest number of grid points to compute. Of a larger grid, this many points, spread over it, are computed
+    /// Largest number of grid points to compute. If the grid has more points, flap computes N points spread over the grid
     #[arg(long, value_name = "N", default_value_t = Settings::POINTS, value_parser = value_parser!(u64).range(1..=10_000_000))]
     pub(crate) sample: u64,
 
-    /// Write the design as a device, a file that `flap run` takes
+    /// File for the best design, as a device file that `flap run` can read
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Number of worker threads; it does not change the answer [default: one per core]
+    /// Number of worker threads; the best design does not depend on this number [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -67,13 +68,13 @@ fn starts(text: &str) -> Result<usize, String> {
 }
 
 const OPTIMISE_HELP: &str = "\
-The search first computes the points of the grid. It then improves the best points step by step, with the derivatives of \
-the measures. Between the smallest and the largest value of an axis, parameters take any value. Options, counts and \
-parameters that move together take the values of the grid. Every motion begins at rest, as in a sweep.
+flap first computes the points of the grid. It then improves the best points step by step, with the derivatives of the \
+measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole numbers and \
+parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
 
-The status is `optimal` if the derivatives confirm the design, and `approximate` if they do not or are missing. It is \
-`infeasible` if no design satisfies all conditions. The answer is then the design that violates them least, and the exit \
-code is 1.
+The status is `optimal` if the derivatives confirm that the design is the best. The status is `approximate` if the \
+derivatives do not confirm the design or are missing. The status is `infeasible` if no design satisfies all conditions: flap \
+then prints the design with the smallest violation of the conditions, and the exit code is 1.
 
 With --points, each row is one design of the front: the best value of one goal under a limit on the other goal. With \
 `--format csv`, rows contain all measures, so that `flap plot` can draw them.

@@ -21,7 +21,7 @@ pub(crate) struct PointArgs {
     #[arg(short, long, value_name = "I", default_value_t = 0)]
     pub(crate) point: u64,
 
-    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
+    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 }
@@ -29,11 +29,11 @@ pub(crate) struct PointArgs {
 /// Options that set the solver.
 #[derive(clap::Args, Default)]
 pub(crate) struct SolverArgs {
-    /// Relative tolerance of the integrator; the absolute tolerance is set to a hundredth of it
+    /// Relative tolerance of the integrator; the absolute tolerance becomes a hundredth of this value
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 
-    /// Largest estimated relative error of a row; points that exceed it are integrated again with a smaller tolerance
+    /// Largest estimated relative error of a row; flap integrates points with a larger error again with a smaller tolerance
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
@@ -41,7 +41,7 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 
-    /// Number of drive periods after which a point counts as unsettled
+    /// Number of drive periods after which a motion that has not settled counts as unsettled
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) max_cycles: Option<u32>,
 }
@@ -49,7 +49,7 @@ pub(crate) struct SolverArgs {
 /// Options of a sweep: threads, exit code and checkpoints.
 #[derive(clap::Args)]
 pub(crate) struct WorkArgs {
-    /// Number of worker threads; it does not change the rows [default: one per core]
+    /// Number of worker threads; the rows do not depend on this number [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -57,7 +57,7 @@ pub(crate) struct WorkArgs {
     #[arg(long)]
     pub(crate) strict: bool,
 
-    /// Time between checkpoints; a sweep that was killed repeats at most this much work
+    /// Time between checkpoints; after a crash, a sweep repeats at most the work of this time
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
     pub(crate) checkpoint: Duration,
 }
@@ -75,7 +75,7 @@ pub(crate) struct OverwriteArgs {
 pub(crate) struct BeginArgs {
     /// Start over, and replace existing results when the new ones are complete
     ///
-    /// Until then, the new results have a name such as results.new.csv.
+    /// Until the new results are complete, their file has a name such as results.new.csv.
     #[arg(short = 'f', long, visible_alias = "force")]
     pub(crate) restart: bool,
 
@@ -93,11 +93,11 @@ impl BeginArgs {
 /// The format in which a command prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutputFormat {
-    /// Aligned columns with six digits
+    /// Aligned columns; numbers have six digits
     Table,
-    /// Comma-separated values with all digits
+    /// Comma-separated values; numbers have all digits
     Csv,
-    /// JSON with all digits
+    /// JSON; numbers have all digits
     Json,
 }
 
@@ -120,7 +120,7 @@ impl Aim {
 /// The option of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {
-    /// If results are damaged, use the rows that can be read
+    /// If results are damaged, use only the rows that flap can read
     #[arg(long)]
     ignore_damage: bool,
 }

@@ -19,9 +19,9 @@ pub(crate) struct PlotArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// File for a page to explore in a browser
+    /// File for an HTML page, on which you explore the results in a browser
     ///
-    /// On the page you choose columns, filter rows and read their values. It works without a network.
+    /// On the page you choose columns, filter rows and read values. The page works without a network.
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
 
@@ -37,28 +37,28 @@ pub(crate) struct PlotArgs {
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) y: Option<String>,
 
-    /// Draw one line for each value of this column
+    /// Column for which flap draws one line per value
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
-    /// Column shown as colour: of the cells of a map, or of the points of a scatter or Pareto picture
+    /// Column that sets the colour of the cells of a map, or of the points of a scatter or Pareto picture
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
-    /// Use only the rows that satisfy this condition. May be repeated
+    /// Use only the rows that satisfy this condition. You can repeat --where
     ///
-    /// COLUMN=VALUE takes a number as in the file, a number with a unit, or a word. A comparison may have several parts, as in
-    /// 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep, flap fixes the axis
-    /// at its middle value. --where chooses another value.
+    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a word. A comparison may have several parts,
+    /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep, flap draws
+    /// only the rows at the middle value of this axis. With --where you choose another value.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Better direction of x in a Pareto picture [default: min for power, current, strain, field, drag and force,
+    /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field, drag and force,
     /// max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// Better direction of y in a Pareto picture [default: as for x]
+    /// Better direction of the column y in a Pareto picture [default: as for x]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
@@ -96,23 +96,23 @@ impl PlotArgs {
 /// The kind of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PictureKind {
-    /// A measure over a parameter, with one line for each value of another column
+    /// A measure against a parameter, with one line for each value of another column
     Response,
-    /// A measure as the colour of cells over two parameters
+    /// A measure as the colour of cells, against two parameters
     Map,
-    /// Two measures of every design as points, coloured by a third
+    /// Two measures of every design as points, coloured by a third column
     Scatter,
-    /// The number of designs over a measure, with the 5th, 50th and 95th percentile
+    /// The number of designs in each range of a measure, with the 5th, 50th and 95th percentile
     Histogram,
     /// The rank correlation (Spearman) of a measure with each varied parameter, as bars
     Tornado,
-    /// Two measures of every design with the Pareto front: the designs that no other design beats in both
+    /// Two measures of every design with the Pareto front: no other design is better in both measures
     Pareto,
-    /// Stroke and pitch over time, and their phase portrait (rates over angles)
+    /// Stroke and pitch over time, and their phase portrait (rates against angles)
     Trajectory,
-    /// The branches up and down of a response, with unstable orbits dashed
+    /// The branches up and down of a response; unstable orbits are dashed
     Hysteresis,
-    /// The effect of each input of a vehicle on force and torque, from the output of `flap vehicle --format csv`
+    /// The effect of each input of a vehicle on force and torque, read from the output of `flap vehicle --format csv`
     Matrix,
 }
 
@@ -131,14 +131,15 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-If --kind is not given, flap chooses it from the file: `hysteresis` for results of `flap respond`, `trajectory` for a motion, \
+If you do not give --kind, flap chooses the kind of picture from the file: `hysteresis` for results of `flap respond`, `trajectory` for a motion, \
 `matrix` for the output of `flap vehicle --format csv`, and `scatter` for a sample. A sweep of one parameter, or of the drive \
 frequency and other parameters, gives `response`. Other sweeps of two or more parameters give `map`. If --x and --y are \
 measures, the kind is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
 
-If no columns are given, a scatter or Pareto picture shows the mean lift over the mean power. A scatter is coloured by the \
-peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file does not have these measures, flap takes \
-others. If a sample is crossed with an axis, the axis is fixed at its middle value.
+If you give no columns, a scatter or Pareto picture shows the mean lift against the mean power. The points of a scatter \
+picture are coloured by the peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file does not have \
+these measures, flap draws other measures. If a sample is crossed with an axis, flap draws only the rows at the middle value \
+of the axis.
 
 Examples:
   flap plot sweep.csv

@@ -10,47 +10,48 @@ use super::values::assignment;
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// Each point of the grid, without the followed axis, is a design with its own curve.
+    /// flap leaves out the axis of the followed parameter. Every other point of the grid is a design with its own curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
-    /// Parameter that rises and falls
+    /// Parameter that flap changes upwards and then downwards
     #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
-    /// First value: a number in SI units, or with a unit [default: the first value of the grid file's axis]
+    /// First value of the followed parameter: a number in SI units, or a number with a unit [default: the first value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) from: Option<String>,
 
-    /// Last value [default: the last value of the grid file's axis]
+    /// Last value of the followed parameter [default: the last value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) to: Option<String>,
 
-    /// Step between values [default: the steps of the grid file's axis]
+    /// Step between two values of the followed parameter [default: the steps of the grid file's axis]
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Longest step at the ends of bistable bands and where the response is steep [default: a sixteenth of the shortest step]
+    /// Longest step at the ends of bistable bands, and where the response is steep [default: a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
     /// Continue the branches around the ends of bistable bands
     ///
-    /// This adds the unstable orbits between the branches, as rows of the branch `unstable`.
+    /// The continuation finds the unstable orbits between the branches up and down, and writes them as rows of the branch
+    /// `unstable`.
     #[arg(long)]
     pub(crate) unstable: bool,
 
-    /// Set a parameter: a number in SI units, a number with a unit, or an option. May be repeated
+    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// File for the rows, one per motion; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows, one per motion; `-` prints the rows to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
     /// Output format of the summary
     ///
-    /// csv and json have one row per band in which the design is bistable or its motions are not periodic.
+    /// csv and json have one row per band of parameter values in which the design is bistable or its motions are not periodic.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -62,15 +63,16 @@ pub(crate) struct RespondArgs {
 }
 
 const RESPOND_HELP: &str = "\
-The parameter first rises, then falls. The first point of each branch starts at rest. Every other point starts from the \
+The followed parameter first rises, then falls. The first point of each branch starts at rest. Every other point starts from the \
 settled motion of the point before it. If the branches up and down settle to different motions, the design is bistable. \
-flap halves a step if a bistable band ends in it, or if the motion changes by more than a tenth, since it may hide a narrow \
-band. The summary has one line per design. It is printed to stdout; with `--out -`, to stderr.
+flap halves a step if a bistable band ends in this step. It also halves a step in which the motion changes by more than a \
+tenth, because such a step may hide a narrow band. The summary has one line per design. flap prints the summary to stdout, \
+or to stderr if you give `--out -`.
 
-Rows are written in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
-second for the curves that are being computed. It keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
-FILE, records the command's options. Until all curves are complete, FILE.journal records the progress. If a run was \
-interrupted, run the same command again to continue it.
+flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
+second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
+FILE, records the command's options. Until all curves are complete, FILE.journal records the progress. To continue an \
+interrupted command, run the same command again.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

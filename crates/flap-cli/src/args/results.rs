@@ -25,26 +25,26 @@ pub(crate) enum ResultsCommand {
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
 pub(crate) struct VerifyArgs {
-    /// Result files, with their sidecars (FILE.meta.toml) beside them
+    /// Result files; their sidecars (FILE.meta.toml) must be in the same folder
     #[arg(value_name = "FILE", required = true)]
     pub(crate) results: Vec<PathBuf>,
 
     /// Output format
     ///
-    /// `table` prints one line per file.
+    /// The format `table` has one line per file.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const VERIFY_HELP: &str = "\
-Compares each FILE with the checksums in its sidecar FILE.meta.toml and prints one line per file: the file is sound, or \
-these rows are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
+flap compares each FILE with the checksums in its sidecar FILE.meta.toml. It prints one line per file: the file is sound, \
+or the rows that are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
 256. If a row is missing or added, all rows after it count as damaged.
 
 Exit codes:
   0    all files are sound
-  1    no file is damaged, but some could not be verified: there is no sidecar, or it has no checksums
-  2    a name has no ending of a result file
+  1    no file is damaged, but flap could not verify some files: there is no sidecar, or the sidecar has no checksums
+  2    the ending of a name is not the ending of a result file
   3    some files are damaged or cannot be read
 
 Example:
@@ -53,7 +53,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
 pub(crate) struct ResumeArgs {
-    /// Unfinished results, with their sidecar (FILE.meta.toml) beside them
+    /// Unfinished results; their sidecar (FILE.meta.toml) must be in the same folder
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
@@ -65,8 +65,8 @@ pub(crate) struct ResumeArgs {
 }
 
 const RESUME_HELP: &str = "\
-Continues after the last row of FILE that its journal records. The finished file has the same bytes as a sweep without \
-interruption. The grid is read from FILE.meta.toml. flap stops with an error if another build of flap or another kind \
+flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes as a sweep without \
+interruption. flap reads the grid from FILE.meta.toml. It stops with an error if another build of flap or another kind \
 of machine started the sweep, or if complete results are damaged.
 
 Example:
@@ -75,7 +75,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RERUN_HELP)]
 pub(crate) struct RerunArgs {
-    /// Earlier results, with their sidecar (RESULTS.meta.toml) beside them
+    /// Earlier results; their sidecar (RESULTS.meta.toml) must be in the same folder
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
@@ -108,7 +108,7 @@ pub(crate) struct RerunArgs {
 }
 
 const RERUN_HELP: &str = "\
-The new rows keep the point indices of RESULTS. Solver settings that you do not give are taken from RESULTS.
+The new rows keep the point indices of RESULTS. If you do not give a solver setting, flap takes its value from RESULTS.
 
 Examples:
   flap results rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
@@ -122,7 +122,7 @@ pub(crate) struct MergeArgs {
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
-    /// Results of all shards, with their sidecars (SHARD.meta.toml) beside them
+    /// Results of all shards; their sidecars (SHARD.meta.toml) must be in the same folder
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
@@ -138,9 +138,10 @@ pub(crate) struct MergeArgs {
 }
 
 const MERGE_HELP: &str = "\
-OUT has the same bytes as a sweep on one machine. flap stops with an error if a shard is missing, unfinished, damaged, given \
-twice, or part of another sweep. Merging runs no model. If another build of flap computed the shards, OUT.meta.toml records \
-that build. If several builds computed them, their rows may differ, so --mixed-builds is required.
+OUT has the same bytes as the results of a sweep on one machine. flap stops with an error if a shard is missing, unfinished, damaged, given \
+twice, or part of another sweep. flap does not compute any row again. If another build of flap computed the shards, \
+OUT.meta.toml records that build. Rows of different builds may differ, so flap merges shards of several builds only if you \
+give --mixed-builds.
 
 Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
@@ -148,7 +149,7 @@ Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`
 #[derive(clap::Args)]
 #[command(after_help = CONVERT_HELP)]
 pub(crate) struct ConvertArgs {
-    /// Results, with their sidecar (IN.meta.toml) beside them
+    /// Results; their sidecar (IN.meta.toml) must be in the same folder
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
@@ -164,8 +165,8 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-OUT has the same bytes as a sweep that writes this format. If IN is unfinished, the rows up to the last checkpoint are \
-converted.
+OUT has the same bytes as the results of a sweep that writes this format. If IN is unfinished, flap converts the rows up to \
+the last checkpoint.
 
 Examples:
   flap results convert sweep.csv sweep.parquet

@@ -12,16 +12,17 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// CSV file with the waveform of the drive, which replaces drive_shape
+    /// CSV file with the waveform of the drive. The file replaces the parameter drive_shape
     ///
-    /// Columns: time_s (or time_ms) and wave. The duration of the file is the drive period, unless drive_frequency is set.
+    /// The columns are time_s (or time_ms) and wave. The duration of the record is the drive period, unless drive_frequency is
+    /// set.
     #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
     pub(crate) waveform: Option<PathBuf>,
 
     /// CSV file with a prescribed stroke
     ///
-    /// Columns: time_s (or time_ms) and stroke_deg (or stroke_rad).
-    /// The duration of the file is the drive period, unless drive_frequency is set.
+    /// The columns are time_s (or time_ms) and stroke_deg (or stroke_rad).
+    /// The duration of the record is the drive period, unless drive_frequency is set.
     #[arg(long, value_name = "FILE")]
     pub(crate) stroke: Option<PathBuf>,
 
@@ -29,16 +30,16 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) once: bool,
 
-    /// CSV file for the motion over time; `-` prints it to stdout instead of the summary
+    /// CSV file for the motion over time; `-` prints the motion to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Number of drive periods in the trajectory
+    /// Number of drive periods in the trajectory file
     #[arg(long, value_name = "N", default_value_t = 2, requires = "trajectory",
           value_parser = value_parser!(u32).range(1..=100_000))]
     pub(crate) cycles: u32,
 
-    /// Samples of the trajectory per drive period
+    /// Number of samples of the trajectory per drive period
     #[arg(long, value_name = "N", default_value_t = 200, requires = "trajectory",
           value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
@@ -49,7 +50,7 @@ pub(crate) struct RunArgs {
 
     /// Print the ten parameters that change this measure most
     ///
-    /// The changes are of the settled motion, in the measure's unit per 1 % of the parameter.
+    /// Each derivative is the change of the measure in the settled motion if the parameter grows by 1 %.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) gradient: Option<String>,
 

@@ -13,15 +13,15 @@ use super::values::threads;
 pub(crate) struct SweepArgs {
     /// Grid file: preset, parameters and axes; `-` reads a grid from stdin
     ///
-    /// The sidecar of earlier results (FILE.meta.toml) repeats their sweep.
+    /// You can also give the sidecar of earlier results (FILE.meta.toml): flap then repeats the sweep of these results.
     #[arg(value_name = "GRID", required_unless_present = "named_grid")]
     first_grid: Option<PathBuf>,
 
-    /// Grid file, given as an option
+    /// Grid file, as an option instead of an argument
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 
-    /// File for the rows; `-` prints them to stdout. The ending chooses the format: .csv, .csv.zst or .parquet.
+    /// File for the rows; `-` prints the rows to stdout. The ending chooses the format: .csv, .csv.zst or .parquet.
     /// [default: `path` in [output] of the grid file, else the grid file's name with the ending .csv, in the working
     /// directory]
     #[arg(short, long, value_name = "FILE")]
@@ -29,7 +29,7 @@ pub(crate) struct SweepArgs {
 
     /// Run part I of N equal parts, so that several machines can share a sweep
     ///
-    /// `flap results merge` joins the parts. Without --out, the rows are written to a file such as grid.2of8.csv.
+    /// `flap results merge` joins the parts. Without --out, flap writes the rows to a file such as grid.2of8.csv.
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
 
@@ -45,11 +45,11 @@ impl SweepArgs {
 }
 
 const SWEEP_HELP: &str = "\
-Rows are written in the order of the points, as soon as they are computed. After Ctrl-C or SIGTERM, running points have half \
-a second to finish. flap keeps the rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml (the \
-sidecar), beside FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records its progress. If a \
-sweep was interrupted, run the same command again to continue it. If all rows exist, the command runs nothing. Rows of \
-another grid or of another build of flap are replaced only with --restart.
+flap writes rows in the order of the points, as soon as they are computed. After Ctrl-C or SIGTERM, running points have half \
+a second to finish. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml (the \
+sidecar), beside FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records the progress. To \
+continue an interrupted sweep, run the same command again. If FILE already has all rows, flap runs no points. flap replaces \
+rows of another grid or of another build of flap only if you give --restart.
 
 Examples:
   flap sweep grid.toml
@@ -65,7 +65,7 @@ Examples:
 pub(crate) struct CheckArgs {
     /// Grid file; `-` reads a grid from stdin
     ///
-    /// If a grid from stdin names files, their paths are relative to the working directory.
+    /// If a grid from stdin contains names of files, their paths are relative to the working directory.
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
@@ -79,16 +79,17 @@ pub(crate) struct CheckArgs {
 
     /// Output format
     ///
-    /// csv and json have one value per row, with its section, name and key.
+    /// csv and json have one row per value of the summary, with the section, the name and the key of the value.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const CHECK_HELP: &str = "\
-Shows the range of each axis, the number of points that [where] excludes, the first and the last point, and estimates \
-of the time that the sweep takes and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. The command lists the \
-parameters that differ from the preset, and warns if a value is more than a hundred times larger or smaller. If a grid has \
-more than a million points, excluded points are counted in a sample of a million points.
+flap shows the range of each axis, the number of points that [where] excludes, the first and the last point, and estimates \
+of the time of the sweep and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. \
+The command also lists the parameters that differ from the preset, and parameters that stay the same although they usually \
+change with a varied parameter. It warns if a value is more than a hundred times larger or smaller than the value of the \
+preset. If a grid has more than a million points, flap counts the excluded points in a sample of a million.
 
 Examples:
   flap check grid.toml

@@ -9,7 +9,7 @@ use super::values::{finite, frequency, impulse, positive, time};
 
 #[derive(Subcommand)]
 pub(crate) enum TestCommand {
-    /// Sweep the drive frequency from rest, and print one row per drive period
+    /// Simulate a chirp, in which the drive frequency changes steadily, and print one row per drive period
     Chirp(ChirpArgs),
     /// Compute the free motion after an impulse on the resting stroke
     Impulse(ImpulseArgs),
@@ -27,15 +27,15 @@ pub(crate) struct ChirpArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Frequency at which the chirp begins (Hz)
+    /// Drive frequency at which the chirp begins (Hz)
     #[arg(long, value_name = "HZ", default_value_t = 1.0, value_parser = frequency)]
     pub(crate) from: f64,
 
-    /// Frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
+    /// Drive frequency at which the chirp ends (Hz) [default: twice the point's drive frequency]
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Rate of change of the frequency (Hz/s); negative for a falling chirp
+    /// Rate of change of the drive frequency (Hz/s); a negative rate is a falling chirp
     ///
     /// A chirp has at most 100,000 drive periods.
     #[arg(long, value_name = "HZ/S", default_value_t = 15.0, value_parser = finite, allow_negative_numbers = true)]
@@ -45,11 +45,11 @@ pub(crate) struct ChirpArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// CSV file for the motion over time; `-` prints it to stdout instead of the rows
+    /// CSV file for the motion over time; `-` prints the motion to stdout instead of the rows
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Samples of the trajectory per drive period
+    /// Number of samples of the trajectory per drive period
     #[arg(long, value_name = "N", default_value_t = 200, requires = "trajectory",
           value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
@@ -76,9 +76,9 @@ pub(crate) struct ImpulseArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Size of the impulse on the stroke, as an angle
+    /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// The angle is the amplitude that the first mode alone would reach without damping. For example, `20 deg` is a
+    /// This angle is the amplitude that the stroke would reach in the first mode alone, without damping. For example, `20 deg` is a
     /// stroke rate of 2 pi f_1 20 deg, with the frequency f_1 of the first mode.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) amplitude: f64,
@@ -87,7 +87,7 @@ pub(crate) struct ImpulseArgs {
     #[arg(long, value_name = "TIME", value_parser = time)]
     pub(crate) duration: Option<f64>,
 
-    /// CSV file for the motion over time; `-` prints it to stdout instead of the summary
+    /// CSV file for the motion over time; `-` prints the motion to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -107,7 +107,7 @@ pub(crate) struct ImpulseArgs {
 }
 
 const IMPULSE_HELP: &str = "\
-The drive is held at the voltage at which the wing rests with zero stroke and pitch: see the manual, How to, Resonance.
+During the motion, the drive voltage is constant, so that the wing can rest with zero stroke and pitch: see the manual, How to, Resonance.
 
 Examples:
   flap test impulse ozaki2018-small
@@ -119,17 +119,17 @@ pub(crate) struct ResonanceArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Size of the impulse on the stroke, as an angle
+    /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// The angle is the amplitude that the first mode alone would reach without damping.
+    /// This angle is the amplitude that the stroke would reach in the first mode alone, without damping.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 
-    /// Length of the motion to which the damped sine is fitted, in periods of the first mode
+    /// Length of the free motion to which flap fits a damped sine, in periods of the first mode
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(2..=1000))]
     pub(crate) window_cycles: u32,
 
-    /// Duration of the motion from which the spectrum is computed
+    /// Duration of the free motion from which flap computes the spectrum
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = time)]
     pub(crate) spectrum_window: f64,
 
@@ -154,9 +154,10 @@ pub(crate) struct ResonanceArgs {
 }
 
 const RESONANCE_HELP: &str = "\
-Prints three kinds of resonance. Linear: the natural frequencies of small undamped motions. Free: a damped sine and the \
-peaks of a spectrum, both from the motion after an impulse on the resting stroke. Driven: the drive frequencies at which \
-the settled stroke has a peak, at the point's own voltage.
+flap prints three kinds of resonance. The linear resonances are the natural frequencies of small undamped motions. The free \
+resonances are the frequency of a fitted damped sine and the peaks of a spectrum. For both, flap simulates the motion after \
+an impulse on the resting stroke. The driven resonances are the drive frequencies at which the settled stroke has a peak, at \
+the drive voltage of the design point.
 
 Examples:
   flap test resonance ozaki2018-large
@@ -171,15 +172,15 @@ pub(crate) struct LiftArgs {
 
     /// CSV file with the motion of the wing
     ///
-    /// Columns: time_s (or time_ms), stroke_deg (or stroke_rad) and pitch_deg (or pitch_rad).
+    /// The columns are time_s (or time_ms), stroke_deg (or stroke_rad) and pitch_deg (or pitch_rad).
     #[arg(value_name = "MOTION")]
     pub(crate) motion: PathBuf,
 
-    /// Treat the motion as one period; its last sample is the first sample of the next period
+    /// Treat the motion as one period; the last sample is also the first sample of the next period
     #[arg(long)]
     pub(crate) periodic: bool,
 
-    /// CSV file for motion and forces over time; `-` prints them to stdout instead of the summary
+    /// CSV file for motion and forces over time; `-` prints this table to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -197,7 +198,7 @@ pub(crate) struct LiftArgs {
 
 const LIFT_HELP: &str = "\
 Angles follow the conventions of the model: see the manual, Models, Direct drive. Between samples, the motion is a cubic \
-spline. Its acceleration amplifies the noise of the samples, so smooth them first.
+spline. The acceleration of the spline amplifies the noise of the samples, so smooth the samples first.
 
 Examples:
   flap test lift ozaki2018-small motion.csv --trajectory forces.csv
@@ -208,16 +209,16 @@ Examples:
 pub(crate) struct TrackArgs {
     /// CSV file with the tracked points of every image
     ///
-    /// Columns: time_s (or time_ms), and root_x, root_y, tip_x, tip_y of the leading edge.
-    /// For the pitch, edge_x and edge_y of a point on the lower edge. All lengths have the same unit.
+    /// The columns are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
+    /// For the pitch, the file also needs edge_x and edge_y, a point on the lower edge. All lengths have the same unit.
     #[arg(value_name = "POINTS")]
     pub(crate) points: PathBuf,
 
-    /// Chord from the leading edge to the point on the lower edge, in the unit of the points
+    /// Length of the chord from the leading edge to the point on the lower edge, in the unit of the columns
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) chord: Option<f64>,
 
-    /// CSV file for stroke_deg and pitch_deg over time; `-` prints them to stdout [default: stdout, in the format of --format]
+    /// CSV file for stroke_deg and pitch_deg over time; `-` prints this table to stdout [default: stdout, in the format of --format]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -230,8 +231,8 @@ pub(crate) struct TrackArgs {
 }
 
 const TRACK_HELP: &str = "\
-Uses the method of Ozaki and Hamaguchi 2018. The stroke is the angle from the x-axis to the leading edge. The pitch \
-follows from the projected chord (eq. 42). The rotation centre is a least-squares fit (eq. 43).
+flap uses the method of Ozaki and Hamaguchi (2018). The stroke is the angle from the x-axis to the leading edge. flap \
+computes the pitch from the projected chord (eq. 42 of their paper), and fits the rotation centre by least squares (eq. 43).
 
 Example:
   flap test track points.csv --chord 6.5 --out motion.csv";

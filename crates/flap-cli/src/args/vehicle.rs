@@ -9,14 +9,14 @@ pub(crate) struct VehicleArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Inputs, separated by commas: parameters of the vehicle, or the words below
+    /// Inputs of the vehicle, separated by commas: parameters, or the words below
     ///
-    /// By default: amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each is taken for all wings together
-    /// and as a left-right difference.
+    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. For each of these words, one
+    /// input changes all wings together, and one input is the left-right difference.
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 
-    /// Find inputs near the point that give this force (mN) or torque (uN*m). May be repeated
+    /// Find values of the inputs, near the point, that give this force (mN) or torque (uN*m). You can repeat --trim
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = assignment)]
     pub(crate) trim: Vec<(String, String)>,
 
@@ -31,14 +31,15 @@ pub(crate) struct VehicleArgs {
 }
 
 const VEHICLE_HELP: &str = "\
-Prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and their changes with each input. \
-It also prints the combinations of inputs with the largest effects (singular values). The derivatives are exact \
-derivatives of the settled motion.
+flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of force \
+and torque with respect to each input. It also prints the combinations of inputs with the largest effects (singular values). \
+The derivatives are exact derivatives of the settled motion.
 
-Words for inputs: amplitude, bias, frequency, second_harmonic, second_phase, third_harmonic. Append _difference for left \
-minus right, or prefix the name of a wing, as in left_amplitude.
-Components: force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw (uN*m). Roll > 0 lifts the left \
-side, pitch > 0 lowers the nose, yaw > 0 turns the nose to the left.
+The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append _difference for \
+left minus right, or put the name of a wing before the word, as in left_amplitude.
+The components of force and torque are force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw \
+(uN*m). A positive roll torque lifts the left side, a positive pitch torque lowers the nose, and a positive yaw torque turns \
+the nose to the left.
 
 Examples:
   flap vehicle vehicle.toml
