@@ -71,7 +71,7 @@ fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     Err(PyValueError::new_err(message))
 }
 
-/// Return the names of the states in the equations of motion of a design or a model, with their units at the end.
+/// Return the names of the states in the equations of motion of a design or a model. Each name ends with the unit.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn states(design: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {

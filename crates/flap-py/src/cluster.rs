@@ -10,7 +10,7 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Run the points from `begin` to before `end`, and return their rows as bytes, which are chunks for `sweep`.
+/// Run the points from `begin` to before `end`. Return the rows as bytes, which the function `chunks` of `sweep` may return.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, threads=None))]
 pub(crate) fn part<'py>(
@@ -33,7 +33,7 @@ pub(crate) fn part<'py>(
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }
 
-/// Return the identity of this process, which determines the bits of its rows: `build` (a hash of the sources) and `arithmetic`.
+/// Return the identity of this process: `build` (a hash of the sources) and `arithmetic`. It determines the bits of rows.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);

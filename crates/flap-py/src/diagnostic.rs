@@ -12,11 +12,11 @@ use pyo3::prelude::*;
 /// file : str
 ///     The grid file, or ``"<grid>"``.
 /// line, column : int
-///     The place of the mistake, counted from 1; columns are in characters.
+///     The place of the mistake: line and column, counted from 1. Columns are in characters.
 /// start, end : int
-///     The same place as byte offsets in the UTF-8 text: the first byte, and the byte after the last.
+///     The place of the mistake as byte offsets in the UTF-8 text: its first byte, and the byte after its last byte.
 /// message : str
-///     The message.
+///     The message about the mistake.
 /// notes, help : list of str
 ///     The allowed values, and ways to correct the mistake.
 #[pyclass(frozen, get_all, new = "from_fields", module = "flapwing")]

@@ -25,7 +25,7 @@ create_exception!(
     flapwing,
     GridError,
     PyValueError,
-    "A grid with mistakes.\n\nThe text shows every mistake with its lines, and `diagnostics` lists the mistakes."
+    "A grid with mistakes.\n\nThe text of the error shows every mistake with its lines, and `diagnostics` lists the mistakes."
 );
 
 /// Returns a `GridError` for mistakes in a grid, with its list of diagnostics.

@@ -14,7 +14,7 @@ use crate::{begin, design, parameters, sweep};
 /// Run a batch of points; see `flapwing.evaluate`.
 ///
 /// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
-/// `initial_state` has one row of state components per point, nan for a point at rest.
+/// `initial_state` has one row of state components per point; a row of nan is a point at rest.
 #[pyfunction]
 #[pyo3(signature = (
     design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, initial_state=None,
@@ -72,7 +72,7 @@ pub(crate) fn evaluate<'py>(
     sweep::into_columns(py, &plan, &options, progress, None)
 }
 
-/// Check that a design accepts these keywords and has these measures, with the messages of `evaluate`.
+/// Check that a design accepts these keywords and has these measures. The errors are the errors of `evaluate`.
 #[pyfunction]
 #[pyo3(signature = (design, /, *, keywords, measures=None))]
 pub(crate) fn check(

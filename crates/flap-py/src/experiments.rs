@@ -103,7 +103,7 @@ pub(crate) fn impulse<'py>(
     motion::into_python(py, free, meanings, &meta)
 }
 
-/// Compute the forces along a given motion; see `flapwing.forces_along`.
+/// Compute the forces on a wing along a given motion; see `flapwing.forces_along`.
 #[pyfunction]
 #[pyo3(signature = (design, motion, keywords, /, *, point, periodic, samples))]
 pub(crate) fn forces_along<'py>(

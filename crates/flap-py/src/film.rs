@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::{convert, motion, records};
 
-/// Compute stroke and pitch; see `flapwing.track_wing`.
+/// Compute stroke and pitch of a filmed wing; see `flapwing.track_wing`.
 #[pyfunction]
 #[pyo3(signature = (points, /, *, chord=None))]
 pub(crate) fn track_wing<'py>(

@@ -20,7 +20,7 @@ const LOOKED_AT: u64 = 1_000_000;
 
 /// A design space: a checked grid file.
 ///
-/// A grid is a sequence of design points, which are computed on access::
+/// A grid is a sequence of design points. The parameters of a point are computed on access::
 ///
 ///     grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
 ///     len(grid)                       # 3
@@ -30,19 +30,19 @@ const LOOKED_AT: u64 = 1_000_000;
 /// ----------
 /// source : str, path, dict or Grid
 ///     The name of a preset, or the path of a grid file. A str with a line break or ``=`` is the text of a grid file. A
-///     dictionary of dictionaries has the entries of a grid file. Its lists may be arrays, Series, ranges or Arrow
-///     columns. A DataFrame has the same meaning as the dictionary of its columns.
+///     dictionary has the entries of a grid file, with a dictionary for each table. Lists may be arrays, Series, ranges or
+///     Arrow columns. A DataFrame has the same meaning as the dictionary of its columns.
 ///
 /// Raises
 /// ------
 /// GridError
-///     All mistakes in the grid, each with its line, the allowed values and the nearest name.
+///     The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
 /// ValueError
-///     There is no such preset.
+///     `source` is not the name of a preset.
 /// OSError
 ///     The file does not exist or cannot be read.
 /// TypeError
-///     `source`, or a value in it, has another type.
+///     `source`, or a value in `source`, has the wrong type.
 #[pyclass(frozen, module = "flapwing")]
 pub(crate) struct Grid {
     pub(crate) plan: Plan,
@@ -88,7 +88,7 @@ impl Grid {
         format!("<flapwing.Grid of {} points of {}{along}>", self.plan.len(), self.plan.preset())
     }
 
-    /// Return the grid of a text that was read from the file `name`.
+    /// Return the grid for a text that was read from the file `name`.
     #[staticmethod]
     #[pyo3(signature = (name, text, /))]
     fn _named(py: Python<'_>, name: &str, text: &str) -> PyResult<Grid> {
@@ -101,7 +101,7 @@ impl Grid {
         Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
     }
 
-    /// The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to its folder.
+    /// The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of this file.
     #[getter]
     fn name(&self) -> &str {
         &self.plan.source().name
@@ -113,39 +113,39 @@ impl Grid {
         &self.plan.source().text
     }
 
-    /// The name of the preset, which gives the values of all other parameters.
+    /// The name of the preset. Parameters that the grid does not set have the values of this preset.
     #[getter]
     fn preset(&self) -> &'static str {
         self.plan.preset()
     }
 
-    /// The name of the model.
+    /// The name of the model whose parameters the grid sets.
     #[getter]
     fn model(&self) -> &'static str {
         self.plan.simulator().name()
     }
 
-    /// The axes; the last varies fastest. Each dictionary has the parameters that vary together along the axis, with their
-    /// values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+    /// The axes; the last axis varies fastest. Each dictionary has the parameters that vary together along the axis, with
+    /// their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
     #[getter]
     pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         axes(py, &self.plan)
     }
 
-    /// The parameters that differ between points: parameters of the axes, then derived parameters.
+    /// The parameters that differ between points: parameters of the axes, and then derived parameters.
     #[getter]
     fn varied(&self) -> Vec<&str> {
         let varied = self.plan.differing();
         varied.map(|index| self.plan.parameters()[index].name).collect()
     }
 
-    /// Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, a million
-    /// points spread over the grid are checked.
+    /// Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, flap checks
+    /// a million points that are spread over the grid.
     ///
     /// Returns
     /// -------
     /// Exclusions
-    ///     The numbers of points.
+    ///     The numbers of checked and excluded points.
     fn exclusions(&self, py: Python<'_>) -> PyResult<Exclusions> {
         let found = py.detach(|| survey::exclusions(&self.plan, LOOKED_AT));
         let unsatisfied = columns::unsatisfied(py, &found.unsatisfied)?.unbind();
@@ -160,9 +160,9 @@ impl Grid {
 /// looked_at : int
 ///     Number of points for which the conditions were evaluated.
 /// excluded : int
-///     Number of points among them that do not satisfy all conditions.
+///     Number of these points that do not satisfy all conditions.
 /// unsatisfied : dict of str to int
-///     For each condition, the number of points that do not satisfy it.
+///     Conditions, each with the number of points that do not satisfy this condition.
 #[pyclass(frozen, get_all, module = "flapwing")]
 pub(crate) struct Exclusions {
     looked_at: u64,

@@ -7,7 +7,7 @@ use flap_sweep::table::labels::{self, Direction, Label, Scale};
 use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
-/// Return a column's name in words, without its unit: `lift_mean_mn` gives "Lift, mean".
+/// Return the name of a column in words, without the unit: `lift_mean_mn` gives "Lift, mean".
 #[pyfunction]
 #[pyo3(signature = (name, unit, /))]
 pub(crate) fn words(name: &str, unit: &str) -> String {
@@ -22,7 +22,7 @@ pub(crate) fn printed(unit: &str) -> String {
     labels::printed(unit)
 }
 
-/// Return the factor to a readable unit and the printed unit, for values in `unit` whose largest is `largest`.
+/// Return the factor to a readable unit, and this unit for printing. `largest` is the largest of the values in `unit`.
 #[pyfunction]
 #[pyo3(signature = (unit, largest, /))]
 pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
@@ -30,16 +30,17 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
     (factor, unit)
 }
 
-/// Return the unit of a column, or empty text.
+/// Return the unit of a column, or empty text if the unit is unknown.
 ///
-/// It is the unit of the parameter, measure or derivative with this name in any model, else the unit at the end of the name.
+/// If a model has a parameter, measure or derivative with this name, its unit is returned. Otherwise the unit at the end of
+/// the name is returned.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {
     labels::unit_of(name, simulate::all())
 }
 
-/// Return a column's name without the unit at its end, and the unit, which may be empty.
+/// Return the name of a column without the unit at the end, and this unit, which may be empty.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {

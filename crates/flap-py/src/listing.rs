@@ -89,7 +89,7 @@ pub(crate) fn measures(design: &Bound<'_, PyAny>) -> PyResult<Vec<Measure>> {
     Ok(listed.collect())
 }
 
-/// Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs.
+/// Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs of parameters.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {

@@ -38,7 +38,7 @@ impl LiveServer {
         Ok(LiveServer { server: Mutex::new(server) })
     }
 
-    /// The address of the page, with its token.
+    /// The address of the page, with a secret token.
     #[getter]
     fn address(&self) -> String {
         self.lock().address().to_owned()

@@ -14,7 +14,7 @@ use crate::run::row_to_dict;
 use crate::watch::Watch;
 use crate::{convert, design, error, sweep};
 
-/// Finds the best design; see `flapwing.optimise`.
+/// Find the best design; see `flapwing.optimise`.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, goal, is_largest, conditions, starts, sample, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]

@@ -28,21 +28,21 @@ pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// Return the places of `count` ordered lines in the sequential colour map; None for a single line.
+/// Return the positions of `count` ordered lines in the sequential colour map, from 0 to 1; None for a single line.
 #[pyfunction]
 #[pyo3(signature = (count, /))]
 pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
     (0..count).map(|index| table::shade(index, count)).collect()
 }
 
-/// Return True if numbers from `low` to `high` have both signs, which requires a diverging map with zero in its middle.
+/// Return True if numbers from `low` to `high` have both signs. Such numbers require a diverging map with zero in its middle.
 #[pyfunction]
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {
     table::is_signed(low, high)
 }
 
-/// Return the default measure among `columns` that is not in `taken`; None if there is none.
+/// Return the default measure among `columns` that is not in `taken`; None if there is no such measure.
 ///
 /// `role` is "response", "benefit", "cost" or "motion".
 #[pyfunction]
@@ -71,7 +71,7 @@ type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyRea
 
 /// Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
 ///
-/// `up` and `down` have the parameter, the measure, and the column `bistable`.
+/// `up` and `down` are the branches: arrays of the parameter, of the measure, and of the column `bistable`.
 #[pyfunction]
 #[pyo3(signature = (up, down, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
@@ -90,7 +90,7 @@ pub(crate) struct Bars<'py> {
     percentiles: Vec<(u32, f64)>,
 }
 
-/// Return the edges and heights of a histogram's bars, and its percentiles; None if no value is finite.
+/// Return a histogram: edges and heights of the bars, and percentiles. Return None if no value is finite.
 #[pyfunction]
 #[pyo3(signature = (values, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
@@ -106,9 +106,9 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
     }))
 }
 
-/// Return the rank correlation of each parameter with a measure, and the index of the parameter, in falling order of size.
+/// Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.
 ///
-/// Parameters that follow an earlier parameter, and parameters without a correlation, are left out.
+/// Parameters whose order equals the order of an earlier parameter, and parameters without a correlation, are left out.
 #[pyfunction]
 #[pyo3(signature = (parameters, measure, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::{listing, parameters};
 
-/// Return the value in SI units of a parameter of a preset or a model, from a number or text with a unit.
+/// Return the value of a parameter in SI units, from a number or a text with a unit. `model` is a preset or a model.
 #[pyfunction]
 #[pyo3(signature = (model, parameter, value, /))]
 pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -23,7 +23,7 @@ pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<S
     Ok(model.parameters()[parameters::index(&*model, parameter)?].name.to_owned())
 }
 
-/// Parse text such as `"3 mm"` and return the number in `unit`, which must be of the same kind.
+/// Parse a text such as `"3 mm"`, and return the number in `unit`. Both units must measure the same kind of quantity.
 #[pyfunction]
 #[pyo3(signature = (name, text, unit, /))]
 pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {

@@ -48,7 +48,7 @@ impl Judged {
 
 /// Follow responses; see `flapwing.respond`.
 ///
-/// `curves` has the numbers of the designs to follow, in rising order. `designs` in the result is the total number of designs.
+/// `curves` has the numbers of the designs to follow, in rising order. In the result, `designs` is the number of all designs.
 #[pyfunction]
 #[pyo3(signature = (design, parameter, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, return_states=false, threads=None, progress=None, keywords=None, curves=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]

@@ -32,4 +32,4 @@ def test_without_matplotlib_the_error_says_what_to_install():
     [plot.heatmap, plot.histogram, plot.hysteresis, plot.pareto, plot.response, plot.response_panels, plot.scatter],
 )
 def test_help_explains_slices(function):
-    assert "\n    where, **slices\n        Values that columns must have," in function.__doc__
+    assert "\n    where, **slices\n        Values of columns, which select the rows to draw" in function.__doc__

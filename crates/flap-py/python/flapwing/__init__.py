@@ -1,23 +1,21 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
-`presets` lists published designs, and `params` lists their parameters.
-`run` simulates one design, `trajectory` returns its motion, and `resonance` returns its resonances.
-`sweep` runs a whole grid, and `evaluate` runs a batch of points.
-`respond` follows designs up and down along the drive frequency or another parameter.
-`chirp` simulates a drive with a changing frequency, and `impulse` a free motion.
-`track_wing` and `forces_along` process the motion of a filmed wing.
-`fit` fits parameters to readings.
-`optimise` finds the best design within the axes of a grid.
-`live` opens a page with sliders for the parameters and curves that follow them.
+`presets` lists published designs, and `params` lists their parameters. `run` simulates one design, `trajectory` returns
+its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, and `evaluate` runs a batch of points.
+`respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
+changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
+`fit` fits parameters to readings. `optimise` finds the best design within the axes of a grid. `live` opens a page in
+the browser, with sliders for the parameters and curves that change with the sliders.
 
-Results of many points are a `Table`, whose columns are NumPy arrays. It converts to pandas, polars, Arrow and xarray.
-Results of one point are a `Row`. Unknown numbers are nan.
+Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
+Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.
 
 A design is the name of a preset, a grid file, the text of a grid file, a dictionary, a `Grid`, or a `Vehicle`.
-Every call takes parameters and solver settings as keywords. A number without a unit is in SI units.
+Functions that simulate take parameters of the design and solver settings as keywords. A number without a unit is in SI
+units.
 
-`flapwing.analysis` computes sensitivities and Pareto fronts, `flapwing.fitting` has the results of fits, and
-`flapwing.plot` draws pictures, for which it requires matplotlib.
+`flapwing.analysis` computes sensitivities and Pareto fronts, and `flapwing.fitting` contains the classes for fits.
+`flapwing.plot` draws pictures and requires matplotlib.
 """
 
 from ._evaluate import evaluate

@@ -40,8 +40,8 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
 
 
 def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return a column of numbers as float64. With `unknown`, nulls and masked values become nan; otherwise they are
-    errors.
+    """Return a column of numbers as float64. Nulls and masked values become nan if `unknown` is true; otherwise they
+    raise ValueError.
     """
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
@@ -80,7 +80,9 @@ def refuse_missing(name: str, values: Any) -> None:
 
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
-    """Return a record over time: a path, or columns as arrays. The second array of a pair is called `heading`."""
+    """Return a record over time as a path, or as columns with arrays. If the record is a pair of arrays, the second
+    array gets the name `heading`.
+    """
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
     if isinstance(given, tuple):
@@ -98,7 +100,7 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
 
 
 def _is_table(name: str, given: Any, allowed: str) -> bool:
-    """Return True for a table of columns, collected or not."""
+    """Return True if the argument is a table of columns, also for a lazy frame of polars."""
     with reading(name, given, allowed):
         return any(hasattr(given, attribute) for attribute in ("collect", "columns", "column_names"))
 
@@ -108,7 +110,7 @@ def _is_known(values: Any) -> bool:
 
 
 def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
-    """Return the records of a call, for the native part."""
+    """Return the waveform and the stroke of a call in the form that the native part takes."""
     return {
         "waveform": None if waveform is None else record("waveform", waveform, "wave"),
         "stroke": None if stroke is None else record("stroke", stroke, "stroke_rad"),
@@ -116,7 +118,7 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
-    """Return the components of a state. From a row with more columns, take only the states of the design's model."""
+    """Return the components of a state. Of a row with more columns, return only the states of the design's model."""
     if initial_state is None:
         return None
     allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'
@@ -143,7 +145,7 @@ def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
 
 
 def _one(name: str, value: Any) -> Any:
-    """Return the value of a column of one row; another value is returned as it is."""
+    """Return the value of a column that has one row. A value that is not a column is returned unchanged."""
     with reading(name, value, "it must be a number, text with a unit, or a column of one row"):
         rows = len(value) if not isinstance(value, str) and hasattr(value, "__len__") else None
     if rows is None:
@@ -159,7 +161,9 @@ def _is_missing(name: str, value: Any) -> bool:
 
 
 def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """Return states as the rows of an array, from columns of components; None for motions from rest."""
+    """Return states as the rows of an array, made from columns of components. Return None for motions that begin at
+    rest.
+    """
     if initial_state is None:
         return None
     found = columns_of("initial_state", initial_state)
@@ -202,14 +206,14 @@ def _names(argument: str, names: Any, example: str) -> list[str] | None:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return True or False; raise TypeError for another type."""
+    """Return the value of a flag, True or False; raise TypeError for a value of another type."""
     if not isinstance(value, (bool, np.bool_)):
         raise refused(name, value, "it must be True or False")
     return bool(value)
 
 
 def cluster(client: Any) -> Any:
-    """Return the client of a Dask cluster; raise TypeError for another type."""
+    """Return the client of a Dask cluster; raise TypeError for a value of another type."""
     if not hasattr(client, "submit") or not hasattr(client, "nthreads"):
         raise refused("client", client, "it must be a distributed.Client, the client of a Dask cluster")
     return client

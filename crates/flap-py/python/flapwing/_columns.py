@@ -28,11 +28,11 @@ class Column(NamedTuple):
 
     @property
     def is_flag(self) -> bool:
-        """True for a column of True, False and unknown."""
+        """True if the column contains flags: True, False or unknown."""
         return self.words is None and self.cells.dtype == np.int8
 
     def values(self) -> np.ndarray[Any, Any]:
-        """Return the cells as values, read-only."""
+        """Return the values of the cells as a read-only array."""
         if self.words is not None:
             words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
             values = words[self.cells]
@@ -46,7 +46,7 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """Return a column of flags as True and False; unknown flags, which `known` marks, are False."""
+        """Return a column of flags as True and False. Unknown flags are False; use `known` to find them."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
@@ -101,14 +101,16 @@ def to_arrow(columns: Columns, meta: Meta) -> pyarrow.Table:
 
 
 def _origin(meta: Meta) -> dict[str, str]:
-    """Return the entries of `meta` as text, which every format keeps; entries that are not text become JSON."""
+    """Return the entries of `meta` as text, because every file format can store text. Entries of another type become
+    JSON.
+    """
     return {
         name: value if isinstance(value, str) else json.dumps(value, default=_plain) for name, value in meta.items()
     }
 
 
 def _plain(value: Any) -> Any:
-    """Return a value that JSON cannot express, such as a NumPy number, as one that it can."""
+    """Return a value that JSON can express, for a value that JSON cannot express, such as a NumPy number."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
     return dataclasses.asdict(value) if isinstance(value, Verdict) else str(value)
@@ -153,7 +155,7 @@ def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
 
 
 def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
-    """Return the dimensions, their lengths, and the place of each row among all cells."""
+    """Return the dimensions of a Dataset, their lengths, and the index of the cell of each row."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
     if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())
@@ -167,7 +169,7 @@ def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndar
 
 
 def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
-    """Return the place of each row along an axis, from the columns of its parameters."""
+    """Return the index of each row along an axis, found by the columns of the parameters of this axis."""
     length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)
@@ -183,7 +185,7 @@ def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -
 
 
 def _places(columns: Columns, axes: Axes) -> list[str]:
-    """Return the columns with the place of a row on its curve or in time, in a table without axes."""
+    """For a table without axes, return the columns that locate a row: on its curve, or in time."""
     if axes:
         return []
     names = list(columns)

@@ -1,4 +1,4 @@
-"""Calls, sweeps, batches and responses on the workers of a Dask cluster."""
+"""Functions that run single calls, sweeps, batches and responses on the workers of a Dask cluster."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ _MOST_REASONS = 5
 
 
 def call(client: Client | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
-    """Return the result of a native function for a design, called here or, with a client, by a worker."""
+    """Return the result of a native function for a design. Without a client, this process calls the function; with a
+    client, a worker does.
+    """
     if client is None:
         return function(design, *arguments, **keywords)
     client = _arguments.cluster(client)
@@ -50,7 +52,9 @@ def _call_task(
 
 
 def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the columns with arrays aligned for the native part; in a message, arrays may begin at any byte."""
+    """Return the columns with aligned arrays, which the native part requires. In a message of Dask, an array may begin
+    at any byte.
+    """
     return {
         name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
         for name, values in columns.items()
@@ -58,12 +62,12 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _found(record: Any) -> Any:
-    """Return a record for workers: a path becomes absolute, as this process resolves it."""
+    """Return a record for workers. If the record is a path, this process makes the path absolute."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
 def _sent(design: Any) -> Any:
-    """Return the design for workers: a name unchanged, or a grid whose files have absolute paths."""
+    """Return the design for workers. The name of a preset is unchanged, and the files in a grid get absolute paths."""
     if isinstance(design, str) and design in _flapwing.presets():
         return design
     try:
@@ -75,7 +79,7 @@ def _sent(design: Any) -> Any:
 
 
 def _check(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
-    """Raise RuntimeError if a worker's rows may have other bits."""
+    """Raise RuntimeError if the rows of a worker may differ in their bits from the rows of this process."""
     for name in ("build", "arithmetic"):
         if ours[name] != theirs[name]:
             raise RuntimeError(
@@ -85,12 +89,12 @@ def _check(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
 
 
 def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
-    """Run the task of a worker: return the rows of a range of points, as bytes."""
+    """Run the task of a worker: return the rows of a range of points of a grid, as bytes."""
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
 class Chunks:
-    """Ranges of a grid's points, computed by a cluster; their rows are returned in the order of the points."""
+    """Ranges of the points of a grid, which a cluster computes. The rows are returned in the order of the points."""
 
     def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
         self._client = client
@@ -114,7 +118,7 @@ class Chunks:
         self._under_way.clear()
 
     def next(self, done: int) -> bytes | None:
-        """Return the chunk that begins after the points that are done."""
+        """Return the next chunk of rows, which begins after the points that are already done."""
         if self._submitted is None:
             self._submitted = done
         while self._submitted < self._points and len(self._under_way) < self._ahead:
@@ -138,12 +142,12 @@ class Chunks:
 def _evaluate_task(
     design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
 ) -> NativeTable:
-    """Run the task of a worker: return the rows of a range of the columns."""
+    """Run the task of a worker: return the rows for a range of points, given by their columns."""
     return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
 
 
 def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
-    """Return the options for the points from `begin` to before `end`."""
+    """Return the options of a batch for the points from `begin` to before `end`."""
     states = options["initial_state"]
     return options if states is None else {**options, "initial_state": states[begin:end]}
 
@@ -156,7 +160,7 @@ def evaluate(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the rows of the columns `given`, computed by the workers of a cluster."""
+    """Return the rows of a batch, which the workers of a cluster compute; `given` has the columns of its points."""
     # This call reports mistakes. An empty selection has the same columns and axes as all rows.
     nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
@@ -197,7 +201,9 @@ def evaluate(
 
 
 def _moved(part: NativeTable, offset: int) -> NativeTable:
-    """Return the rows of a part with point numbers of the whole batch; the part begins at `offset`."""
+    """Return the rows of a part, numbered as points of the whole batch. The first point of the part has the number
+    `offset`.
+    """
     columns: list[NativeColumn] = [
         {**one, "cells": one["cells"] + np.uint64(offset)} if one["name"] == "point" else one for one in part["columns"]
     ]
@@ -206,7 +212,7 @@ def _moved(part: NativeTable, offset: int) -> NativeTable:
 
 
 def _joined(parts: list[NativeTable]) -> NativeTable:
-    """Return all rows as one batch."""
+    """Join the rows of all parts to one batch, and return this batch."""
     first = parts[0]
     axes = list(first["axes"])
     if axes:
@@ -217,12 +223,12 @@ def _joined(parts: list[NativeTable]) -> NativeTable:
 
 
 def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
-    """Return the columns of all rows."""
+    """Join the columns of all parts, and return the joined columns."""
     return [_column([part["columns"][place] for part in parts]) for place in range(len(parts[0]["columns"]))]
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """Return a column of all rows; each part has its own list of words."""
+    """Join a column of all parts, and return it. Each part has its own list of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}
@@ -234,7 +240,7 @@ def _column(parts: list[NativeColumn]) -> NativeColumn:
 
 
 def _summed(summaries: list[NativeSummary]) -> NativeSummary:
-    """Return the summary of the whole batch."""
+    """Return the summary of the whole batch, summed over its parts."""
 
     def total(counts: list[dict[str, int]]) -> dict[str, int]:
         summed: Counter[str] = Counter()
@@ -268,7 +274,7 @@ def responses(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the responses of designs, each computed by a worker of a cluster."""
+    """Return the responses of designs. Workers of a cluster compute one design each."""
     # This call reports mistakes. It returns no rows.
     nothing = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
     designs = nothing["designs"]

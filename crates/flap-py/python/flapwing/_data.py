@@ -1,4 +1,4 @@
-"""Results of any kind as columns, and slices of them, for pictures and analysis."""
+"""Columns of results and selections of their rows, for pictures and analysis."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Data:
 
     @classmethod
     def of(cls, data: Any) -> Data:
-        """Return the data of a Table, a data frame, a mapping of columns, or the path of a file of results."""
+        """Return the data from a Table, a data frame, a mapping of columns, or the path of a file with results."""
         if isinstance(data, Data):
             return data
         if isinstance(data, (str, os.PathLike)):
@@ -71,7 +71,7 @@ class Data:
         return self.columns[name]
 
     def numbers(self, name: str) -> np.ndarray:
-        """Return a column as floats, NaN if its row has no measures."""
+        """Return a column as floats. A row without measures has NaN."""
         column = self[name]
         if is_text(column):
             raise ValueError(f"`{name}` is text, but a column of numbers is required")
@@ -91,13 +91,13 @@ class Data:
         return str(known) if is_known else _labels.unit_of(name)
 
     def measured(self) -> np.ndarray:
-        """Return a mask, True for rows with measures."""
+        """Return a mask, which is True for rows with measures."""
         if "status" not in self.columns:
             return np.ones(len(self), dtype=bool)
         return np.isin(self.columns["status"].astype(str), MEASURED)
 
     def parameters(self) -> list[str]:
-        """Return the columns that identify the point of a row: the grid's axes, or the columns before the status."""
+        """Return the columns that identify the point of a row: the axes of the grid, or the columns before `status`."""
         names = list(self.columns)
         if self.grid_axes:
             return [name for axis in self.grid_axes for name in axis if name in self.columns]
@@ -107,7 +107,7 @@ class Data:
         return []
 
     def measures(self) -> list[str]:
-        """Return the columns of measures: columns after the status, or columns whose names end in a unit."""
+        """Return the columns of measures: the columns after `status`, or the columns whose names end in a unit."""
         names = list(self.columns)
         if "status" in names:
             names = names[names.index("status") + 1 :]
@@ -116,22 +116,24 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """Return the default measure for a role, as in `flap plot`: "response", "benefit", "cost" or "motion"."""
+        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The default is the same as
+        in `flap plot`.
+        """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
             raise ValueError(f"choose the column with `{option}`\n{names_listed(self.columns)}")
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a sample. Crossed axes that are not `shown` are fixed at their middle values."""
+        """Return the designs of a sample. If a crossed axis is not in `shown`, only its middle value is kept."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if not left or len(left) == len(self.axes()):
             return self
         return self._at_the_middle([name for name in left if name not in shown])
 
     def for_picture(self, names: Sequence[str]) -> Data:
-        """Return one row for each combination of these columns. Other axes are fixed at their middle values, as by
-        `flap plot`.
+        """Return one row for each combination of values in these columns. Of other axes, only the middle value is kept,
+        as in `flap plot`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
@@ -141,7 +143,7 @@ class Data:
         return data
 
     def _at_the_middle(self, axes: Sequence[str]) -> Data:
-        """Return the rows at the middle value of each of these axes; a warning lists the values."""
+        """Return the rows at the middle value of each of these axes. A warning lists the middle values."""
         data = self
         for name in axes:
             values = distinct(data[name])
@@ -160,7 +162,9 @@ class Data:
         return data
 
     def axes(self) -> list[str]:
-        """Return one parameter for each axis with more than one value; parameters that follow others are left out."""
+        """Return one parameter for each axis with more than one value. Parameters that follow other parameters are left
+        out.
+        """
         if self.grid_axes:
             firsts = [next((name for name in axis if name in self.columns), "") for axis in self.grid_axes]
             return [name for name in firsts if name and len(distinct(self.columns[name])) > 1]
@@ -174,21 +178,23 @@ class Data:
         return kept
 
     def followed(self) -> str | None:
-        """Return the parameter along the curves of a table of `respond`: the column after ``branch``."""
+        """Return the parameter that a table of `respond` follows: the column after ``branch``."""
         names = list(self.columns)
         if "branch" not in names or names[-1] == "branch":
             return None
         return str(self.meta.get("parameter") or names[names.index("branch") + 1])
 
     def axis(self, name: str) -> str:
-        """Return the axis of a parameter: the first of the parameters that vary together."""
+        """Return the name of the axis of a parameter. The name is the first of the parameters that vary together."""
         for axis in self.grid_axes:
             if name in axis:
                 return next(member for member in axis if member in self.columns)
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
-        """Return a parameter's values. If it is an axis, they include values without a row in this slice of `whole`."""
+        """Return the values of a parameter. For a parameter of an axis, the result also has values without a row in
+        this selection of `whole`.
+        """
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
     def on_a_grid(self, name: str) -> bool:
@@ -196,7 +202,7 @@ class Data:
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
-        """Return one number per row, equal for rows with the same values in all of these columns."""
+        """Return one group number per row. Rows with the same values in all of these columns have the same number."""
         numbers = np.zeros(len(self), dtype=np.int64)
         for name in names:
             values, inverse = np.unique(self[name], return_inverse=True)
@@ -205,7 +211,7 @@ class Data:
         return numbers
 
     def slice(self, where: Mapping[str, Any] | None, keywords: Mapping[str, Any]) -> Data:
-        """Return the rows in which columns have these values."""
+        """Return the rows in which the columns have the given values."""
         chosen = {**(where or {}), **keywords}
         for name in chosen:
             if name not in self.columns:
@@ -227,7 +233,9 @@ class Data:
         return data
 
     def one_row_for(self, names: Sequence[str]) -> None:
-        """Raise ValueError if several rows have the same values in all of these columns: another axis is left."""
+        """Raise ValueError if several rows have the same values in all of these columns, which means that another axis
+        varies.
+        """
         if len(np.unique(self.groups(names))) == len(self):
             return
         shown = [self.axis(name) for name in names]
@@ -237,7 +245,7 @@ class Data:
         raise ValueError(self.left_over(left))
 
     def left_over(self, left: Iterable[str]) -> str:
-        """Return the error message for axes that the picture does not show."""
+        """Return the error message that lists the axes that the picture does not show."""
         lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
         first = lines[0].strip().split(" ")[0].rstrip(":")
         value = distinct(self[first])[0]
@@ -257,7 +265,7 @@ class Data:
 
 
 class Shown:
-    """A column in a picture: the factor to a readable unit, and the label."""
+    """A column as a picture shows it: the factor to a readable unit, and the label."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name
@@ -269,12 +277,12 @@ class Shown:
         self.values = data[name] if self.text else data[name].astype(float) * self.factor
 
     def value(self, value: Any) -> str:
-        """Return a value of the table in the readable unit, as text without the unit."""
+        """Return a value of the table as text: a number in the readable unit, without the unit."""
         return str(value) if self.text else _labels.number(float(value) * self.factor)
 
 
 def _callers_level() -> int:
-    """Return the stack level of the user's call, seen from the caller."""
+    """Return the stack level of the user's call, counted from the function that calls this one."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
         level, frame = level + 1, frame.f_back
@@ -298,7 +306,9 @@ def is_text(column: np.ndarray) -> bool:
 
 
 def distinct(column: np.ndarray) -> np.ndarray:
-    """Return the different values of a column: numbers in rising order without NaN, words in order of appearance."""
+    """Return the distinct values of a column: numbers in rising order without NaN, or words in their order in the
+    column.
+    """
     if is_text(column):
         words = column.astype(str)
         _, first = np.unique(words, return_index=True)
@@ -308,7 +318,9 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """Return the edges of cells around rising values: halfway between neighbours, and equally far at the ends."""
+    """Return the edges of cells around rising values: halfway between neighbours. At both ends, a value is in the
+    middle of its cell.
+    """
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:
         half = 0.05 if log else 0.05 * abs(places[0]) or 0.5
@@ -320,12 +332,12 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """Return the error for a parameter that is used as an axis but is sampled."""
+    """Return the error for a sampled parameter, which a picture cannot use as an axis."""
     return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:
-    """Return values as a list in a sentence; long lists are cut in the middle."""
+    """Return values as a list for a sentence. From a long list, values in the middle are left out."""
     texts = [value if isinstance(value, str) else f"{value:.12g}" for value in values]
     if len(texts) > 12:
         texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]

@@ -37,60 +37,63 @@ def evaluate(
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
-    Use this function in optimisers, samplers and fits. It takes points as arrays and returns their measures as arrays
-    in the same order. All points run at the same time, on all cores. A row depends only on its point.
+    Use this function in optimisers, samplers and fits. Points are given as arrays, and their measures are returned as
+    arrays in the same order. All points run at the same time, on all cores. The row of a point does not depend on the
+    other points.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        The base of all points: a preset, a model, or a grid (see `Grid`). If it is a model, give all of its
-        parameters. The grid's ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` apply to every
-        point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
+        The base of all points: a preset, a model, or a grid (see `Grid`). For a model, give all parameters of the
+        model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of a grid apply to
+        every point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
         Parameters by name, each with n values: an array, a Series or a range of numbers in SI units. A list of texts
-        with units, or of options, is accepted too. One value applies to all points. A masked array must have no masked
-        values. From a `Table`, only the parameters are taken, not the measures.
+        with units, or of options, is accepted too. A single value applies to all points. A masked array must have no
+        masked values. If `columns` is a `Table`, only its parameters are used, not its measures.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
-        depend on it.
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
+        of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
-        points in all.
+        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
+        the points that are done, and all points.
     client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. Rows are the same.
+        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. The cluster does
+        not change the rows.
     measures : list of str, optional
         The measures of the rows. Default: the grid's ``[output]``, else all measures.
     gradient : list of str, optional
         Parameters by which the measures of the settled motion are differentiated. `Table.gradient` has the derivatives,
-        with the shape n x measures x parameters. They are in the unit of the measure's column per SI unit of the
-        parameter, and replace the derivatives of a grid's ``[gradient]``. Each takes about the work of three drive
-        periods.
+        with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's column per SI
+        unit of the parameter. These derivatives replace the derivatives of ``[gradient]`` in a grid. The work for each
+        parameter is about the work of three drive periods.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period. Columns are the components (see
         `states`), in the units of their names, with one row per point. A row with nan begins at rest. If a design has
-        several orbits, the state decides which one is found. Default: rest.
+        several orbits, the state determines the orbit that is found. Default: rest.
     return_states : bool, optional
         Add columns of the state of the motion at the beginning of a drive period, for `initial_state`.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. A keyword must not also be a column.
+        Parameters of all points and solver settings, as for `run`. A name must not be both a keyword and a column.
 
     Returns
     -------
     Table
-        n rows in the order of `columns`. For a grid with axes, n times the points of the axes, which vary faster;
-        `Table.axes` then begins with the axis `row`. Points that ``[where]`` excludes have no row, but count in the
-        column `point`. A row has the status ``"invalid"`` if a value is out of range, infinite or not a number, or if
-        its parameters are impossible together. ``table.meta["invalid"]`` has the reasons for the first few points.
-        With `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the reason.
+        n rows in the order of `columns`. A grid with axes gives n times as many rows as the axes have points; the axes
+        vary faster than the rows of `columns`. `Table.axes` then begins with the axis `row`. Points that ``[where]``
+        excludes have no row, but count in the column `point`. A row has the status ``"invalid"`` if a value is out of
+        range, infinite or not a number, or if the parameters are impossible together. ``table.meta["invalid"]`` has the
+        reasons for the first few points. With `gradient`, a missing derivative is nan, and the column ``gradient_gap``
+        has the reason.
 
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter
-        that is a column and a keyword; a missing parameter of a model; derivatives by a choice, a whole number or a
-        derived parameter. GridError if there are mistakes in a grid.
+        Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter that
+        is a column and a keyword; a missing parameter of a model; derivatives by a choice, a whole number or a derived
+        parameter. A grid with mistakes raises GridError.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------
@@ -101,7 +104,8 @@ def evaluate(
     >>> again.columns[:4]
     ['point', 'drive_frequency', 'status', 'lift_mean_mn']
 
-    The next function returns minus the lift and its derivatives, for ``scipy.optimize.minimize(…, jac=True)``:
+    The next function returns the negative lift and the derivatives of the negative lift, for
+    ``scipy.optimize.minimize(…, jac=True)``:
 
     >>> def negative_lift(x):
     ...     columns = {"hinge_stiffness": x[:1], "drive_frequency": x[1:]}
@@ -129,7 +133,9 @@ def evaluate(
 
 
 def _given(design: Design, columns: Any) -> dict[str, Any]:
-    """Return the parameters by name: arrays of float64 or lists of other values, all with the same length."""
+    """Return the parameters of the points by name: arrays of float64 or lists of other values, all with the same
+    length.
+    """
     given: dict[str, Any] = {}
     constants: dict[str, Any] = {}
     found = _parameters(design, columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)

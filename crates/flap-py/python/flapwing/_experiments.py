@@ -29,12 +29,13 @@ def chirp(
     design, point
         As for `run`.
     start : float or str, optional
-        Frequency at the beginning (Hz, or text with a unit): more than 0. Default 1.
+        Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. Default 1.
     stop : float or str, optional
-        Frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0.
+        Drive frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0.
         Default: twice the design's drive frequency.
     rate : float or str, optional
-        Rate of change of the frequency (Hz/s, or text with a unit): negative for a falling chirp. Default 15.
+        Rate of change of the drive frequency (Hz/s, or text with a unit). A negative rate is a falling chirp. Default
+        15.
     samples : int, optional
         Return the motion with this number of samples per cycle, instead of the measures of each cycle.
     **keywords : float or str
@@ -43,15 +44,15 @@ def chirp(
     Returns
     -------
     Table
-        One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the measures of the signals. With
-        `samples`, the motion with the columns of `trajectory`.
+        One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the measures of the signals. If
+        `samples` is given, the table is the motion, with the columns of `trajectory`.
 
     Raises
     ------
     ValueError
-        As for `run`; also if the chirp cannot reach `stop` from `start` at this `rate`, or the motion diverges.
+        The same errors as for `run`. The chirp cannot reach `stop` from `start` at this `rate`, or the motion diverges.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------
@@ -76,15 +77,15 @@ def impulse(
 ) -> Table:
     """Simulate the free motion of one design point after an impulse on the resting stroke.
 
-    The drive is held at the voltage at which the wing rests with zero stroke and pitch.
+    During the motion, the drive voltage is constant, so that the wing can rest with zero stroke and pitch.
 
     Parameters
     ----------
     design, point
         As for `run`.
     amplitude : float or str, optional
-        Size of the impulse, as the amplitude (rad, or text with a unit) that the first mode alone would reach without
-        damping. At most half a turn, not zero. Default ``"20 deg"``.
+        Size of the impulse: the amplitude (rad, or text with a unit) that the stroke would reach in the first mode
+        alone, without damping. The amplitude is not zero and at most half a turn. Default ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
@@ -101,9 +102,9 @@ def impulse(
     Raises
     ------
     ValueError
-        As for `run`; also for an impulse of zero or of more than half a turn, and a duration of zero.
+        The same errors as for `run`. The impulse is zero or more than half a turn, or the duration is zero.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------
@@ -129,8 +130,8 @@ def forces_along(
 ) -> Table:
     """Compute the forces on the wing of one design point along a given motion, such as a filmed motion.
 
-    No equation of motion is integrated. Between samples the motion is a cubic spline. Its acceleration amplifies noise,
-    so smooth measured angles first.
+    flap does not integrate equations of motion here. Between samples, the motion is a cubic spline. The acceleration of
+    the spline amplifies noise, so smooth measured angles first.
 
     Parameters
     ----------
@@ -139,28 +140,29 @@ def forces_along(
     motion : path or columns
         Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame), with `time_s` (or
         `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
-        `trajectory` have them. At least four samples at rising times.
+        `trajectory` have these columns. The motion has at least four samples at rising times.
     periodic : bool, optional
-        True if the motion is one period: its last sample is the first sample of the next period.
+        True if the motion is one period, so that the last sample is also the first sample of the next period.
     samples : int, optional
-        Number of intervals at whose ends forces are computed. Default 2000.
+        Number of equal intervals of the motion; forces are computed at their ends. Default 2000.
     **keywords : float or str
         Parameters of the model, as for `run`.
 
     Returns
     -------
     Table
-        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. The motion does not determine the
-        columns of the actuator, so they are left out.
+        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. The table has no columns of the
+        actuator, because the motion does not determine them.
 
     Raises
     ------
     ValueError
-        As for `run`; also if a column is missing or has values that are not finite numbers, or times do not rise.
+        The same errors as for `run`. A column is missing or has values that are not finite numbers, or the times do not
+        rise.
     OSError
         The file cannot be read.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------
@@ -191,11 +193,11 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     ----------
     points : path or columns
         The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns are `root_x`,
-        `root_y`, `tip_x`, `tip_y` of the leading edge, all in one unit, and `time_s` (or `time_ms`). For the pitch also
-        `edge_x`, `edge_y` of a point on the lower edge.
+        `root_y`, `tip_x` and `tip_y`, two points of the leading edge in one unit, and `time_s` (or `time_ms`). The
+        pitch also requires `edge_x` and `edge_y`, a point on the lower edge.
     chord : float, optional
-        Chord from the leading edge to the point on the lower edge, in the unit of the points: more than 0. With it,
-        the result has the pitch.
+        Length of the chord from the leading edge to the point on the lower edge, in the unit of the points: more than
+        0. If `chord` is given, the result has the pitch.
 
     Returns
     -------
@@ -211,7 +213,7 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     OSError
         The file cannot be read.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------

@@ -75,7 +75,7 @@ __version__: str
 class GridError(ValueError):
     """A grid with mistakes.
 
-    The text shows every mistake with its lines, and `diagnostics` lists the mistakes.
+    The text of the error shows every mistake with its lines, and `diagnostics` lists the mistakes.
     """
 
     diagnostics: list[Diagnostic]
@@ -89,11 +89,11 @@ class Diagnostic:
     file : str
         The grid file, or ``"<grid>"``.
     line, column : int
-        The place of the mistake, counted from 1; columns are in characters.
+        The place of the mistake: line and column, counted from 1. Columns are in characters.
     start, end : int
-        The same place as byte offsets in the UTF-8 text: the first byte, and the byte after the last.
+        The place of the mistake as byte offsets in the UTF-8 text: its first byte, and the byte after its last byte.
     message : str
-        The message.
+        The message about the mistake.
     notes, help : list of str
         The allowed values, and ways to correct the mistake.
     """
@@ -131,7 +131,7 @@ class Diagnostic:
 class Grid:
     """A design space: a checked grid file.
 
-    A grid is a sequence of design points, which are computed on access::
+    A grid is a sequence of design points. The parameters of a point are computed on access::
 
         grid = Grid({"preset": "ozaki2018-large", "axes": {"drive_frequency": [100.0, 105.0, 110.0]}})
         len(grid)                       # 3
@@ -141,19 +141,19 @@ class Grid:
     ----------
     source : str, path, dict or Grid
         The name of a preset, or the path of a grid file. A str with a line break or ``=`` is the text of a grid file. A
-        dictionary of dictionaries has the entries of a grid file. Its lists may be arrays, Series, ranges or Arrow
-        columns. A DataFrame has the same meaning as the dictionary of its columns.
+        dictionary has the entries of a grid file, with a dictionary for each table. Lists may be arrays, Series, ranges or
+        Arrow columns. A DataFrame has the same meaning as the dictionary of its columns.
 
     Raises
     ------
     GridError
-        All mistakes in the grid, each with its line, the allowed values and the nearest name.
+        The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
     ValueError
-        There is no such preset.
+        `source` is not the name of a preset.
     OSError
         The file does not exist or cannot be read.
     TypeError
-        `source`, or a value in it, has another type.
+        `source`, or a value in `source`, has the wrong type.
     """
 
     def __new__(cls, source: Any, /) -> Grid: ...
@@ -164,12 +164,12 @@ class Grid:
     def __getitem__(self, key: slice, /) -> list[dict[str, float | str]]: ...
     @staticmethod
     def _named(name: str, text: str, /) -> Grid:
-        """Return the grid of a text that was read from the file `name`."""
+        """Return the grid for a text that was read from the file `name`."""
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]: ...
     @property
     def name(self) -> str:
-        """The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to its folder."""
+        """The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of this file."""
 
     @property
     def text(self) -> str:
@@ -177,30 +177,30 @@ class Grid:
 
     @property
     def preset(self) -> str:
-        """The name of the preset, which gives the values of all other parameters."""
+        """The name of the preset. Parameters that the grid does not set have the values of this preset."""
 
     @property
     def model(self) -> str:
-        """The name of the model."""
+        """The name of the model whose parameters the grid sets."""
 
     @property
     def axes(self) -> list[dict[str, Any]]:
-        """The axes; the last varies fastest. Each dictionary has the parameters that vary together along the axis, with their
-        values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+        """The axes; the last axis varies fastest. Each dictionary has the parameters that vary together along the axis, with
+        their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
         """
 
     @property
     def varied(self) -> list[str]:
-        """The parameters that differ between points: parameters of the axes, then derived parameters."""
+        """The parameters that differ between points: parameters of the axes, and then derived parameters."""
 
     def exclusions(self) -> Exclusions:
-        """Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, a million
-        points spread over the grid are checked.
+        """Count the points that the conditions of ``[where]`` exclude. If the grid has more than a million points, flap checks
+        a million points that are spread over the grid.
 
         Returns
         -------
         Exclusions
-            The numbers of points.
+            The numbers of checked and excluded points.
         """
 
 @final
@@ -212,9 +212,9 @@ class Exclusions:
     looked_at : int
         Number of points for which the conditions were evaluated.
     excluded : int
-        Number of points among them that do not satisfy all conditions.
+        Number of these points that do not satisfy all conditions.
     unsatisfied : dict of str to int
-        For each condition, the number of points that do not satisfy it.
+        Conditions, each with the number of points that do not satisfy this condition.
     """
 
     @property
@@ -240,22 +240,22 @@ def measures(design: Any, /) -> list[NativeMeasure]:
     """Return the measures of a design or a model; see `flapwing.measures`."""
 
 def uncertainty(design: Any, /) -> NativeUncertainty:
-    """Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs."""
+    """Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs of parameters."""
 
 def origins(design: Any, /) -> NativeOrigins:
     """Return the description of a design, which may be empty, and the sources of parameters by name."""
 
 def states(design: Any, /) -> list[str]:
-    """Return the names of the states in the equations of motion of a design or a model, with their units at the end."""
+    """Return the names of the states in the equations of motion of a design or a model. Each name ends with the unit."""
 
 def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
-    """Return the value in SI units of a parameter of a preset or a model, from a number or text with a unit."""
+    """Return the value of a parameter in SI units, from a number or a text with a unit. `model` is a preset or a model."""
 
 def parameter(model: str, parameter: str, /) -> str:
     """Return the name of a parameter of a preset or a model. Raise ValueError for an unknown name."""
 
 def quantity(name: str, text: str, unit: str, /) -> float:
-    """Parse text such as `"3 mm"` and return the number in `unit`, which must be of the same kind."""
+    """Parse a text such as `"3 mm"`, and return the number in `unit`. Both units must measure the same kind of quantity."""
 
 def settings() -> list[str]:
     """Return the names of the solver settings, in the order of the signature of `flapwing.run`."""
@@ -297,7 +297,7 @@ class LiveServer:
     ) -> LiveServer: ...
     @property
     def address(self) -> str:
-        """The address of the page, with its token."""
+        """The address of the page, with a secret token."""
 
     def stop(self) -> None:
         """Stop the server."""
@@ -330,7 +330,7 @@ def optimise(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> NativeOptimum:
-    """Finds the best design; see `flapwing.optimise`."""
+    """Find the best design; see `flapwing.optimise`."""
 
 def chirp(
     design: Any,
@@ -367,13 +367,13 @@ def forces_along(
     periodic: bool,
     samples: SupportsIndex,
 ) -> NativeTable:
-    """Compute the forces along a given motion; see `flapwing.forces_along`."""
+    """Compute the forces on a wing along a given motion; see `flapwing.forces_along`."""
 
 def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> NativeTable:
-    """Compute stroke and pitch; see `flapwing.track_wing`."""
+    """Compute stroke and pitch of a filmed wing; see `flapwing.track_wing`."""
 
 def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
-    """Check that a design accepts these keywords and has these measures, with the messages of `evaluate`."""
+    """Check that a design accepts these keywords and has these measures. The errors are the errors of `evaluate`."""
 
 def text_of(entries: dict[str, Any], /) -> str:
     """Return the text of a grid file with these entries."""
@@ -394,7 +394,7 @@ def evaluate(
     """Run a batch of points; see `flapwing.evaluate`.
 
     `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
-    `initial_state` has one row of state components per point, nan for a point at rest.
+    `initial_state` has one row of state components per point; a row of nan is a point at rest.
     """
 
 def respond(
@@ -415,7 +415,7 @@ def respond(
 ) -> NativeTable:
     """Follow responses; see `flapwing.respond`.
 
-    `curves` has the numbers of the designs to follow, in rising order. `designs` in the result is the total number of designs.
+    `curves` has the numbers of the designs to follow, in rising order. In the result, `designs` is the number of all designs.
     """
 
 def sweep(
@@ -430,14 +430,15 @@ def sweep(
 ) -> NativeTable:
     """Run a grid; see `flapwing.sweep`.
 
-    `chunks` returns rows of other processes: called with the number of points done, it returns the bytes of the next chunk.
+    `chunks` is a function that returns rows of other processes. Its argument is the number of points done, and it returns
+    the bytes of the next chunk of rows.
     """
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
-    """Run the points from `begin` to before `end`, and return their rows as bytes, which are chunks for `sweep`."""
+    """Run the points from `begin` to before `end`. Return the rows as bytes, which the function `chunks` of `sweep` may return."""
 
 def identity() -> NativeIdentity:
-    """Return the identity of this process, which determines the bits of its rows: `build` (a hash of the sources) and `arithmetic`."""
+    """Return the identity of this process: `build` (a hash of the sources) and `arithmetic`. It determines the bits of rows."""
 
 def command(line: list[str]) -> int:
     """Run a command line and return the exit code. The first word is the name of the program."""
@@ -446,22 +447,23 @@ def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> Native
     """Read a result file; see `flapwing.read`."""
 
 def words(name: str, unit: str, /) -> str:
-    """Return a column's name in words, without its unit: `lift_mean_mn` gives "Lift, mean"."""
+    """Return the name of a column in words, without the unit: `lift_mean_mn` gives "Lift, mean"."""
 
 def printed(unit: str, /) -> str:
     """Return a unit for printing: `uN*m/rad` gives "µN·m/rad", `mm^2` gives "mm²", `deg` gives "°"."""
 
 def scale(unit: str, largest: float, /) -> tuple[float, str]:
-    """Return the factor to a readable unit and the printed unit, for values in `unit` whose largest is `largest`."""
+    """Return the factor to a readable unit, and this unit for printing. `largest` is the largest of the values in `unit`."""
 
 def unit_of(name: str, /) -> str:
-    """Return the unit of a column, or empty text.
+    """Return the unit of a column, or empty text if the unit is unknown.
 
-    It is the unit of the parameter, measure or derivative with this name in any model, else the unit at the end of the name.
+    If a model has a parameter, measure or derivative with this name, its unit is returned. Otherwise the unit at the end of
+    the name is returned.
     """
 
 def split_unit(name: str, /) -> tuple[str, str]:
-    """Return a column's name without the unit at its end, and the unit, which may be empty."""
+    """Return the name of a column without the unit at the end, and this unit, which may be empty."""
 
 def better(name: str, /) -> int:
     """Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
@@ -474,13 +476,13 @@ def colours() -> NativeColours:
     """
 
 def line_shades(count: int, /) -> list[float] | None:
-    """Return the places of `count` ordered lines in the sequential colour map; None for a single line."""
+    """Return the positions of `count` ordered lines in the sequential colour map, from 0 to 1; None for a single line."""
 
 def is_signed(low: float, high: float, /) -> bool:
-    """Return True if numbers from `low` to `high` have both signs, which requires a diverging map with zero in its middle."""
+    """Return True if numbers from `low` to `high` have both signs. Such numbers require a diverging map with zero in its middle."""
 
 def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None:
-    """Return the default measure among `columns` that is not in `taken`; None if there is none.
+    """Return the default measure among `columns` that is not in `taken`; None if there is no such measure.
 
     `role` is "response", "benefit", "cost" or "motion".
     """
@@ -492,14 +494,14 @@ def ways(
 ) -> NativeWays:
     """Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
 
-    `up` and `down` have the parameter, the measure, and the column `bistable`.
+    `up` and `down` are the branches: arrays of the parameter, of the measure, and of the column `bistable`.
     """
 
 def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None:
-    """Return the edges and heights of a histogram's bars, and its percentiles; None if no value is finite."""
+    """Return a histogram: edges and heights of the bars, and percentiles. Return None if no value is finite."""
 
 def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:
-    """Return the rank correlation of each parameter with a measure, and the index of the parameter, in falling order of size.
+    """Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.
 
-    Parameters that follow an earlier parameter, and parameters without a correlation, are left out.
+    Parameters whose order equals the order of an earlier parameter, and parameters without a correlation, are left out.
     """

@@ -27,7 +27,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def readable(values: object, unit: str) -> tuple[float, str]:
-    """Return the factor to a unit in which values are easy to read, and that unit for printing."""
+    """Return the factor to a unit in which values are easy to read, and the name of this unit for printing."""
     sizes = np.abs(np.asarray(values, dtype=float))
     return scale(unit, float(np.max(sizes, initial=0.0, where=np.isfinite(sizes))))
 
@@ -40,12 +40,12 @@ def label(name: str, unit: str | None = None) -> str:
     name : str
         The column's name.
     unit : str, optional
-        Its unit, as in `Table.units`. Default: the unit at the end of the name.
+        The unit of the column, as in `Table.units`. Default: the unit at the end of the name.
 
     Returns
     -------
     str
-        The name in words, followed by the unit, if any, in parentheses.
+        The name in words. If the column has a unit, the unit follows in parentheses.
 
     Examples
     --------
@@ -59,17 +59,17 @@ def label(name: str, unit: str | None = None) -> str:
 
 
 def titled(text: str, unit: str) -> str:
-    """Return words, followed by the unit, if any, in parentheses."""
+    """Return the words; if the unit is not empty, add the unit in parentheses."""
     return f"{text} ({unit})" if unit else text
 
 
 def lowered(text: str) -> str:
-    """Return words for use within a sentence: with a small first letter."""
+    """Return words with a small first letter, for use within a sentence."""
     return text[:1].lower() + text[1:]
 
 
 def number(value: float) -> str:
-    """Return a number with up to four digits, without an exponent if that is short."""
+    """Return a number as text with up to four digits, and with an exponent only if plain digits are long."""
     text = f"{value:.4g}"
     if "e" not in text:
         return text.replace("-", "−")
@@ -78,7 +78,7 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """Yield a title in one line, in two lines, and so on."""
+    """Yield a title in one line, then the same title in two lines, and so on."""
     told = [title]
     yield title
     for width in range(len(title) - 1, 7, -1):

@@ -10,13 +10,13 @@ __all__ = ["measures", "params", "states"]
 
 
 def params(design: Design, /) -> dict[str, Parameter]:
-    """Return the parameters of a design with their values. For a model, the parameters have no values.
+    """Return the parameters of a design with their values, or the parameters of a model without values.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, such as ``"ozaki2018-large"``, a device, a grid, a `Vehicle`, or a model, such as
-        ``"direct-drive"``. A grid gives the values of its first point.
+        A preset, such as ``"ozaki2018-large"``, a device, a grid, a `Vehicle`, or a model, such as ``"direct-drive"``.
+        For a grid, the values are the values of its first point.
 
     Returns
     -------
@@ -26,7 +26,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Raises
     ------
     ValueError
-        There is no such preset or model. GridError if there are mistakes in a device or a grid.
+        There is no such preset or model. A device or a grid with mistakes raises GridError.
 
     Examples
     --------
@@ -69,12 +69,13 @@ def measures(design: Design, /) -> dict[str, Measure]:
 
 
 def states(design: Design, /) -> dict[str, State]:
-    """Return the states of the equations of motion of a design or a model: the components of `initial_state`.
+    """Return the states of the equations of motion of a design or a model. These states are the components of
+    `initial_state`.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        As for `params`. A vehicle has the states of each wing, prefixed with the wing's name.
+        The same as for `params`. A vehicle has the states of each wing; the name of the wing is a prefix of the state.
 
     Returns
     -------

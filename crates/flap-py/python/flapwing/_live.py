@@ -1,4 +1,4 @@
-"""The live page in a browser or in a notebook: sliders for the parameters, and curves that follow them."""
+"""The live page in a browser or a notebook, with sliders for parameters and curves that change with the sliders."""
 
 from __future__ import annotations
 
@@ -41,14 +41,16 @@ def _whole(name: str, value: Any) -> int:
 
 
 class Live:
-    """A running server of the live page; see `live`. `stop`, the end of its `with` block or the end of Python stops it.
+    """A running server of the live page, which `live` starts. The server stops at a call of `stop`, at the end of a
+    `with` block, and at the end of Python.
 
-    The server runs in the process that started it. In a forked child, `stop` and the end of a `with` block do nothing.
+    The server runs in the process that started the server. In a forked child process, `stop` and the end of a `with`
+    block have no effect.
 
     Attributes
     ----------
     address : str
-        The address of the page, with its token. Everybody who has the address can request rows.
+        The address of the page, with a secret token. Everybody who has the address can request rows from the server.
     """
 
     def __init__(self, server: _flapwing.LiveServer) -> None:
@@ -74,9 +76,9 @@ class Live:
         )
 
     def widget(self, height: SupportsIndex = 800) -> Any:
-        """Return the page as a widget of a notebook, for use alone or in other widgets.
+        """Return the page as a widget of a notebook, which you can use alone or within other widgets.
 
-        It works in Jupyter, Visual Studio Code and marimo.
+        The widget works in Jupyter, Visual Studio Code and marimo.
 
         Parameters
         ----------
@@ -86,7 +88,8 @@ class Live:
         Returns
         -------
         anywidget.AnyWidget
-            The widget. The notebook's browser must run on the same machine as the server, or reach its port.
+            The widget. The browser of the notebook must run on the same machine as the server, or must be able to reach
+            the port of the server.
 
         Raises
         ------
@@ -112,7 +115,7 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """Stop the server. The page then shows that the server does not answer."""
+        """Stop the server. After this, the page shows that the server does not answer."""
         self._server.stop()
 
 
@@ -125,15 +128,17 @@ def live(
     threads: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Live:
-    """Start the live page of a design, on which you move sliders and curves follow.
+    """Start the live page of a design. On this page you move sliders for the parameters, and curves change with the
+    sliders.
 
-    It is the page of the command ``flap live``. In a notebook, the result shows the page in its cell. The server
-    answers only this machine, and neither reads nor writes files.
+    The command ``flap live`` opens the same page. In a notebook, the returned object shows the page in the cell. The
+    server answers only requests from this machine, and neither reads nor writes files.
 
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        A preset, a device or a grid. For a grid with several points, the page begins with the first and shows the axes.
+        A preset, a device or a grid. For a grid with several points, the page begins with the first point and shows the
+        axes.
     port : int, optional
         Port of the server, from 1 to 65535. Default 0: a free port.
     open_browser : bool, optional
@@ -151,7 +156,7 @@ def live(
     Raises
     ------
     ValueError, GridError, TypeError
-        As for `run`; also for an invalid port.
+        The same errors as for `run`, and for an invalid port.
     OSError
         The port is in use.
 

@@ -11,7 +11,9 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """An unknown name: a KeyError, as for a dictionary, and a ValueError, as for other arguments."""
+    """The error for an unknown name. It is both a KeyError, as for a dictionary, and a ValueError, as for other
+    arguments.
+    """
 
     def __str__(self) -> str:
         # Without this, a KeyError shows its message in quotes on one line.
@@ -19,7 +21,9 @@ class UnknownName(KeyError, ValueError):
 
 
 def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
-    """Return the error for a `name` that is not in `known`, with the nearest known name and the first few names."""
+    """Return the error for a `name` that is not in `known`. The message has the nearest known name and the first few
+    known names.
+    """
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)
     hint = f", did you mean `{near[0]}`?" if near else ""
@@ -27,7 +31,7 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return the first few names as text."""
+    """Return the first few of the names as one text."""
     every = list(names)
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
     return (
@@ -36,13 +40,13 @@ def listed(names: Iterable[str]) -> str:
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
-    """Return the error for a value of the wrong type, in two lines."""
+    """Return the error for a value of the wrong type, with a message of two lines."""
     return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
 
 
 @contextmanager
 def reading(name: str, value: object, allowed: str) -> Iterator[None]:
-    """Raise TypeError if `value` raises an exception while it is read. KeyboardInterrupt and similar ones pass."""
+    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions stay."""
     try:
         yield
     except OverflowError as error:

@@ -21,7 +21,7 @@ class NativeColumn(TypedDict):
 
 
 class NativeSummary(TypedDict, total=False):
-    """Counts of a run; empty if nothing was left to run."""
+    """Counts of a run; the dictionary is empty if all rows already existed."""
 
     rows: int
     counts: dict[str, int]
@@ -34,7 +34,7 @@ class NativeSummary(TypedDict, total=False):
 
 
 class NativeTable(TypedDict, total=False):
-    """A table. If its rows are in a file, it has no `columns`."""
+    """A table of results. If the rows are in a file, the dictionary has no entry `columns`."""
 
     columns: list[NativeColumn]
     summary: NativeSummary
@@ -176,7 +176,7 @@ class NativeCorrelation(TypedDict):
 
 
 class NativeUncertainty(TypedDict):
-    """Standard errors by parameter, in SI units, and correlations."""
+    """Standard errors of parameters in SI units, by name, and correlations of pairs of parameters."""
 
     errors: dict[str, float]
     correlations: list[NativeCorrelation]
@@ -201,7 +201,7 @@ class NativeColours(TypedDict):
 
 
 class NativeWays(TypedDict):
-    """Bands in which two branches differ, and the rows of each branch after which it jumps to the other."""
+    """Bands in which the branches up and down differ, and the rows after which one branch jumps to the other branch."""
 
     bands: list[tuple[float, float]]
     up: list[int]
@@ -209,7 +209,9 @@ class NativeWays(TypedDict):
 
 
 class NativeBars(TypedDict):
-    """A histogram: edges of the bars, heights of the bars, and pairs of a percentage and its percentile."""
+    """A histogram: the edges of the bars, the heights of the bars, and percentiles as pairs of a percentage and a
+    value.
+    """
 
     edges: Floats
     counts: Floats
@@ -217,7 +219,7 @@ class NativeBars(TypedDict):
 
 
 class NativeIdentity(TypedDict):
-    """The identity of a process, which decides the bits of its rows."""
+    """The identity of a process, which determines the bits of the rows that the process computes."""
 
     build: str
     arithmetic: str

@@ -33,49 +33,49 @@ def optimise(
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
-    The search first computes the points of the grid. It then improves the best points step by step, with the
-    derivatives of the measures. Between the smallest and the largest value of an axis, parameters take any value.
-    Options, counts and parameters that move together take the values of the grid. Every motion begins at rest, as in a
-    sweep.
+    flap first computes the points of the grid. It then improves the best points step by step, with the derivatives of
+    the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole
+    numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in
+    a sweep.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         A grid (see `Grid`), whose axes are the bounds of the search.
     maximise, minimise : str, optional
-        The number to make as large or as small as possible: a measure, or an expression of measures and parameters.
-        Give one of the two.
+        The goal, which becomes as large or as small as possible: a measure, or an expression of measures and
+        parameters. Give either `maximise` or `minimise`.
     where : str or sequence of str, optional
-        Conditions that the design satisfies: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
-        ``>=``, also joined with ``and``. A number may have its unit: ``"stroke_pp_deg < 100 deg"``.
+        Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
+        ``>=``. You can join comparisons with ``and``. A number may have a unit: ``"stroke_pp_deg < 100 deg"``.
     starts : int, optional
-        Largest number of searches; each begins at one of the best points of the grid. Default 8.
+        Largest number of searches. Each search begins at one of the best points of the grid. Default 8.
     sample : int, optional
-        Most points of the grid that are computed; of a larger grid, so many points that are spread over it. Default
-        4096.
+        Largest number of grid points to compute. If the grid has more points, this number of points is spread over the
+        grid. Default 4096.
     threads : int, optional
-        Number of threads, 1 or more. Default: one per core. The answer does not depend on it.
+        Number of threads, 1 or more. Default: one per core. The number of threads does not change the result.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points and starts done
-        and in all. With `client`, there is one step.
+        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
+        the points and starts that are done, and all points and starts. With `client`, there is only one step.
     client : distributed.Client, optional
-        Search on a worker of a Dask cluster, which needs the same build of flapwing.
+        Search on a worker of a Dask cluster, which must have the same build of flapwing.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
     Returns
     -------
     Optimum
-        The best design, the bounds and conditions that hold it back, and the optima that the starts end at. If no
-        design satisfies all conditions, its status is ``"infeasible"``.
+        The best design, the bounds and conditions that limit it, and all optima that were found. If no design satisfies
+        all conditions, the status is ``"infeasible"``.
 
     Raises
     ------
     ValueError
-        A mistake in an expression or a condition; the grid varies no parameter; no point of it has a periodic motion.
-        GridError if there are mistakes in a grid.
+        An expression or a condition has a mistake; the grid varies no parameter; no point of the grid has a periodic
+        motion. A grid with mistakes raises GridError.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------

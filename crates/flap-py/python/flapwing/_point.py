@@ -38,39 +38,41 @@ def run(
     symmetry: bool | None = None,
     **parameters: Value,
 ) -> Row:
-    """Run one design point until its motion repeats with the drive, and measure one drive period.
+    """Run one design point until the motion repeats every drive period, and compute the measures of one drive period.
 
     Keywords replace parameters of the design::
 
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
 
-    The same call always returns the same bits. Other Python threads continue during the call.
+    The same call always returns the same bits. Other Python threads continue to run during the call.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, one of `presets()`; a grid (see `Grid`) as a path, text, dictionary or Grid; or a model. If it is a
-        model, give all of its parameters.
+        The name of a preset (see `presets`); a grid (see `Grid`) as a path, text, dictionary or Grid; or a model. For a
+        model, give all parameters of the model.
     point : int, optional
-        The index of a point in the grid. Required if the grid has more than one point.
+        The index of a point in the grid, counted from 0. If the grid has more than one point, `point` is required.
     initial_state : dict, Table or DataFrame, optional
-        The state at the start of the first drive period. Either components by the names of `states(…)`, such as
-        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Other components are zero. Or a row with the
-        states among its columns, such as ``trajectory(…)[-1:]``, also as a DataFrame, a dictionary or a row of a
-        DataFrame. A row with nan begins at rest. If the design has several orbits, the state decides which one is
-        found. Default: rest.
+        The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
+        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
+        also give a row that has the states among its columns, such as ``trajectory(…)[-1:]``. This row is a Table, a
+        DataFrame, a dictionary or a row of a DataFrame. If a state in the row is nan, the motion begins at rest. If the
+        design has several orbits, the state determines the orbit that is found. Default: rest.
     waveform : path, tuple or columns, optional
         One period of the drive, which replaces `drive_shape`. A CSV file or columns (a dictionary, Table or DataFrame)
-        have `time_s` (or `time_ms`) and `wave`. A pair of arrays is (times in s, wave). Its duration is the drive
-        period, unless `drive_frequency` is given as a keyword. The voltage is bias + amplitude times wave.
+        have `time_s` (or `time_ms`) and `wave`. A pair of arrays is (times in s, wave). The duration of the waveform is
+        the drive period, unless `drive_frequency` is given as a keyword. The drive voltage is the bias plus the
+        amplitude times `wave`.
     stroke : path, tuple or columns, optional
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
-        pair of arrays (s, rad). It requires a model with the parameter `stroke_mode`.
+        pair of arrays (s, rad). The model must have the parameter `stroke_mode`.
     progress : bool or function, optional
-        As for `sweep`; a point is one step.
+        The same as for `sweep`; one point is one step of the progress.
     client : distributed.Client, optional
-        Run the point on a worker of a Dask cluster, which must have the same build of flapwing. The result is the same.
+        Run the point on a worker of a Dask cluster, which must have the same build of flapwing. The cluster does not
+        change the result.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -78,25 +80,26 @@ def run(
         Absolute tolerance of the integrator, in units of each state's typical size: more than 0.
         Default rtol / 100.
     settle_tol : float, optional
-        The point has settled when its state changes by less than this from one drive period to the next: more than 0.
-        The unit is each state's typical size, or the size of the motion if it is smaller. Default 1e-6.
+        A motion has settled when the state changes by less than `settle_tol` from one drive period to the next: more
+        than 0. The unit is the typical size of each state, or the size of the motion if the motion is smaller. Default
+        1e-6.
     max_cycles : int, optional
-        Number of drive periods after which the point counts as unsettled: 1 or more. Default 1000.
+        Number of drive periods after which a motion that has not settled counts as unsettled: 1 or more. Default 1000.
     max_steps : int, optional
         Largest number of integration steps in one drive period: 1 or more.
         Default 20000.
     accuracy : float, optional
-        Largest error_estimate and energy audit of a row: more than 0. A point that exceeds it is integrated again with
-        tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if that is more.
+        Largest error_estimate and energy audit of a row: more than 0. If a row exceeds `accuracy`, the point is
+        integrated again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if 1000 rtol is larger.
     newton : bool, optional
         If True, the orbit that the motion approaches is found by Newton's iteration. If False, the motion is integrated
         until it settles on the same orbit, which takes more periods. Default True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol. It finds the same orbit with about twice the work. Default True.
+        rtol: it finds the same orbit with about twice the work. Default True.
     symmetry : bool, optional
-        If True, an orbit whose second half mirrors the first is found and measured over half periods. If False, over
-        whole periods. The orbit is the same, with more work. Default True.
+        If True, only half of a period is integrated if the second half of the orbit mirrors the first half. If False,
+        whole periods are integrated: the orbit is the same, with more work. Default True.
     **parameters : float or str
         Parameters of the model by name. A value is a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option of a choice.
@@ -104,15 +107,15 @@ def run(
     Returns
     -------
     Row
-        The results. For example, `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
+        The results of the point. For example, `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
 
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; a value out of range, infinite or not a number; a grid with several
-        points but no `point`. The message has the nearest name and the allowed values.
+        A preset, parameter, option or unit is unknown; a value is out of range, infinite or not a number; a grid has
+        several points, but `point` is not given. The message has the nearest name and the allowed values.
     TypeError
-        A value of the wrong type, such as text for a tolerance or a number for an option.
+        An argument has the wrong type, such as text for a tolerance or a number for an option.
     IndexError
         The grid has no such point.
 
@@ -163,17 +166,17 @@ def trajectory(
     cycles : int, optional
         Number of drive periods. Default 2.
     samples : int, optional
-        Samples per drive period, plus one at the end of the last period. Default 200. `cycles` times `samples` is at
-        most 5,000,000.
+        Number of samples per drive period. One more sample is at the end of the last period. Default 200. `cycles`
+        times `samples` is at most 5,000,000.
     from_rest : bool, optional
-        If True, the motion begins at rest. By default, it begins after it has settled.
+        If True, the table begins with the motion from rest. By default, the table begins after the motion has settled.
     initial_state : dict, Table or DataFrame, optional
-        Begin in this state at the start of a drive period, see `run`.
+        The state in which the motion begins, at the start of a drive period; see `run`.
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke, see `run`.
     once : bool, optional
-        Follow the waveform or the stroke once, from rest or from `initial_state`, without repeating it. Its ends may
-        differ, and `cycles` has no effect.
+        If True, the waveform or the stroke is followed only once, from rest or from `initial_state`. The first and the
+        last value of the record may differ, and `cycles` has no effect.
     progress, client
         As for `run`.
     **keywords : float or str
@@ -183,14 +186,15 @@ def trajectory(
     -------
     Table
         ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: `time_s` (s), then the states and
-        signals of the model, named with their units. `docs` has their meanings, and `meta` the origin of the motion.
+        signals of the model, named with their units. The attribute `docs` has the meanings of the columns, and `meta`
+        has the origin of the motion.
 
     Raises
     ------
     ValueError
-        As for `run`; also if the parameters are impossible together, or the motion does not settle.
+        The same errors as for `run`. The parameters are impossible together, or the motion does not settle.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------
@@ -231,7 +235,8 @@ def resonance(
     client: Client | None = None,
     **keywords: Value,
 ) -> Resonances:
-    """Compute the resonances of one design point: of small motions, after an impulse, and under the drive.
+    """Compute the resonances of one design point: of small motions, of the free motion after an impulse, and of the
+    driven motion.
 
     Parameters
     ----------
@@ -239,16 +244,16 @@ def resonance(
         As for `run`.
     start, stop : float or str, optional
         Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke.
-        Default: half of the lower and one and a half times the upper natural frequency.
+        Default: from half of the lower natural frequency to one and a half times the upper natural frequency.
     tolerance : float or str, optional
-        Largest error of the peaks' frequencies (Hz, or text with a unit). Default 0.05.
+        Largest error of the frequencies of the peaks (Hz, or text with a unit). Default 0.05.
     impulse : float or str, optional
-        Impulse on the resting stroke, as the amplitude (rad, or text with a unit) that the first mode alone would reach
-        without damping. At most half a turn, not zero. Default ``"20 deg"``.
+        Impulse on the resting stroke: the amplitude (rad, or text with a unit) that the stroke would reach in the first
+        mode alone, without damping. The amplitude is not zero and at most half a turn. Default ``"20 deg"``.
     fit_cycles : int, optional
-        Length of the motion to which the damped sine is fitted, in periods of the first mode. Default 4.
+        Length of the free motion to which a damped sine is fitted, in periods of the first mode. Default 4.
     spectrum_window : float or str, optional
-        Length (s, or text with a unit) of the motion from which the spectrum is computed. Default 1.
+        Duration (s, or text with a unit) of the free motion from which the spectrum is computed. Default 1.
     progress, client
         As for `run`.
     **keywords : float or str
@@ -262,9 +267,9 @@ def resonance(
     Raises
     ------
     ValueError
-        As for `run`; also if the parameters are impossible together.
+        The same errors as for `run`. The parameters are impossible together.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------

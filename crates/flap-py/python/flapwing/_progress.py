@@ -1,4 +1,4 @@
-"""Progress of long calls: a bar, or a function of the user."""
+"""Progress of long calls: a progress bar, or a function that the user gives."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield the function to call with the number of points done and the total number; None for no progress."""
+    """Yield the function that is called with the number of points done and the number of all points. Yield None if no
+    progress is shown.
+    """
     if callable(progress):
         yield progress
     elif not isinstance(progress, bool):
@@ -38,7 +40,7 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
 
 @contextmanager
 def one_step(progress: Progress) -> Iterator[None]:
-    """Report the progress of a single point: one step at its end."""
+    """Report the progress of a single point, which is one step at the end of the point."""
     with shown(progress) as show:
         yield
         if show is not None:

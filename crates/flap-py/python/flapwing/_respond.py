@@ -1,4 +1,4 @@
-"""Responses up and down."""
+"""Responses of designs to a parameter that rises and falls."""
 
 from __future__ import annotations
 
@@ -35,36 +35,37 @@ def respond(
     """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
 
     The first point of each branch starts at rest. Every other point starts from the settled motion of the point before
-    it. If the branches up and down settle to different motions, the design is bistable. A step is halved if a
-    bistable band ends in it, or if the motion changes by more than a tenth.
-    Such a step may hide a narrow band.
+    it. If the branches up and down settle to different motions, the design is bistable. A step is halved if a bistable
+    band ends in this step. A step in which the motion changes by more than a tenth is also halved, because such a step
+    may hide a narrow band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). Each point of the grid, without the followed axis, is a design with its own
-        curve.
+        A preset or a grid (see `Grid`). The axis of the followed parameter is left out. Every other point of the grid
+        is a design with its own curve.
     parameter : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional
-        First value, last value, and step between values: numbers in SI units, or text with units. Default: the values
-        of the grid's axis.
+        First value, last value and step of the followed parameter: numbers in SI units, or text with units. Default:
+        the values of the axis in the grid.
     tolerance : float or str, optional
         Longest step at the ends of bistable bands and where the response is steep. Default: a sixteenth of the shortest
         step.
     unstable : bool, optional
-        Continue the branches around the ends of bistable bands, which adds the unstable orbits between them.
+        If True, the branches are continued around the ends of bistable bands. The table then also has the unstable
+        orbits between the branches.
     return_states : bool, optional
         Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
-        depend on it.
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
+        of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
-        designs in all.
+        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
+        the designs that are done, and all designs.
     client : distributed.Client, optional
-        Follow the designs on the workers of a Dask cluster, which must have the same build of flapwing. Rows are the
-        same.
+        Follow the designs on the workers of a Dask cluster, which must have the same build of flapwing. The cluster
+        does not change the rows.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -74,15 +75,15 @@ def respond(
         One row per motion. The columns are `curve` (number of the design), its parameters, `branch` (``"up"``,
         ``"down"`` or ``"unstable"``), the followed parameter, and `status`. Then follow `bistable` (true if the
         branches up and down have different motions) and the other columns of a sweep. `Table.verdicts` has the verdict
-        on each design, and ``meta["parameter"]`` the followed parameter.
+        on each design, and ``meta["parameter"]`` is the name of the followed parameter.
 
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; no steps; the parameter is a choice, or varies together with
-        others. GridError if there are mistakes in a grid.
+        A preset, parameter, option or unit is unknown; there are no steps; the followed parameter is a choice, or
+        varies together with other parameters. A grid with mistakes raises GridError.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
 
     Examples
     --------

@@ -33,7 +33,7 @@ def _same(one: Any, other: Any) -> bool:
 
 
 class _Result:
-    """A result that equals another result if all attributes are equal; unknown values count as equal."""
+    """A result. Two results are equal if all their attributes are equal, where two unknown values count as equal."""
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -46,7 +46,7 @@ class Row(Mapping[str, Any]):
     """The results of one design point.
 
     ``row["lift_mean_mn"]`` is the value of a column: a measure, or one of the attributes below. ``dict(row)`` has all
-    columns, in the same order for every point of a model.
+    columns. Their order is the same for every point of a model.
 
     Attributes
     ----------
@@ -56,28 +56,28 @@ class Row(Mapping[str, Any]):
         parameter is in range, but together they are impossible).
     measures : dict of str to float
         The measures, named by quantity, kind of measure and unit: ``stroke_pp_deg``, ``lift_mean_mn``,
-        ``power_mean_mw``. Then the measures of the grid's ``[measure]``; conditions are bool. All are nan unless the
-        point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
+        ``power_mean_mw``. The measures of ``[measure]`` in the grid follow; conditions are bool. All measures are nan
+        unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
     cycles : int
-        Drive periods integrated, including the measurement.
+        Number of integrated drive periods, including the measured periods.
     residual : float
-        Change of the state over the last period of the motion, in units of the typical sizes of its components. nan
-        if no period was completed.
+        Change of the state over the last period of the motion, relative to the typical size of each state. nan if no
+        period was completed.
     period : int
-        Drive periods until the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
+        Number of drive periods after which the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
     floquet_max : float
         Largest magnitude of a Floquet multiplier: the factor by which a small change of the motion grows or decays per
         orbit after a long time. nan if no orbit was found, and for a wing at rest.
     stable : bool or float
-        True if floquet_max is below 1, so that motions near the orbit approach it. True for a wing at rest. nan if no
-        orbit was found.
+        True if floquet_max is below 1: after a small change, the motion returns to the orbit. True for a wing at rest.
+        nan if no orbit was found.
     error_estimate : float
         Estimate of the largest relative error of the integration in stroke, pitch, mean lift and mean power; infinite
-        if it cannot be estimated. nan unless the point is periodic.
+        if no estimate is possible. nan unless the point is periodic.
     rhs_evals : int
         Number of evaluations of the equations of motion.
     reason : str
-        The cause if the point is invalid, else ``""``.
+        The reason why the point is invalid; ``""`` for other points.
     """
 
     status: str
@@ -149,18 +149,18 @@ class Parameter(_Result):
     name : str
         Name in grids, on the command line and as a keyword.
     value : float or str
-        Value in the design, in SI units, or the name of an option. nan if it is not set and follows other parameters,
-        or if a grid varies it.
+        Value in the design, in SI units, or the name of an option. nan if the parameter is not set and follows other
+        parameters, or if a grid varies the parameter.
     unit : str
         SI unit; ``""`` for pure numbers and options.
     symbol : str
-        Symbol in the paper; ``""`` if it has none.
+        Symbol in the paper; ``""`` if the paper has no symbol.
     doc : str
         Meaning in one line, with its source.
     allowed : str
         The allowed values, as text.
     options : tuple of str
-        Options of a choice; empty for other parameters.
+        Names of the options of a choice; empty for other parameters.
     """
 
     name: str
@@ -236,14 +236,14 @@ class DampedSine:
 
 @dataclass(frozen=True)
 class DrivenPeak:
-    """A peak of the settled stroke over the drive frequency.
+    """A peak of the settled stroke as a function of the drive frequency.
 
     Attributes
     ----------
     frequency_hz : float
         Drive frequency (Hz).
     stroke_pp_deg, pitch_pp_deg : float
-        Stroke and pitch there, peak to peak (deg).
+        Peak-to-peak stroke and pitch at this frequency (deg).
     """
 
     frequency_hz: float
@@ -253,7 +253,7 @@ class DrivenPeak:
 
 @dataclass(frozen=True)
 class FrequencyGap:
-    """A range of drive frequencies without a periodic motion, in which a peak may be missed.
+    """A range of drive frequencies without a periodic motion. The search may have missed a peak in this range.
 
     Attributes
     ----------
@@ -270,20 +270,21 @@ class FrequencyGap:
 
 @dataclass(frozen=True, eq=False)
 class Resonances(_Result):
-    """The resonances of one design point, by `resonance`.
+    """The resonances of one design point, which `resonance` returns.
 
     Attributes
     ----------
     linear_hz : dict of str to float
-        Natural frequencies (Hz) of small undamped motions, by name of the mode.
+        Natural frequencies (Hz) of small undamped motions, by the name of the mode.
     impulse_fit : DampedSine or None
-        The damped sine through the stroke after the impulse. None if no damped sine fits.
+        The damped sine that was fitted to the stroke after the impulse. None if no damped sine fits.
     stroke_spectrum_hz, pitch_spectrum_hz : list of float
         Highest peaks of the spectra after the impulse (Hz).
     driven : list of DrivenPeak
-        Peaks of the settled stroke over the drive frequency, the highest first.
+        Peaks of the settled stroke as a function of the drive frequency, with the highest peak first.
     larger_at_hz : float
-        The end of the range (Hz) at which the stroke is larger than at all peaks; nan if there is none.
+        The end of the frequency range (Hz) at which the stroke is larger than at all peaks; nan if there is no such
+        end.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """
@@ -299,7 +300,7 @@ class Resonances(_Result):
 
 @dataclass(frozen=True, eq=False)
 class ActiveBound(_Result):
-    """A bound or condition that holds an optimum back. Its text is ``str(bound)``.
+    """A bound or condition that limits an optimum. ``str(bound)`` returns the effect of the bound in words.
 
     Attributes
     ----------
@@ -312,7 +313,7 @@ class ActiveBound(_Result):
     multiplier : float
         Change of the optimal value per unit of the limit (Lagrange multiplier).
     percent : float
-        Change of the optimal value, in per cent of its magnitude, per per cent of the limit.
+        Change of the optimal value in per cent, if the limit changes by 1 %.
     text : str
         The effect of the limit in words.
     """
@@ -337,9 +338,9 @@ class ConditionValue(_Result):
     text : str
         The comparison, or the name of a condition of the grid.
     smaller, larger : float
-        The side that must be smaller, and the side that must be larger.
+        The values of both sides of the comparison: the side that must be smaller, and the side that must be larger.
     excess : float
-        Share of the limit by which the condition is exceeded; 0 if it holds.
+        Violation of the condition, as a share of the limit; 0 if the condition holds.
     """
 
     text: str
@@ -350,7 +351,7 @@ class ConditionValue(_Result):
 
 @dataclass(frozen=True, eq=False)
 class LocalOptimum(_Result):
-    """An optimum that some starts of a search end at.
+    """An optimum that a search found from some of its starts.
 
     Attributes
     ----------
@@ -361,7 +362,7 @@ class LocalOptimum(_Result):
     is_feasible : bool
         True if all conditions hold.
     starts : int
-        Number of starts that end there.
+        Number of starts whose search ends at this optimum.
     """
 
     value: float
@@ -372,40 +373,41 @@ class LocalOptimum(_Result):
 
 @dataclass(frozen=True, eq=False)
 class Optimum(_Result):
-    """The best design within the axes of a grid, by `optimise`.
+    """The best design within the axes of a grid, which `optimise` returns.
 
     Attributes
     ----------
     status : str
-        ``"optimal"`` if the derivatives confirm that no small change is better; ``"approximate"`` if they do not, or
-        are missing; ``"infeasible"`` if no design satisfies all conditions. The design then violates them least.
+        ``"optimal"`` if the derivatives confirm that no small change is better; ``"approximate"`` if the derivatives do
+        not confirm the design or are missing; ``"infeasible"`` if no design satisfies all conditions. An infeasible
+        design is the design with the smallest violation of the conditions.
     goal : str
-        The expression that is largest or smallest.
+        The expression that was maximised or minimised.
     value : float
-        Its value.
+        The value of the goal.
     values : dict of str to float or str
         The varied and derived parameters, in SI units, or names of options.
     row : Row
         The row of the design.
     active : list of ActiveBound
-        The bounds and conditions that hold the design back, with their multipliers.
+        The bounds and conditions that limit the design, with their multipliers.
     conditions : list of ConditionValue
         All conditions.
     optima : list of LocalOptimum
-        The distinct optima that the starts end at, the best first.
+        The distinct optima that were found, with the best optimum first.
     at_end : dict of str to tuple of float
-        Parameters that are at an end of their axis, with the smallest and the largest value: a wider axis may have a
-        better design.
+        Parameters that are at an end of their axis, with the smallest and the largest value of the axis. A wider axis
+        may have a better design.
     starts : int
         Number of starts.
     points, points_computed : int
-        Points of the grid, and points of it that were computed.
+        Number of points of the grid, and number of these points that were computed.
     rows, rows_with_derivatives : int
-        Rows computed in all, and rows with derivatives among them.
+        Number of all rows that were computed, and number of these rows that have derivatives.
     is_polished : bool
-        True if derivatives were missing or misled the search, and a pattern search followed.
+        True if a pattern search followed, because derivatives were missing or misled the search.
     device : str
-        The design as the text of a device, for a file or for `run`; ``""`` for vehicles.
+        The design as the text of a device file, which you can write to a file or give to `run`; ``""`` for vehicles.
     """
 
     status: str
@@ -435,8 +437,8 @@ class BistableBand(_Result):
     start, stop : float
         The ends of the band, in SI units.
     stroke_difference_deg : float
-        Largest difference of the stroke between the two motions (deg, peak to peak); nan if the two are nowhere both
-        periodic.
+        Largest difference between the peak-to-peak strokes of the two branches (deg); nan if the motions of both
+        branches are nowhere periodic.
     """
 
     start: float
@@ -446,14 +448,14 @@ class BistableBand(_Result):
 
 @dataclass(frozen=True)
 class Verdict:
-    """The verdict on the response of one design. Its text is ``str(verdict)``.
+    """The verdict on the response of one design. ``str(verdict)`` returns the verdict as text.
 
     Attributes
     ----------
     text : str
         The verdict in one line.
     bands : list of BistableBand
-        The bands with hysteresis, by rising value of the parameter; empty if there is none.
+        The bands with hysteresis, in rising order of the parameter; empty if there is no hysteresis.
     """
 
     text: str

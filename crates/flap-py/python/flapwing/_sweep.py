@@ -1,4 +1,4 @@
-"""Sweeps, on this machine and on others, and their results."""
+"""Sweeps on this machine and on a cluster, and files with results."""
 
 from __future__ import annotations
 
@@ -37,30 +37,31 @@ def sweep(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The design space (see `Grid`); a preset has a single point. Its ``[output]`` chooses columns, but the path in it
-        is not used.
+        The design space (see `Grid`); a preset has a single point. The table ``[output]`` of the grid chooses the
+        columns, but its `path` is not used.
     out : path, optional
-        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed, with
-        the same bytes as by ``flap sweep --out``. A sidecar beside the file records the origin of the rows. If `out`
-        has unfinished rows of the same grid, the sweep continues them. If it has all rows, nothing is run. Any other
-        file is an error, unless it is empty. By default, rows are kept in memory: about half a kilobyte each.
+        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed. The
+        file has the same bytes as a file of ``flap sweep --out``. A sidecar beside the file records the origin of the
+        rows. If `out` has unfinished rows of the same grid, the sweep continues them. If `out` has all rows, no point
+        is run. Any other file that is not empty is an error. By default, rows are kept in memory: about half a kilobyte
+        for each row.
     restart : bool, optional
-        Start over, and replace the results in `out` when the new ones are complete.
+        If True, the sweep starts over, and replaces the results in `out` when the new results are complete.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. Rows do not
-        depend on it.
+        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
+        of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
-        points in all.
+        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
+        the points that are done, and all points.
     client : distributed.Client, optional
         Run the points on the workers of a Dask cluster, which must have the same build of flapwing. Rows have the same
-        order and the same bytes as on one machine. If a worker dies, other workers run its points again. A worker whose
-        processor has another arithmetic is an error, because its rows could differ.
+        order and the same bytes as on one machine. If a worker dies, other workers run its points again. If the
+        processor of a worker has another arithmetic, an error is raised, because the rows of this worker could differ.
     measures : list of str, optional
         The measures of the rows. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. They have the same effect as entries of the grid's
-        ``[params]`` and ``[solver]``, and `out` and its sidecar record them in this form.
+        Parameters of all points and solver settings, as for `run`. Keywords have the same effect as entries of
+        ``[params]`` and ``[solver]`` in the grid, and `out` and its sidecar record them in this form.
 
     Returns
     -------
@@ -68,24 +69,25 @@ def sweep(
         One row per point in the order of the grid, without points that ``[where]`` excludes. Columns: `point`, the
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
         `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among the columns
-        after `status`. A point that fails has a row with its status. With `out`, the rows are read from the file at
+        after `status`. A point that fails has a row with its status. If `out` is given, rows are read from the file at
         their first use.
 
     Raises
     ------
     GridError
-        All mistakes in the grid, each with its line, the allowed values and the nearest name. It is a ValueError.
+        The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
+        GridError is a ValueError.
     FileExistsError
-        `out` has complete rows of another grid, or is another file, and `restart` is not given.
+        `out` has complete rows of another grid, or is not a result file, and `restart` is not given.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be continued, because its unfinished rows belong to another grid or were changed. Unknown preset,
-        parameter, option, unit or measure; a keyword that the grid varies or derives.
+        `out` cannot be continued, because its unfinished rows belong to another grid or were changed. A preset,
+        parameter, option, unit or measure is unknown; the grid varies or derives a parameter that is also a keyword.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
     KeyboardInterrupt
-        Ctrl-C was pressed. Rows in `out` are kept, and the same call continues them.
+        Ctrl-C was pressed. Rows in `out` are kept, and the same call continues the sweep.
 
     Examples
     --------
@@ -111,7 +113,7 @@ def sweep(
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequence[str] | None) -> Grid:
-    """Return the grid of a design with parameters and solver settings from keywords, and with only these measures."""
+    """Return the grid of a design with parameters and solver settings from keywords, and only with these measures."""
     grid = design if isinstance(design, Grid) else Grid(design)
     if not keywords and measures is None:
         return grid
@@ -144,16 +146,17 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
         Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of another command, such
         as ``flap run --trajectory``. A Parquet table of another program (Zstandard, Snappy or no compression) works
         too. Units, meanings and axes are read from the sidecar beside the results, or from the metadata of flap's
-        Parquet files. Without both, units are taken from the names of the columns. If results are unfinished, the rows
-        up to the last checkpoint are read, with a warning.
+        Parquet files. If both are missing, units are taken from the names of the columns. If results are unfinished,
+        the rows up to the last checkpoint are read, with a warning.
     ignore_damage : bool, optional
-        If results are damaged, read the rows that can be read, with a warning. By default, damage is an error.
+        If True, damaged results raise a warning instead of an error, and only readable rows are returned. By default,
+        damage is an error.
 
     Returns
     -------
     Table
         The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` is True if the checksums
-        agree. It is False for unfinished or damaged results, and for results without checksums.
+        agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without checksums.
 
     Raises
     ------

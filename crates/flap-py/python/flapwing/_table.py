@@ -44,14 +44,14 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
 
 
 def _fixed(values: Any) -> np.ndarray[Any, Any]:
-    """Return values as a read-only array, which tables of parts of the rows share."""
+    """Return values as a read-only array. Tables with some of the rows share this array."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
 
 
 class Table:
-    """Results as columns: one NumPy array each, all of the same length.
+    """Results as columns. Each column is a NumPy array, and all columns have the same length.
 
     ``table["lift_mean_mn"]`` is a column. ``table[["drive_frequency", "lift_mean_mn"]]`` is a table of some of the
     columns. ``table[rows]`` is a table of some of the rows, where `rows` is a slice, a mask or indices. ``len(table)``
@@ -59,21 +59,21 @@ class Table:
     a copy, such as ``table["lift_mean_mn"].copy()``.
 
     Numbers are float64, with nan for unknown values such as the measures of a point that is not periodic. Counts are
-    uint64, flags are bool, options and words are text. If a flag of some row is unknown, its column is float64: 1 for
-    True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects rows in both cases. `units` has the
-    units of the columns, and `docs` their meanings.
+    uint64, flags are bool, options and words are text. If the flag of some row is unknown, the column is float64: 1 for
+    True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects stable rows in both cases. `units` has
+    the units of the columns, and `docs` their meanings.
 
     Attributes
     ----------
     axes : list of dict
         The axes of the grid; the last varies fastest. Each dictionary has the parameters that vary together along the
-        axis, with their values, which are read-only. Empty if the rows have no grid with axes.
+        axis, with their values. The values are read-only. The list is empty if the rows have no grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
         version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds
         `counts` (number of rows by status), `excluded` (number of points without a row) and `invalid` (the first few
-        invalid points with their reasons). `keywords` has the keywords of the call, which replace values of the grid.
-        Tables of some of the rows or columns have copies of these entries, with their own `rows` and `counts`.
+        invalid points with their reasons). `keywords` has the keywords of the call, which replace values of the grid. A
+        table with some of the rows or columns has copies of these entries, but new values of `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -86,8 +86,8 @@ class Table:
 
     @classmethod
     def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
-        """Return a table of native results of a call with these keywords. With a path, its columns are read from there
-        at their first use.
+        """Return a table of the native results of a call with these keywords. If a path is given, columns are read from
+        this file at their first use.
         """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:
@@ -170,7 +170,7 @@ class Table:
             raise unknown("column", name, self._columns) from None
 
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
-        """Return some of the rows. `meta` has new counts of rows; its other entries are about the call."""
+        """Return a table with some of the rows. Its `meta` has new counts of rows and copies of other entries."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
         table = self._new(columns, self.axes, copy.deepcopy(self.meta))
         if "counts" in table.meta:
@@ -193,12 +193,12 @@ class Table:
 
     @property
     def docs(self) -> dict[str, str]:
-        """The meaning of each column in one line; ``""`` if it is unknown."""
+        """The meaning of each column in one line; ``""`` if the meaning is unknown."""
         return {name: column.doc for name, column in self._columns.items()}
 
     @property
     def counts(self) -> dict[str, int]:
-        """The number of rows with each status, for statuses that occur."""
+        """The number of rows with each status. Statuses that do not occur are left out."""
         if "status" not in self:
             return {}
         statuses, counts = np.unique(self["status"], return_counts=True)
@@ -208,9 +208,10 @@ class Table:
     def gradient(self) -> np.ndarray[Any, np.dtype[np.float64]]:
         """Derivatives of the measures, with the shape rows x measures x parameters.
 
-        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. The unit is
-        the unit of the measure's column per SI unit of the parameter. Derivatives of a grid's ``[gradient]`` are per
-        1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap`` has the reason.
+        ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. The unit of
+        a derivative is the unit of the measure's column per SI unit of the parameter. Derivatives of a grid's
+        ``[gradient]`` are per 1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap`` has
+        the reason.
         """
         told = self.meta.get("gradient")
         if told is None:
@@ -220,19 +221,22 @@ class Table:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """The verdicts on the responses of a table of `respond`, one for each design; empty for other tables."""
+        """The verdicts on the responses in a table of `respond`: one verdict for each design. The list is empty for
+        other tables.
+        """
         return list(self.meta.get("verdicts", []))
 
     @property
     def periodic(self) -> Table:
-        """Return the rows with a periodic motion, which have measures."""
+        """Return a table with the rows that have a periodic motion, and therefore measures."""
         return self[self["status"] == "periodic"]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return the table as a pandas DataFrame. If pandas allows it, numbers are not copied.
+        """Return the table as a pandas DataFrame. Numbers are not copied if pandas allows shared memory.
 
         Flags have the type ``boolean``, and text is categorical. ``frame.attrs`` has `units`, and the entries of `meta`
-        as text, or as JSON if they are not text. Columns that are not copied are read-only; change ``frame.copy()``.
+        as text, or as JSON if an entry is not text. Columns that are not copied are read-only; to change values, use
+        ``frame.copy()``.
         """
         return _columns.to_pandas(self._columns, self.meta)
 
@@ -248,7 +252,8 @@ class Table:
         """Return the table as an Arrow table. Numbers share memory with the table, and unknown values are null.
 
         Units and meanings are in the metadata of the fields. The entries of `meta` are in the metadata of the schema,
-        as ``flapwing.build``, ``flapwing.grid`` and so on; entries that are not text are JSON. Parquet files keep both.
+        as ``flapwing.build``, ``flapwing.grid`` and so on; entries that are not text are JSON. Parquet files keep the
+        metadata of the fields and of the schema.
         """
         return _columns.to_arrow(self._columns, self.meta)
 
@@ -257,15 +262,17 @@ class Table:
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the table as an xarray Dataset. The axes of the grid are its dimensions, in the order of the grid.
+        """Return the table as an xarray Dataset. The dimensions of the Dataset are the axes of the grid, in the same
+        order.
 
         A dimension has the name of the first parameter of its axis. Other parameters of the axis are coordinates along
-        it. A motion has the dimension ``time_s``. All other tables without axes have the dimension ``row``. For a
-        response, the columns with the place of a row on its curve are coordinates along ``row``: `curve`, the design's
-        parameters, `branch`, and the followed parameter. Columns are variables with the attributes `units`, `long_name`
-        and `description`. Points that the grid excludes have no row; they are nan, 0 or empty text, and flags become
-        float64. The places of rows are found by `point`, or by the parameters of the axes. Without both, ValueError is
-        raised. The attributes of the Dataset are the entries of `meta`, as JSON if they are not text.
+        this dimension. A motion has the dimension ``time_s``. All other tables without axes have the dimension ``row``.
+        For a response, the columns with the place of a row on its curve are coordinates along ``row``: `curve`, the
+        design's parameters, `branch`, and the followed parameter. Columns are variables with the attributes `units`,
+        `long_name` and `description`. Points that the grid excludes have no row: their cells are nan, 0 or empty text,
+        and flags become float64. The column `point`, or the parameters of the axes, locate the rows. Without these
+        columns, ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is
+        not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

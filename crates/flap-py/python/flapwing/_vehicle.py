@@ -1,4 +1,4 @@
-"""Vehicles of several wings of one model, as entries of a grid."""
+"""Vehicles with one or more wings of one model, as entries of a grid."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ class Wing(_Entries):
     Parameters
     ----------
     name : str
-        The name, which is the prefix of the wing's parameters and columns, as in ``left_drive_voltage_pp`` and
+        The name of the wing, which is the prefix of its parameters and columns, as in ``left_drive_voltage_pp`` and
         ``left_stroke_pp_deg``.
     position : sequence of three numbers or texts, optional
-        The place of the shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text with units
-        such as ``"4 mm"``. Default: zero.
+        The position of the shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text with
+        units such as ``"4 mm"``. Default: zero.
     plane : dict, optional
         The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
     mirrored : bool, optional
@@ -51,12 +51,12 @@ class Wing(_Entries):
         The design of the wing, if it differs from the vehicle's design: the name of a preset, or the path of a device
         file.
     params : dict, optional
-        Parameters of only this wing.
+        Parameters that apply only to this wing.
 
     Raises
     ------
     TypeError
-        A value of the wrong type. Other mistakes are reported by `Vehicle`, with their place.
+        An argument has the wrong type. `Vehicle` reports other mistakes, with their place in the entries.
 
     Examples
     --------
@@ -104,19 +104,21 @@ class Wing(_Entries):
 
 
 class Vehicle(_Entries):
-    """A vehicle of several wings of one model. Its mean forces and torques are sums over the wings.
+    """A vehicle with one or more wings of one model. The mean forces and torques of the vehicle are sums over the
+    wings.
 
-    Use a vehicle as the design in any call::
+    You can use a vehicle as the design in any call::
 
         vehicle = Vehicle("jafferis2016", [left, right], about=["0 mm", "0 mm", "-2 mm"])
         run(vehicle, drive_offset="10 V")["torque_pitch_unm"]
         evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
         sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
 
-    A vehicle is a mapping of the entries of a grid file with a section ``[vehicle]``. With further sections, it is a
-    grid. A parameter NAME of the model applies to all wings. ``left_NAME`` applies only to the wing `left`.
-    ``difference_NAME`` is left minus right: wings that are not mirrored get plus half of it, mirrored wings minus half.
-    The model leaves out interaction between wings and motion of the body. Body axes: x forward, y to the left, z up.
+    A vehicle is a mapping with the entries of a grid file with a table ``[vehicle]``. If you add other tables, such as
+    ``axes``, the mapping is a grid. A parameter NAME of the model applies to all wings. ``left_NAME`` applies only to
+    the wing `left`. ``difference_NAME`` is the value of left wings minus the value of right wings. Half of this
+    difference is added for wings that are not mirrored, and half is subtracted for mirrored wings. The model leaves out
+    interaction between wings and motion of the body. The body axes are x forward, y to the left, and z up.
 
     Parameters
     ----------
@@ -124,21 +126,23 @@ class Vehicle(_Entries):
         The design of the wings: the name of a preset, the path of a device file, or entries of a grid, such as
         ``{"preset": "jafferis2016", "params": {"drive_voltage_pp": "180 V"}}``.
     wings : sequence of Wing or dict
-        One or more wings: each a `Wing`, or a dictionary of the same entries.
+        One or more wings. Each wing is a `Wing`, or a dictionary with the same entries.
     about : sequence of three numbers or texts, optional
         The point about which torques are computed, such as the centre of mass: numbers in metres, or text with units.
         Default: the origin.
     total_mass : float or str, optional
-        The mass of the whole vehicle, for `lift_to_weight`: a number in kilograms, or text such as ``"85 mg"``.
+        The mass of the whole vehicle, which determines the column `lift_to_weight`: a number in kilograms, or text such
+        as ``"85 mg"``.
 
     Raises
     ------
     GridError
-        All mistakes in the entries, each with its place, the allowed values and the nearest name.
+        The entries have mistakes. The message lists each mistake with its place, the allowed values and the nearest
+        name.
     ValueError
         `design` already has a vehicle.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
     OSError
         A device cannot be read.
 
@@ -182,7 +186,7 @@ class Vehicle(_Entries):
 
 
 def _design(design: Any) -> dict[str, Any]:
-    """Return the entries of a grid for the design of the wings."""
+    """Return the entries of a grid file for the design of the wings."""
     if isinstance(design, Mapping):
         if "vehicle" in design:
             raise ValueError("`design` already has a vehicle\nit must be the design of the wings, without a vehicle")

@@ -1,4 +1,4 @@
-"""Sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws them.
+"""Sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of these results.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
@@ -29,7 +29,8 @@ __all__ = ["RankCorrelation", "Sensitivity", "non_dominated", "rank_correlations
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """The sensitivity of a measure to one parameter: the measure at a lower and at a higher value of the parameter.
+    """The sensitivity of a measure to one parameter: the values of the measure at a lower and at a higher value of the
+    parameter.
 
     Attributes
     ----------
@@ -38,13 +39,13 @@ class Sensitivity:
     value : float
         The parameter's value in the design, in SI units.
     below, above : float
-        The lower and the upper value that were run, in SI units.
+        The lower and the upper value of the parameter at which the measure was computed, in SI units.
     measure : str
         The measure's name.
     base : float
-        The measure of the unchanged design, in the measure's unit.
+        The value of the measure for the unchanged design, in the unit of the measure.
     low, high : float
-        The measure at the lower and at the upper value; nan if there is no periodic motion.
+        The values of the measure at the lower and at the upper value of the parameter; nan without a periodic motion.
     unit, measure_unit : str
         The units of the parameter and of the measure.
     """
@@ -62,7 +63,7 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger absolute value of the two changes of the measure; infinite if both are unknown."""
+        """The larger absolute value of the two changes of the measure; infinite if both changes are unknown."""
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
 
@@ -75,10 +76,10 @@ def sensitivities(
     change: float = 0.05,
     **fixed: Any,
 ) -> list[Sensitivity]:
-    """Change each parameter of a design slightly, down and up, and compute the change of a measure.
+    """Decrease and increase each parameter of a design slightly, and compute the changes of a measure.
 
-    Two points are run for each parameter, and one point for the design. All other parameters keep their values, except
-    parameters that follow the changed one, as the bias follows the voltage.
+    Two points are run for each parameter, and one point for the unchanged design. All other parameters keep their
+    values, except parameters that follow the changed parameter, as the bias follows the voltage.
 
     Parameters
     ----------
@@ -87,24 +88,24 @@ def sensitivities(
     measure : str
         A measure of its model.
     parameters : mapping or iterable of str, optional
-        The parameters to change; in a mapping, each with its own relative change or with the two values to try (SI).
-        Default: all numbers that are not zero, except parameters that follow others, and parameters that cannot take
-        such values, such as whole numbers.
+        The parameters to change. A mapping gives each parameter its own relative change, or the two values to compute
+        (in SI units). Default: all parameters with a number that is not zero. Parameters that follow other parameters,
+        and parameters that cannot have the changed values, such as whole numbers, are left out.
     change : float
-        The relative change of parameters without their own change.
+        The relative change of parameters for which `parameters` gives no change.
     **fixed
-        Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options.
-        Solver settings, as for `flapwing.evaluate`.
+        Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options. You can
+        also give solver settings, as for `flapwing.evaluate`.
 
     Returns
     -------
     list of Sensitivity
-        Sensitivities in falling order of `swing`.
+        The sensitivities, in falling order of `swing`.
 
     Raises
     ------
     ValueError
-        Unknown design, measure or parameter; a change of zero; a design whose motion is not periodic.
+        The design, the measure or a parameter is unknown; a change is zero; the motion of the design is not periodic.
 
     Examples
     --------
@@ -145,7 +146,7 @@ def sensitivities(
 def _ranges(
     known: Mapping[str, Parameter], parameters: Any, change: float, fixed: Mapping[str, Any]
 ) -> dict[str, float | tuple[float, float]]:
-    """Return the relative change, or the two values, of each parameter."""
+    """Return the relative change or the two values of each parameter."""
     if parameters is None:
         chosen: dict[str, Any] = {
             name: change
@@ -182,7 +183,8 @@ class RankCorrelation:
     parameter : str
         The parameter's name.
     correlation : float
-        From -1 (a larger parameter always means a smaller measure) to 1.
+        The correlation, from -1 (a larger parameter always gives a smaller measure) to 1 (a larger parameter always
+        gives a larger measure).
     measure : str
         The measure's name.
     designs : int
@@ -205,8 +207,8 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values share the mean of their ranks. A parameter is left out if it has the order of an earlier
-    parameter, the reverse order, or the same value in all designs.
+    Equal values get the mean of their ranks. A parameter is left out if all designs have the same value. A parameter is
+    also left out if it ranks the designs in the order, or the reverse order, of an earlier parameter.
 
     Parameters
     ----------
@@ -215,7 +217,7 @@ def rank_correlations(
     measure : str, optional
         A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
     parameters : iterable of str, optional
-        Parameters, or any columns of numbers. Default: all parameters of the table.
+        The parameters to correlate, or other columns of numbers. Default: all parameters of the table.
     where, **slices
         The selection of rows, as for `flapwing.plot.histogram`.
 
@@ -255,21 +257,21 @@ def rank_correlations(
 
 
 def _parameters(data: Data) -> list[str]:
-    """Return the parameters that are numbers, sampled parameters first."""
+    """Return the parameters that are numbers, with sampled parameters first."""
     names = [name for name in data.parameters() if not is_text(data[name])]
     return sorted(names, key=data.on_a_grid)
 
 
 def non_dominated(costs: Any) -> Mask:
-    """Return a mask of the points that are not dominated; in every column, smaller values are better.
+    """Return a mask of the points that no other point dominates. In every column, smaller values are better.
 
-    A point is dominated if another point is nowhere larger and somewhere smaller. Equal points do not dominate each
-    other.
+    One point dominates another point if no column is larger and at least one column is smaller. Equal points do not
+    dominate each other.
 
     Parameters
     ----------
     costs : array_like, shape (n, k)
-        One row per point and one column per objective, k >= 1. Negate objectives that should be large.
+        One row per point and one column per objective, k >= 1. Change the sign of objectives that should be large.
 
     Returns
     -------

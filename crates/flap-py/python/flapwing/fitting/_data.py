@@ -56,7 +56,7 @@ class Meaning:
 
 
 def _hint(name: str, known: list[str]) -> str:
-    """Return the nearest known name as part of a message; empty if none is near."""
+    """Return the nearest known name as part of a message; empty if no known name is near."""
     near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
     return f", did you mean `{near[0]}`?" if near else ""
 
@@ -99,7 +99,7 @@ class Names:
         return self.parameters[name] if name in self.parameters else self.measures[name]
 
     def meaning(self, place: str, header: str) -> Meaning:
-        """Return the meaning of a column; raise ValueError for a name that is neither a parameter nor a measure."""
+        """Return the meaning of a column. Raise ValueError for a name that is neither a parameter nor a measure."""
         match = _IN_BRACKETS.fullmatch(header)
         name, unit = (match[1], match[2]) if match else (header, None)
         name = name.strip().replace(" ", "_")
@@ -176,7 +176,9 @@ class Noise:
     size: Array | float = 1.0
 
     def of(self, values: Array, measured: Array, guess: float) -> Array:
-        """Return standard errors for these values of the model; `guess` replaces unknown standard errors."""
+        """Return the standard errors of readings for these values of the model. `guess` replaces unknown standard
+        errors.
+        """
         if self.kind == "unknown":
             return np.full(len(measured), guess)
         if self.kind == "absolute":
@@ -190,7 +192,9 @@ UNKNOWN_NOISE = Noise("unknown")
 
 
 def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
-    """Parse the standard error of a measure: a number in its unit, or text such as ``"1 deg"`` or ``"3 %"``."""
+    """Parse the standard error of a measure: a number in the unit of the measure, or text such as ``"1 deg"`` or ``"3
+    %"``.
+    """
     wanted = (
         f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"; '
         f"for errors of single readings, add a column {measure}_sigma"
@@ -217,7 +221,7 @@ _OTHERS = {";": "semicolons", "\t": "tabs"}
 
 
 def _file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
-    """Return the columns of a CSV file with cells as text; lines that begin with # are comments."""
+    """Return the columns of a CSV file, whose cells are text. Lines that begin with # are comments."""
     name = os.fspath(path)
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
@@ -259,7 +263,9 @@ _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 
 
 def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """Return a column of a parameter: numbers in SI units, or options. Raise ValueError for values out of range."""
+    """Return the column of a parameter: numbers in SI units, or names of options. Raise ValueError for values out of
+    range.
+    """
 
     def value(cell: Any) -> float:
         try:
@@ -284,7 +290,7 @@ def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cel
 
 
 def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:
-    """Return a column of a measure, in the measure's unit."""
+    """Return the column of a measure, in the unit of the measure."""
     unit = names.unit(meaning.name)
 
     def read(cell: str) -> float:
@@ -296,7 +302,9 @@ def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells
 
 
 def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Noise:
-    """Return a column of standard errors: all in the measure's unit, or all in per cent of the model's value."""
+    """Return the column of standard errors of a measure: in the unit of the measure, or in per cent of the model's
+    value.
+    """
     shares = [isinstance(cell, str) and cell.strip().endswith("%") for cell in cells]
     if all(shares) and not meaning.is_share:
         meaning = Meaning(meaning.kind, meaning.name, 0.01, True)
@@ -365,20 +373,21 @@ class Readings:
     ----------
     columns : dict, Table, DataFrame or path
         Columns of operating points and measures, or a CSV file with such columns. The name of a column is the name of a
-        parameter or a measure. Parameters are in SI units and measures in their own unit, unless the name has another
-        unit (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell has one (``"0.12 kHz"``).
+        parameter or a measure. Parameters are in SI units and measures in their own unit. The name of a column
+        (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell (``"0.12 kHz"``) may have another unit.
         ``frequency_hz`` means ``drive_frequency``. A measure's name with the suffix ``_sigma`` is a column of standard
         errors, in the measure's unit or as ``"3 %"``.
     name : str, optional
-        The name in reports. Default: the name of the file, or the number of the data set.
+        The name of the data set in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional
         The standard error of a reading: a number in the measure's unit, text such as ``"1 deg"``, or ``"3 %"`` of the
-        model's value. A dictionary gives it by measure. Default: it is estimated from the residuals.
+        model's value. A dictionary gives one standard error for each measure. Default: the standard error is estimated
+        from the residuals.
     branch : {"up", "down"}, optional
         For a design with hysteresis, the branch of the readings: ``"up"`` if `parameter` rose during the experiment,
-        ``"down"`` if it fell.
+        ``"down"`` if `parameter` fell.
     parameter : str, optional
-        The parameter that was changed along the branch. Default ``"drive_frequency"``.
+        The parameter that rose or fell during the experiment. Default ``"drive_frequency"``.
     **params : float or str
         Parameters of all operating points, such as ``drive_voltage_pp="160 V"``.
 
@@ -433,7 +442,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class DataSet:
-    """Readings in the model's units, with one row per operating point."""
+    """The readings of one data set in the model's units, with one row per operating point."""
 
     name: str
     #: Parameters of the operating points: numbers in SI units, or options.
@@ -545,7 +554,7 @@ _HOLD_OUT = (
 
 
 def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
-    """Return a mask of the readings that are held out."""
+    """Return a mask, which is True for readings that are predicted instead of fitted."""
     if hold_out is None:
         return np.zeros(count, np.bool_)
     if isinstance(hold_out, Mapping):

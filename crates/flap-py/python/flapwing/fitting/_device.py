@@ -1,4 +1,4 @@
-"""A fit as a device file: parameters with standard errors and correlations, as a basis for designs and grids."""
+"""The device file of a fit, which has parameters with standard errors and correlations. You can use it as a design."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
 def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
-    """Write the device of a fit to a file; raise FileExistsError if it exists, unless `overwrite`."""
+    """Write the device of a fit to a file. Raise FileExistsError if the file exists and `overwrite` is False."""
     text = text_of(fit, data_set)
     try:
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
@@ -84,7 +84,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """Return the label of each fitted parameter; for parameters per data set, the label of one set."""
+    """Return the label of each fitted parameter. If a parameter differs between data sets, return the label for one
+    data set.
+    """
     known = [one.name for one in fit._sets]
     if data_set is not None and data_set not in known:
         raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
@@ -98,7 +100,7 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
 
 
 def _set(fit: Solution) -> dict[str, Any]:
-    """Return the parameters of the design and the parameters that the call set."""
+    """Return the parameters of the design, and the parameters that were keywords of the call."""
     model = fit._model
     given = {
         name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)

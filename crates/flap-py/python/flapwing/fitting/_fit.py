@@ -41,10 +41,10 @@ def fit(
     progress: Progress = False,
     **keywords: Value,
 ) -> Fit:
-    """Fit parameters of a design to readings, and compute how well the data determine them.
+    """Fit parameters of a design to readings, and compute the uncertainty of these parameters.
 
     The method is nonlinear least squares (`scipy.optimize.least_squares`) from several starts, with derivatives of the
-    settled motions. It requires SciPy.
+    settled motions. `fit` requires SciPy.
 
     Parameters
     ----------
@@ -53,34 +53,37 @@ def fit(
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         One or several data sets with parameters of the operating points and measures; see `Readings`.
     free : list of str, or dict
-        The parameters to fit. In a dictionary, each has bounds ``(low, high)``, a `FreeParameter`, or None. Values are
-        numbers in SI units or text with units. Default bounds: a third of the design's value, and three times it.
+        The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
+        Bounds are numbers in SI units or text with units. Default bounds: a third of the design's value, and three
+        times the design's value.
     sigma : float, str or dict, optional
-        The standard error of readings without their own: a number in the measure's unit, text such as ``"1 deg"``, or
-        ``"3 %"`` of the model's value. A dictionary gives it by measure. Default: it is estimated from the residuals.
+        The standard error of readings without a column of standard errors: a number in the measure's unit, text such as
+        ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for each measure. Default:
+        the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
         The loss function. All except ``"linear"`` reduce the weight of outliers.
     starts : int
-        Number of searches. The first starts at the design's values, others at the best points of a Sobol' sequence.
+        Number of searches. The first search starts at the design's values, and the other searches at the best points of
+        a Sobol' sequence.
     seed : int
         Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
         Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
         parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units.
     profile : bool
-        If True, intervals are computed by the profile likelihood. If False, from the derivatives at the estimate, which
-        is faster.
+        If True, intervals are computed by the profile likelihood. If False, intervals are computed from the derivatives
+        at the estimate, which is faster.
     threads : int, optional
-        Number of threads, 1 or more. Default: one per core. Results do not depend on it.
+        Number of threads, 1 or more. Default: one per core. The number of threads does not change the results.
     progress : bool or function, optional
-        Show the number of points that were run, or call a function with this number as both arguments.
+        If True, the number of computed points is shown. A function is called with this number as both arguments.
     **keywords : float or str
         Parameters of all data and solver settings.
 
     Returns
     -------
     Fit
-        Estimates, errors, intervals, and the quality of the fit. Print it to read the report.
+        Estimates, errors, intervals, and the quality of the fit. Print the result to read the report.
 
     Raises
     ------
@@ -88,7 +91,7 @@ def fit(
         Data without readings, with unknown columns or units, with cells that are not numbers, or with fewer readings
         than free parameters; bounds in the wrong order; unknown parameters.
     TypeError
-        A value of the wrong type.
+        An argument has the wrong type.
     ImportError
         SciPy is not installed.
 
@@ -129,7 +132,7 @@ def _finish(
     profile: bool,
     indistinct: list[str],
 ) -> Fit:
-    """Return the result from the best of the searches."""
+    """Return the result of the fit from the best of the searches."""
     target, found, answer = _settle(model, sets, target, best, guesses)
     covariance = _covariance(model, target, found, answer)
     sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
@@ -177,7 +180,9 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, with standard errors for its end and without readings that do not settle there."""
+    """Run the last search, with standard errors for the end of the search. Readings whose motion does not settle there
+    are left out.
+    """
     found = best
     for _ in range(_ROUNDS):
         found = _search.polish(model, target, found.x)
@@ -247,7 +252,9 @@ def _lost(answer: Answer, held: Mask) -> Places:
 
 
 def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, held: Mask) -> str:
-    """Return the message for too few readings with a settled motion, with the reason if their points are impossible."""
+    """Return the message for too few readings with a settled motion. If the points of readings are impossible, the
+    message has the reason.
+    """
     lost = _unsettled(sets, answer, held)
     told = "too few readings have a settled motion at the best parameters found: "
     for one, reading in zip(lost, _lost(answer, held)):
@@ -270,7 +277,7 @@ def _quantile(sigma_known: bool, freedom: int) -> float:
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:
-    """Return the design, after a check of the keywords."""
+    """Return the design of the fit, after a check of the keywords."""
     _flapwing.check(design, keywords=dict(keywords))
     return design
 

@@ -1,4 +1,6 @@
-"""Intervals by the profile likelihood, and combinations of parameters that data determine well, badly or not at all."""
+"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at
+all.
+"""
 
 from __future__ import annotations
 
@@ -32,12 +34,12 @@ class Profile:
     value : array
         Values of the parameter in SI units, rising.
     rise : array
-        The signed square root of the rise of the cost, in standard errors. It is 0 at the estimate, and nearly a
-        straight line if the parameter is well determined.
+        The signed square root of the rise of the cost, in standard errors. The rise is 0 at the estimate, and nearly a
+        straight line if the data determine the parameter well.
     low, high : float
         Ends of the 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the end of the range: the data do not bound the parameter on this side.
+        True if the interval extends to the end of the range, so that the data do not bound the parameter on this side.
     """
 
     value: Array
@@ -55,7 +57,9 @@ class Profile:
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile: coordinates, heights, and True if the end of the range was reached first."""
+    """One side of a profile: coordinates, heights, and a flag. The flag is True if the profile reached the end of the
+    range first.
+    """
 
     x: list[float]
     height: list[float]
@@ -66,7 +70,7 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """The fit from which profiles begin: its target, its estimate, and the height at which profiles end."""
+    """The fit from which profiles begin: its target and estimate, and the height at which profiles end."""
 
     space: Space
     target: Target
@@ -75,7 +79,7 @@ class _Walks:
     height: float
 
     def side(self, ask: Ask, held: int, way: float) -> _Side:
-        """Return the profile on one side, up to the height or the end of the range."""
+        """Return the profile on one side of the estimate, up to the height or to the end of the range."""
         here = self.found.x[held]
         end = self.space.high[held] if way > 0 else self.space.low[held]
         error = np.sqrt(self.covariance[held, held])
@@ -136,7 +140,9 @@ class _Walks:
 def profiles(
     model: Model, target: Target, found: Found, covariance: Array, height: float
 ) -> tuple[list[Profile], Found | None]:
-    """Return the profiles of all coordinates up to `height` standard errors, and a better fit if one was found."""
+    """Return the profiles of all coordinates up to `height` standard errors. If the search finds a better fit, return
+    this fit too.
+    """
     space = model.space
     walks = _Walks(space, target, found, covariance, height)
     sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
@@ -177,11 +183,13 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, seed: int) -> list[str]:
-    """Return one sentence for each direction that no reading can distinguish at any values of the parameters.
+    """Return one sentence for each combined change of parameters that affects no reading at any values of the
+    parameters.
 
-    If the derivatives at each of several random sets of parameters have a null space, no data of this kind distinguish
-    the parameters. If only a product of parameters matters, the null space in logarithms is the same at all sets. For a
-    sum, the null space in the parameters is the same. In both cases, the stacked derivatives have this null space.
+    The derivatives of the readings are computed at several random sets of parameters. If they have a null space at each
+    set, no data of this kind can distinguish the parameters. If only a product of parameters matters, the null space in
+    logarithms is the same at all sets. If only a sum of parameters matters, the null space in the parameters is the
+    same at all sets. In both cases, the stacked derivatives have this null space.
     """
     space = model.space
     looks = sobol(space, _SETS_LOOKED_AT, seed)
@@ -216,7 +224,7 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
 
 
 def _null(jacobian: Array) -> Array:
-    """Return the directions that change nothing."""
+    """Return the directions in parameter space that change no reading."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -225,7 +233,7 @@ def _null(jacobian: Array) -> Array:
 
 
 def _sparse(directions: Array) -> list[Array]:
-    """Return combinations of directions with few parameters, by elimination."""
+    """Return combinations of the directions, each with few parameters, found by elimination."""
     rows = [row / np.abs(row).max() for row in directions]
     for place in range(len(rows)):
         pivot = int(np.argmax(np.abs(rows[place])))
@@ -237,7 +245,7 @@ def _sparse(directions: Array) -> list[Array]:
 
 
 def _in_words(space: Space, direction: Array) -> str:
-    """Return a direction as text: the parameters that change together, scaled to a largest share of 1 %."""
+    """Return a direction as text: the parameters that change together, scaled so that the largest change is 1 %."""
     largest = int(np.argmax(np.abs(direction)))
     scaled = direction / direction[largest]
     named = []
@@ -252,7 +260,9 @@ def _in_words(space: Space, direction: Array) -> str:
 
 
 def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
-    """Return the best and the worst known combination of parameters, with the error of the first parameter."""
+    """Return the combinations of parameters that the data determine best and worst, with the error of the first
+    parameter.
+    """
     if len(space) < 2:
         return []
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)

@@ -1,4 +1,4 @@
-"""The model of a fit: readings at many sets of parameters, in one batch, also on branches of hysteresis."""
+"""The model of a fit. It computes readings at many sets of parameters in one batch, also on branches of hysteresis."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class Way:
-    """Points on a branch, which are run one after the other while a parameter rises or falls."""
+    """The points of a branch. They are run one after the other, while a parameter rises or falls."""
 
     parameter: str
     falls: bool
@@ -37,10 +37,10 @@ def states_along(
     names: Sequence[str],
     run: Callable[..., Table],
 ) -> dict[str, Array] | None:
-    """Return the states from which motions on the branches begin; None if there are no branches.
+    """Return the states in which motions on the branches begin. Return None if there are no branches.
 
-    Each of `columns` has the points `times` times, once for each set of parameters. States have the components `names`.
-    All branches are followed at the same time, with one point of each branch in a batch.
+    Each of `columns` has all points once for each set of parameters, so `times` times. States have the components
+    `names`. All branches are followed at the same time: a batch has one point of each branch.
     """
     if not ways:
         return None
@@ -68,7 +68,9 @@ def states_along(
 
 
 def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
-    """Return the points along a branch for each group with equal other parameters: row, parameter and its value."""
+    """Return the points along a branch for each group with equal other parameters: row, followed parameter and value of
+    this parameter.
+    """
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row in way.rows + offset:
         key = tuple(values[row] for name, values in columns.items() if name != way.parameter)
@@ -101,7 +103,7 @@ _KEPT = 16
 
 @dataclass(frozen=True)
 class Asked:
-    """Measures at operating points, one number for each."""
+    """Measures at operating points, with one number for each point."""
 
     #: The data set of each, for parameters per data set.
     of_set: Places
@@ -151,7 +153,7 @@ class Model:
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
-        """Return the readings at several sets of coordinates."""
+        """Return the readings of the model at several sets of coordinates."""
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}
         known = {key: self._known[key] for key in keys if key not in new}
@@ -173,7 +175,7 @@ class Model:
         slopes: bool = True,
         rtol: float | None = None,
     ) -> list[Answer]:
-        """Return the answers at other points, at several sets of coordinates."""
+        """Return the values of the model at other operating points, for several sets of coordinates."""
         rows = _length(points)
         columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
         columns.update(self._free(asked, rows, xs))
@@ -193,7 +195,9 @@ class Model:
         return self._split(table, asked, rows, xs, slopes)
 
     def reason(self, reading: int, x: Array) -> str:
-        """Return the reason why the point of a reading is impossible at these coordinates; empty if it is possible."""
+        """Return the reason why the point of a reading is impossible at these coordinates. The text is empty if the
+        point is possible.
+        """
         of_set, row = self.asked.of_set[reading], self.asked.row[reading]
         free = {
             one.parameter: float(value)
@@ -230,7 +234,7 @@ class Model:
         which = np.array([measures.index(name) for name in asked.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
-            """Return all rows; rows that the design's conditions exclude are empty."""
+            """Return the rows of all points. Rows that the conditions of the design exclude are empty."""
             everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
             everything[table["point"].astype(np.intp)] = found
             return everything.reshape(len(xs), rows, *found.shape[1:])
@@ -264,7 +268,7 @@ def _length(points: Mapping[str, Any]) -> int:
 
 
 def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Way]]:
-    """Return the operating points of all data sets as columns, and the branches of data sets with a branch."""
+    """Return the operating points of all data sets as columns, and the branches of the data sets that have a branch."""
     varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
     points: dict[str, Any] = {}
     for name in varied:

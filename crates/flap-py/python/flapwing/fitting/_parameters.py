@@ -23,11 +23,12 @@ class FreeParameter:
     Attributes
     ----------
     low, high : float or str, optional
-        Bounds, in SI units or as text with units. Default: a third of the design's value, and three times it. The first
-        search begins at the design's value, or in the middle of the bounds if the value is outside of them.
+        Bounds of the parameter, in SI units or as text with units. Default: a third of the design's value, and three
+        times the design's value. The first search begins at the design's value. If this value is outside of the bounds,
+        the first search begins in their middle.
     prior : (value, error), optional
-        A value that is known before the fit, and its standard error: in SI units or with units, or the error as
-        ``"5 %"``.
+        A value that is known before the fit, and its standard error: numbers in SI units, or text with units. The error
+        can also be a text such as ``"5 %"``.
     per_set : bool
         True if each data set has its own value, for example if the wing was changed between experiments.
     """
@@ -40,7 +41,7 @@ class FreeParameter:
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A free parameter, for all data sets or for one."""
+    """A free parameter, either for all data sets or for one data set."""
 
     parameter: str
     #: The index of its data set; None for all data sets.
@@ -55,7 +56,7 @@ class Coordinate:
     prior: tuple[float, float] | None
 
     def value(self, x: Any) -> Any:
-        """Return the value in SI units at a coordinate; coordinate 0 is the design's value."""
+        """Return the value of a parameter in SI units at a coordinate. Coordinate 0 is the design's value."""
         return self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
 
     def at(self, value: float) -> float:
@@ -68,7 +69,7 @@ class Coordinate:
 
     @property
     def width(self) -> float:
-        """Half of the range: the unit of a coordinate that is not logarithmic."""
+        """Half of the range of the parameter, which is the unit of a coordinate that is not logarithmic."""
         return 0.5 * (self.high - self.low)
 
 
@@ -94,7 +95,7 @@ class Space:
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
     def prior(self, x: Array) -> tuple[Array, Array]:
-        """Return the residuals of the priors and their derivatives."""
+        """Return the residuals of the priors, and the derivatives of these residuals."""
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
         for row, (place, one) in enumerate(known):

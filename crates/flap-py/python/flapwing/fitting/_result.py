@@ -1,4 +1,4 @@
-"""The result of a fit: predictions, and the readings that would reduce errors most."""
+"""The result of a fit, with predictions and with readings that would reduce errors most."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ._solution import Solution
 
 @dataclass(frozen=True)
 class Prediction:
-    """A measure at operating points, with the uncertainty that results from the parameters.
+    """A predicted measure at operating points, with the uncertainty that results from the errors of the parameters.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Prediction:
     value : array
         The values of the measure; nan if the motion does not settle.
     error : array
-        Standard errors, without the noise of a reading.
+        Standard errors of the predictions, without the noise of a reading.
     low, high : array
         Ends of the 95 % bands.
     status : array of str
@@ -62,7 +62,7 @@ class Prediction:
 
 @dataclass(frozen=True)
 class NextMeasurements:
-    """Operating points whose readings would reduce an error most, the best first.
+    """Operating points whose readings would reduce an error most, with the best point first.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class NextMeasurements:
     measures : list of str
         The measure to read at each point.
     errors : list of float
-        The error of the target after the readings up to each point.
+        The error of the target after the readings at this point and all points before it.
     """
 
     target: str
@@ -103,7 +103,7 @@ def _cell(value: Any) -> str:
 
 
 def _points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
-    """Return operating points from columns of parameters, a grid, or one point."""
+    """Return operating points, given as columns of parameters, a grid, or one point."""
     if isinstance(given, Grid):
         listed = [given[row] for row in range(len(given))]
         return {name: _column(names, [point[name] for point in listed], name) for name in given.varied}
@@ -137,7 +137,9 @@ def _column(names: Names, values: list[Any], name: str) -> Any:
 def _answers(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
-    """Return a measure at other operating points, with the parameters of a data set and, with `like`, on its branch."""
+    """Return a measure at other operating points, with the parameters of a data set. If `like` is given, use the branch
+    of this data set.
+    """
     count = len(next(iter(points.values())))
     model.names.check_measure(measure)
     asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
@@ -171,10 +173,11 @@ def _next_measurements(
     count: int,
     guesses: Mapping[str, float],
 ) -> tuple[list[int], list[str], list[float], float]:
-    """Return the best readings in order: rows of `points`, measures, the error of the target after each, and now.
+    """Return the best readings in order: rows of `points`, measures, errors of the target after each reading, and the
+    present error.
 
-    A reading adds the square of its derivatives, in standard errors, to the information. Each chosen reading is the one
-    that gives the smallest variance of the target.
+    A reading adds the square of its derivatives, in standard errors, to the information matrix. Of all candidates, the
+    next reading is the candidate with the smallest variance of the target.
     """
     rows, names, sensitivities = [], [], []
     for measure, noise in measures.items():
@@ -211,31 +214,31 @@ class Fit(Solution):
     estimates : dict of str to Estimate
         Value, standard error, 95 % interval and profile of each parameter, in SI units.
     correlations : array
-        Correlations of the estimates, in the same order; nan for parameters that the data do not determine.
+        Correlations of the estimates, in the order of `estimates`; nan for parameters that the data do not determine.
     combinations : list of str
-        The best and the worst known combination of the parameters.
+        The combinations of parameters that the data determine best and worst.
     indistinct : list of str
-        Changes of the parameters that affect no reading, at any values: exact scalings of the model, and parameters
-        without effect.
+        Changes of the parameters that affect no reading, at any values of the parameters: exact scalings of the model,
+        and parameters without effect.
     goodness : Goodness
         Chi-square, its probability, and the residuals by data set and measure.
     unsettled : list of Unsettled
-        Readings that are ignored, because the motion there does not settle.
+        Readings that are ignored, because the motion at their operating point does not settle.
     held_out : HeldOut or None
-        The predictions of the readings that were held out.
+        The predictions of readings that were not fitted (`hold_out`).
     effort : Effort
-        Number of starts, points and evaluations, and the time.
+        The work of the fit: number of starts, points and evaluations, and the time.
     """
 
     def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
         """Predict a measure at other operating points, with 95 % bands.
 
-        Bands are for the model's value, without the noise of a reading.
+        The bands are for the value of the model, without the noise of a reading.
 
         Parameters
         ----------
         points : dict, DataFrame or Grid
-            Columns of parameters, as in `Readings`. Parameters with one common value in all data may be left out.
+            Columns of parameters, as in `Readings`. You may leave out parameters that have the same value in all data.
         measure : str
             A measure, with or without readings.
         data_set : str, optional
@@ -250,7 +253,7 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            Unknown columns, units or measures.
+            A column, a unit or a measure is unknown.
         """
         given = self._points("points", points)
         place, like = 0, None
@@ -282,12 +285,13 @@ class Fit(Solution):
         Returns
         -------
         NextMeasurements
-            Points and measures, the best first, with the remaining error after each, for a parameter in its SI unit.
+            Operating points and measures, with the best first, and the remaining error after each reading. The error of
+            a parameter is in its SI unit.
 
         Raises
         ------
         ValueError
-            Unknown names, no points, or no point with a settled motion.
+            A name is unknown, there are no points, or no point has a settled motion.
         """
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
             raise ValueError(f"`count` is {count!r}\nit must be a whole number, 1 or more")
@@ -315,9 +319,9 @@ class Fit(Solution):
     ) -> None:
         """Write a device file: the design with the fitted parameters, their standard errors and correlations.
 
-        If the design is a device, its description is kept, and so are standard errors, correlations and sources of
-        other parameters. ``{"device": "mybee.toml"}`` uses the file in a grid. ``[sample] of = "device"`` draws samples
-        from its errors.
+        If the design is a device, the file keeps the description of the device, and the standard errors, correlations
+        and sources of other parameters. ``{"device": "mybee.toml"}`` uses the file in a grid. ``[sample] of =
+        "device"`` draws samples from the standard errors in the file.
 
         Parameters
         ----------
@@ -338,7 +342,9 @@ class Fit(Solution):
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """Return the derivatives of a parameter or a prediction by the coordinates, with its name and unit."""
+        """Return the derivatives of a target by the coordinates, and the name and the unit of this target. A target is
+        a parameter or a prediction.
+        """
         space = self._model.space
         if isinstance(target, str):
             if target not in space.labels:
@@ -363,7 +369,7 @@ class Fit(Solution):
         return answer.slopes[0], measure, self._model.names.unit(measure)
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
-        """Return operating points, completed by the parameters with one common value in all data."""
+        """Return operating points. Parameters that have the same value in all data are added."""
         points = _points_of(self._model.names, place, given)
         count = len(next(iter(points.values())))
         for name, values in self._model.points.items():

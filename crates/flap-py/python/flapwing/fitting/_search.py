@@ -23,16 +23,16 @@ Ask = Callable[[Array], Answer]
 
 
 class _Ended(Exception):
-    """Raised in the searches after the answering thread has ended."""
+    """The exception that ends the searches after the thread that answers their requests has ended."""
 
 
 def together(
     searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]
 ) -> list[_Result]:
-    """Return the results of searches, each of which requests the model at one set of coordinates at a time.
+    """Return the results of searches. Each search requests the model at one set of coordinates at a time.
 
-    Searches run in threads. `answer` is called in the present thread, with the requests of all searches that have not
-    ended, so Ctrl-C ends all of them.
+    Searches run in threads. The present thread calls `answer` with the requests of all running searches, so that Ctrl-C
+    ends all searches.
     """
     inbox: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
     replies: list[queue.SimpleQueue[Answer | None]] = [queue.SimpleQueue() for _ in searches]
@@ -101,8 +101,8 @@ class Target:
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
         """Return the residuals of the readings, (model - reading) / standard error, then the residuals of the priors.
 
-        If the motion does not settle, the model's value is taken as zero, as for a wing at rest. This residual is so
-        large that the search avoids it.
+        If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual is
+        then so large that the search avoids these coordinates.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -115,7 +115,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Found:
-    """The end of a search."""
+    """The point at which a search ended."""
 
     x: Array
     #: Half of the sum of the losses.
@@ -128,7 +128,7 @@ class Found:
 def minimise(
     ask: Ask, space: Space, target: Target, begin: Array, held: int | None, steps: int = _STEPS, tolerance: float = 1e-8
 ) -> Found:
-    """Return the best coordinates near `begin`; the coordinate `held` is kept fixed."""
+    """Return the best coordinates near `begin`, where the coordinate `held` is kept fixed."""
     from scipy.optimize import least_squares
 
     moving = np.array([place for place in range(len(space)) if place != held], np.intp)
@@ -178,7 +178,7 @@ def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
 
 
 def sobol(space: Space, count: int, seed: int) -> list[Array]:
-    """Return coordinates spread over the bounds."""
+    """Return sets of coordinates that are spread over the bounds."""
     from scipy.stats import qmc
 
     power = int(np.ceil(np.log2(max(count, 1))))
@@ -187,7 +187,7 @@ def sobol(space: Space, count: int, seed: int) -> list[Array]:
 
 
 def cost_of(residuals: Array, loss: str) -> float:
-    """Return half of the sum of the losses of residuals."""
+    """Return the cost: half of the sum of the losses of all residuals."""
     square = residuals**2
     losses: dict[str, Callable[[Array], Array]] = {
         "linear": lambda z: z,
@@ -200,7 +200,7 @@ def cost_of(residuals: Array, loss: str) -> float:
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
-    """Return the ends of the searches from all starts, the best one first."""
+    """Return the ends of the searches from all starts, with the best end first."""
     searches = [
         partial(minimise, space=model.space, target=target, begin=begin, held=None, steps=25, tolerance=1e-3)
         for begin in begins
@@ -219,7 +219,9 @@ def polish(model: Model, target: Target, begin: Array) -> Found:
 
 
 def spread(jacobian: Array) -> Array:
-    """Return the covariance of coordinates from derivatives of residuals; infinite if a direction has no effect."""
+    """Return the covariance of coordinates from the derivatives of residuals. The covariance is infinite along a
+    direction without effect.
+    """
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -240,7 +242,7 @@ NOTHING = 3e-4
 
 
 def weights(residuals: Array, loss: str) -> Array:
-    """Return the weight of each residual for a loss: the derivative of the loss by the squared residual."""
+    """Return the weight of each residual for a loss function: the derivative of the loss by the squared residual."""
     square = residuals**2
     derivatives: dict[str, Callable[[Array], Array]] = {
         "linear": np.ones_like,

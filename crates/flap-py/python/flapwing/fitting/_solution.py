@@ -1,4 +1,4 @@
-"""The solution of a fit, the basis of predictions, report and device; tests of its residuals."""
+"""The solution of a fit, on which predictions, report and device are based, and tests of the residuals."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ class Estimate:
     error : float
         Standard error from the derivatives at the estimate, in SI units.
     low, high : float
-        Ends of the 95 % interval, from the profile likelihood if it was computed.
+        Ends of the 95 % interval. If the profile likelihood was computed, the interval follows from it.
     open_below, open_above : bool
         True if the interval extends to the end of the range: the data do not bound the parameter on this side.
     profile : Profile or None
         The profile likelihood, if it was computed.
     at_bound : bool
-        True if the estimate is at an end of its range.
+        True if the estimate of the parameter is at an end of its range.
     """
 
     parameter: str
@@ -56,14 +56,14 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Unsettled:
-    """A reading that is ignored, because the model's motion does not settle there.
+    """A reading that is ignored, because the motion of the model at its operating point does not settle.
 
     Attributes
     ----------
     data_set, measure : str
         The data set and the measure.
     row : int
-        The row in the data set, from 1.
+        The row in the data set, counted from 1.
     status : str
         The status of the motion.
     """
@@ -76,16 +76,16 @@ class Unsettled:
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Predictions of the readings that were held out.
+    """Predictions of readings that were not fitted (`hold_out`).
 
     Attributes
     ----------
     count : int
         Number of readings.
     rms : dict of str to float
-        Root mean square of the prediction errors by measure, in its unit.
+        Root mean square of the prediction errors of each measure, in the unit of the measure.
     covered : float
-        The share of the readings within their 95 % bands, which include noise.
+        The share of these readings within their 95 % bands, which include the noise of readings.
     """
 
     count: int
@@ -138,15 +138,16 @@ class Residuals:
     values : array
         Model minus reading, in the measure's unit; nan if the motion does not settle.
     scaled : array
-        The values in standard errors.
+        The residuals divided by the standard errors of the readings.
     rms : float
         Root mean square, in the measure's unit.
     count : int
         Number of fitted readings.
     p_runs, p_neighbours : float
-        If residuals are noise, the probability of at most so few changes of sign, and of so similar neighbours.
+        Probabilities, if residuals are only noise: of at most this number of changes of sign, and of neighbours that
+        are at least this similar.
     is_structured : bool
-        True if residuals have a pattern: the model lacks an effect.
+        True if the residuals have a pattern, which means that the model lacks an effect.
     """
 
     data_set: str
@@ -185,13 +186,13 @@ class Goodness:
 
     @property
     def is_structured(self) -> bool:
-        """True if residuals have a pattern: the model lacks an effect."""
+        """True if the residuals have a pattern, which means that the model lacks an effect."""
         return any(one.is_structured for one in self.residuals)
 
 
 def order(points: Mapping[str, Array | list[str]]) -> Places:
-    """Return the order of a data set's rows in which neighbours are similar: the parameter with most values varies
-    fastest.
+    """Return the order of the rows of a data set in which neighbours are similar. In this order, the parameter with
+    most values varies fastest.
     """
     numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -234,7 +235,7 @@ def of_residuals(
 
 
 def _runs(noise: Array) -> float:
-    """Return the probability of at most so few runs of one sign (Wald and Wolfowitz)."""
+    """Return the probability of at most this number of runs of residuals with one sign (test of Wald and Wolfowitz)."""
     from scipy.stats import norm
 
     signs = noise[noise != 0] > 0
@@ -251,7 +252,9 @@ def _runs(noise: Array) -> float:
 
 
 def _neighbours(noise: Array) -> float:
-    """Return the probability of so similar neighbours, from the correlation of each residual with the next."""
+    """Return the probability of neighbours that are at least this similar, from the correlation of each residual with
+    the next.
+    """
     from scipy.stats import norm
 
     count = len(noise)
@@ -276,7 +279,7 @@ def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_k
 def held_out(
     sets: Sequence[DataSet], target: Target, answer: Answer, held: Mask, covariance: Array, quantile: float
 ) -> HeldOut:
-    """Return the prediction errors of the readings that were held out."""
+    """Return the prediction errors of readings that were not fitted."""
     which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
     error = answer.values - target.measured
     known = np.where(np.isfinite(covariance), covariance, 0.0)
@@ -291,7 +294,7 @@ def held_out(
 
 
 class Solution:
-    """Estimates with their uncertainty, and their model and data; see `Fit`."""
+    """Estimates with their uncertainty, and the model and the data of the fit; see `Fit`."""
 
     def __init__(
         self,

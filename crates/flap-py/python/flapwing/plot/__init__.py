@@ -1,8 +1,8 @@
 """Pictures of results with matplotlib, each by one function call.
 
-Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. It returns
-matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes sensitivities, rank
-correlations and Pareto fronts. The functions do not change the settings of matplotlib.
+Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file with results. The
+result is matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes
+sensitivities, rank correlations and Pareto fronts. The functions do not change the settings of matplotlib.
 
     >>> import numpy as np
     >>> from flapwing import plot

@@ -85,10 +85,10 @@ _KINDS: dict[str, _Kind | None] = {
 
 
 def checked(function: _F) -> _F:
-    """Return the function with a check of its arguments, which raises TypeError or ValueError.
+    """Return the function with a check of its arguments. The check raises TypeError or ValueError.
 
-    Each argument must have a kind in `_KINDS`; otherwise importing the module raises KeyError. None is allowed if it is
-    the default.
+    Each argument must have a kind in `_KINDS`; otherwise importing the module raises KeyError. An argument may be None
+    if its default is None.
     """
     signature = inspect.signature(function)
     named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]

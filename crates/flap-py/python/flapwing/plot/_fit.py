@@ -1,4 +1,6 @@
-"""Pictures of fits: readings with the model's bands, profiles of the parameters, and their correlations."""
+"""Pictures of fits: readings with the bands of the model, profiles of the parameters, and correlations of the
+parameters.
+"""
 
 from __future__ import annotations
 
@@ -26,20 +28,21 @@ _CURVE = 80
 
 
 def fit(result: Fit, show: str | None = None) -> Figure:
-    """Draw a fit: readings with the model's 95 % bands, profiles of the parameters, and correlations.
+    """Draw a fit: readings with the 95 % bands of the model, profiles of the parameters, and correlations of the
+    parameters.
 
     Parameters
     ----------
     result : Fit
         The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
-        One of the three pictures. Default: all of them.
+        One of the three pictures to draw. Default: all three pictures.
 
     Returns
     -------
     matplotlib Figure
-        Bands are for the model's value, without the noise of a reading. If a profile does not reach the dashed line on
-        one side, the data do not bound the parameter on that side.
+        The bands are for the value of the model, without the noise of a reading. If a profile does not reach the dashed
+        line on one side, the data do not bound the parameter on that side.
 
     Raises
     ------
@@ -78,7 +81,7 @@ def _rows(count: int) -> int:
 
 
 def _data(result: Fit, measure: str, ax: Axes) -> None:
-    """Draw the readings of a measure with the model's bands, over the parameter with most values."""
+    """Draw the readings of a measure with the bands of the model, against the parameter with most values."""
     sets = [one for one in result._sets if measure in one.measured]
     numbers = {name: values for one in sets for name, values in one.points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -121,7 +124,7 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
 
 
 def _label(name: str, others: dict[str, Any], result: Fit) -> str:
-    """Return the name of the data set and its parameters that differ between data sets."""
+    """Return the name of a data set, and the parameters of this data set that differ from other data sets."""
     varied = {
         parameter: value
         for parameter, value in others.items()
@@ -136,7 +139,7 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """Draw the profiles: the rise of the cost with one parameter fixed at different values."""
+    """Draw the profiles: the rise of the cost when one parameter is fixed at different values."""
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(3, len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):

@@ -1,4 +1,4 @@
-"""Forces and torques of a vehicle: their changes with inputs as a map, or as curves over one parameter."""
+"""Pictures of forces and torques of a vehicle: their changes with inputs as a map, or curves against a parameter."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def control_matrix(
 ) -> _style.Drawn:
     """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
 
-    Columns are inputs, and rows are force and torque. The number is the change per unit of the input. Colours compare
-    the changes with one input: they show which force or torque the input changes most. To compare forces
+    The columns of the map are inputs, and the rows are components of force and torque. The number in a cell is the
+    change per unit of the input. Colours show which force or torque an input changes most. In this comparison of forces
     with torques, 1 µN·m has the same weight as 1 mN. A number below 0.1 % of the largest number in its column is shown
     as ``≈0``.
 
@@ -58,15 +58,16 @@ def control_matrix(
         derivatives. The array has six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and
         one column for each of `inputs`.
     inputs : list of str, optional
-        The inputs to show, in order. For an array, the names of its columns.
+        The inputs to show, from left to right. If `table` is an array, `inputs` has the names of its columns.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Default: axes of a new figure.
+        Axes for the picture, in the style of their figure. Default: axes of a new figure.
 
     Returns
     -------
@@ -75,7 +76,8 @@ def control_matrix(
     Raises
     ------
     ValueError
-        No derivatives of a force or torque; several rows with derivatives; an unknown input; an array of another shape.
+        There are no derivatives of a force or torque, or several rows with derivatives; an input is unknown; an array
+        has another shape.
 
     Examples
     --------
@@ -99,18 +101,18 @@ def control_matrix(
 
 @checked
 def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] | None = None, **slices: Any) -> Figure:
-    """Draw force and torque of a vehicle over one parameter: six small panels, three forces above three torques.
+    """Draw force and torque of a vehicle against one parameter, in six small panels: three forces above three torques.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a vehicle.
     x : str, optional
-        The parameter on the horizontal axes. Default: the grid's axis.
+        The parameter on the horizontal axes. Default: the axis of the grid.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
 
     Returns
     -------
@@ -119,7 +121,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     Raises
     ------
     ValueError
-        Results without the columns of a vehicle; an unknown column or value.
+        The results do not have the columns of a vehicle, or a column or value is unknown.
     """
     data = Data.of(table).slice(where, slices)
     outputs = [name for name in (*FORCES, *TORQUES) if name in data]
@@ -147,7 +149,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
 
 
 def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects in an array, whose columns are named by `inputs`."""
+    """Return the effects in an array; `inputs` has the names of its columns."""
     if not isinstance(table, (np.ndarray, list, tuple)):
         return None
     values = np.asarray(table, dtype=float)
@@ -162,7 +164,7 @@ def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects in the only row of a table with derivatives."""
+    """Return the effects from a table with derivatives, which has exactly one row."""
     gradient = data.meta.get("gradient")
     if not gradient:
         return None
@@ -178,12 +180,14 @@ def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _per(unit: str) -> str:
-    """Return the unit in the denominator, which is the unit of the input."""
+    """Return the unit in the denominator of an effect, which is the unit of the input."""
     return unit.partition("/")[2].strip("()")
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects in a table of `flap vehicle`, which has a row of means and then one row for each input."""
+    """Return the effects from a table of `flap vehicle`. This table has one row of means, and then one row for each
+    input.
+    """
     if "input" not in data:
         return None
     names = [str(name) for name in data["input"]]
@@ -205,7 +209,7 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
 
 
 def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Drawn:
-    """Draw the map of the effects with their numbers."""
+    """Draw the map of the effects, with a number in each cell."""
     values = effects.values
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
@@ -229,7 +233,7 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
 
 
 def _input(name: str, unit: str) -> str:
-    """Return an input with its unit, on short lines."""
+    """Return the name of an input with its unit, broken into short lines."""
     text = _labels.words(name, unit).replace(", ", ",\n").replace(" ", "\n", 1)
     return f"{text}\nper {_labels.printed(unit)}" if unit else text
 

@@ -1,4 +1,4 @@
-"""A measure over two axes, as colours."""
+"""A picture of a measure against two axes, as a map of colours."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ def heatmap(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure over two axes as a map, such as lift, power or efficiency over frequency and voltage.
+    """Draw a measure as a map against two axes, for example lift, power or efficiency against frequency and voltage.
 
-    Cells end halfway between their values; on a logarithmic axis, halfway between the logarithms. Cells without a
-    periodic motion are grey. Cells without a row, which ``[where]`` excludes or the file does not have, are hatched. A
-    legend explains both. In a table of `respond`, curves were refined at different points. There, a cell without a row
-    shows the nearest row of the same curve.
+    The edges of cells are halfway between neighbouring values of an axis, or between their logarithms on a logarithmic
+    axis. Cells without a periodic motion are grey. Cells without a row, which ``[where]`` excludes or the file does not
+    have, are hatched. A legend explains grey and hatched cells. In a table of `respond`, curves were refined at
+    different points. In this case, a cell without a row shows the nearest row of the same curve.
 
     Parameters
     ----------
@@ -58,27 +58,28 @@ def heatmap(
     value : str, optional
         The measure. Default: the mean lift.
     x, y : str, optional
-        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, else the last axis of the
-        grid. Default for y: the first of the other axes.
+        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
+        if ``drive_frequency`` does not vary. Default for y: the first of the other axes.
     xscale, yscale : {"linear", "log"}, optional
-        Default: logarithmic if the values have a constant ratio.
+        The scales of the axes. By default, a scale is logarithmic if neighbouring values have a constant ratio.
     cmap : str, optional
         A colour map of matplotlib. Default: viridis. For values of both signs, a map that is white at zero, with a line
         at zero.
     vmin, vmax : float, optional
         The ends of the colours, in the unit of the colour bar. Default: the smallest and the largest value. An arrow at
-        an end of the colour bar marks values beyond it.
+        an end of the colour bar marks values beyond this end.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -88,7 +89,7 @@ def heatmap(
     Raises
     ------
     ValueError
-        An unknown column or value; several rows in one cell.
+        A column or value is unknown, or several rows are in one cell.
 
     Examples
     --------
@@ -188,7 +189,9 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """Return the places of rows with one curve in each line; cells between a curve's ends get its nearest row."""
+    """Return the rows of cells, with one curve in each line of cells. Cells between the ends of a curve get the nearest
+    row of the curve.
+    """
     filled = rows.copy()
     places = np.log(axis.centres) if axis.log else axis.centres
     for line in filled:
@@ -201,7 +204,7 @@ def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """Return the parameters along x and y. If x or y is not given, choose an axis of the grid."""
+    """Return the parameters along x and y. If x or y is not given, an axis of the grid is chosen."""
     for name in (x, y):
         if name is not None:
             data[name]
@@ -220,7 +223,7 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return masks of the cells without a value, by reason."""
+    """Return the masks of cells without a value, one mask for each reason."""
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:
@@ -236,7 +239,7 @@ def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.n
 
 
 def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str, count: int) -> Patch:
-    """Fill cells without a value and return the entry of the legend."""
+    """Fill the cells without a value, and return their entry of the legend."""
     text = f"{name} ({count})"
     if name in (_NO_ROW, _UNDEFINED):
         hatch = "////" if name == _NO_ROW else "...."
@@ -255,7 +258,7 @@ def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: 
 
 
 def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tuple[float, float]]]:
-    """Return the outlines of neighbouring cells in a row, for every row."""
+    """For every row of cells, return the outlines of groups of neighbouring cells."""
     outlines = []
     for row, flags in enumerate(mask):
         ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))

@@ -1,4 +1,4 @@
-"""The number of designs over a measure, with percentiles."""
+"""A histogram of a measure: the number of designs in each range of the measure, with percentiles."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def histogram(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a histogram: the number of designs over a measure, with the 5th, 50th and 95th percentile.
+    """Draw a histogram: the number of designs in each range of a measure, with the 5th, 50th and 95th percentile.
 
     Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
 
@@ -38,11 +38,11 @@ def histogram(
     measure : str, optional
         A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -52,7 +52,7 @@ def histogram(
     Raises
     ------
     ValueError
-        An unknown column or value; no design with the measure.
+        A column or value is unknown, or no design has the measure.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Both branches of a response, and the hysteresis loop between them."""
+"""A picture of both branches of a response, and of the hysteresis loop between the branches."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def hysteresis(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the branches up and down of a response, and the unstable orbits between them if the table has them.
+    """Draw the branches up and down of a response. If the table has unstable orbits between these branches, draw them
+    too.
 
     Arrows show the directions of the branches and their jumps. Bistable bands are shaded.
 
@@ -41,14 +42,14 @@ def hysteresis(
     curve : int, optional
         The number of the design in the column ``curve``, if there are several designs.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -58,7 +59,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        Several designs, without a choice among them; an unknown column or value; no branches.
+        There are several designs and none is selected; a column or value is unknown; there are no branches.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:
@@ -127,7 +128,7 @@ def hysteresis(
 
 
 class _Way:
-    """A branch in the order in which it was followed."""
+    """The rows of a branch, in the order in which they were computed."""
 
     def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
@@ -137,7 +138,7 @@ class _Way:
 
 
 def _one_design(data: Data) -> None:
-    """Raise ValueError, with the parameters of the designs, if there are several designs."""
+    """Raise ValueError if there are several designs. The message has the parameters of the designs."""
     if "curve" not in data:
         return
     curves = distinct(data["curve"])
@@ -156,20 +157,22 @@ def _ends(low: float, high: float, x: Shown) -> str:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return a line that is interrupted after these rows."""
+    """Return a line that has gaps after the given rows."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
 def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
-    """Draw a light vertical arrow halfway between the rows around a jump, where nothing was computed."""
+    """Draw a light vertical arrow for a jump, halfway between the two rows around the jump."""
     x = 0.5 * (way.x[i] + way.x[i + 1])
     look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
-    """Draw an arrowhead on the line: in a bistable band, else after a third of the branch."""
+    """Draw an arrowhead on the line of a branch: in a bistable band, or after a third of the branch if there is no
+    band.
+    """
     count = len(way.x)
     if count < 3:
         return

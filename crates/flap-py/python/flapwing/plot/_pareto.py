@@ -1,4 +1,4 @@
-"""Designs in the plane of two objectives, with the Pareto front."""
+"""A picture of designs as points in the plane of two objectives, with the Pareto front."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ def pareto(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw designs in the plane of two objectives, with the Pareto front: the designs that no other design beats.
+    """Draw designs as points in the plane of two objectives, with the Pareto front: the designs that no other design
+    dominates.
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out.
     `flapwing.analysis.non_dominated` computes the front. With two objectives, a stepped line connects the designs of
@@ -41,23 +42,24 @@ def pareto(
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, at least two. The first two are drawn; a minimised objective comes first, along x. Default:
-        maximise the mean lift and minimise the mean power.
+        The objectives, at least two. The first two objectives are drawn; a minimised objective comes first, along x.
+        Default: maximise the mean lift and minimise the mean power.
     color : str, optional
-        A column for the points' colours: numbers with a colour bar, words with a legend.
+        A column that sets the colours of the points: numbers with a colour bar, words with a legend.
     cmap : str, optional
         A colour map of matplotlib, for numbers. Default: as for `heatmap`.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -67,7 +69,7 @@ def pareto(
     Raises
     ------
     ValueError
-        Fewer than two objectives; an unknown column or value; no design with all objectives.
+        There are fewer than two objectives; a column or value is unknown; no design has all objectives.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Measures over one parameter, with one line for each value of another."""
+"""Pictures of measures against one parameter, with one line for each value of another parameter."""
 
 from __future__ import annotations
 
@@ -34,31 +34,35 @@ def response(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure over one parameter, with one line for each value of another: a family of responses.
+    """Draw a family of responses: a measure against one parameter, with one line for each value of another parameter.
 
-    Rows without a periodic motion are gaps in a line, with marks in the line's colour above the picture.
+    Rows without a periodic motion leave a gap in a line. Above the picture, each gap has a mark in the colour of the
+    line.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results.
     y : str, optional
         The measure. Default: the stroke, peak to peak.
     x : str, optional
-        The parameter on the horizontal axis. Default: ``drive_frequency``, else the grid's last axis.
+        The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
+        ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
+        The parameter for which each value has its own line. Default: the first of the other axes of the grid, if there
+        is one.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Default: axes of a new figure.
+        Axes for the picture, in the style of their figure. Default: axes of a new figure.
 
     Returns
     -------
@@ -68,7 +72,7 @@ def response(
     Raises
     ------
     ValueError
-        An unknown column or value; several rows with the same parameters; a column of text instead of numbers.
+        A column or value is unknown; several rows have the same parameters; a column has text instead of numbers.
 
     Examples
     --------
@@ -108,27 +112,30 @@ def response_panels(
     colorbar: bool | Axes = True,
     **slices: Any,
 ) -> Figure:
-    """Draw several measures over one parameter, in axes below each other; see `response`.
+    """Draw several measures against one parameter, in axes below each other; see `response`.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results.
     measures : sequence of str
         The measures, from top to bottom.
     x : str, optional
-        The parameter on the horizontal axis. Default: ``drive_frequency``, else the grid's last axis.
+        The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
+        ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
+        The parameter for which each value has its own line. Default: the first of the other axes of the grid, if there
+        is one.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
 
     Returns
     -------
@@ -137,7 +144,7 @@ def response_panels(
     Raises
     ------
     ValueError
-        As for `response`; also if there are no measures.
+        The same errors as for `response`. There are no measures.
 
     Examples
     --------
@@ -188,7 +195,7 @@ def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by:
 
 
 class Family:
-    """The lines of one picture: their rows and colours are the same for every measure."""
+    """The lines of one picture. Rows and colours of a line are the same for every measure."""
 
     def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
         self.data, self.x = data, data.shown(x)
@@ -200,7 +207,9 @@ class Family:
         self.colours = _style.shades(self.values, self.by is not None and self.by.text)
 
     def _ordered(self, rows: np.ndarray) -> np.ndarray:
-        """Return the rows of one line in rising order of x; -1 stands for points of the grid without a row."""
+        """Return the row numbers of one line in rising order of x. The number -1 stands for a point of the grid without
+        a row.
+        """
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
         if [self.x.name] not in self.data.grid_axes:
@@ -232,7 +241,7 @@ class Family:
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
-        """Draw marks above the axes where rows have no measures, one row of marks for each line."""
+        """Draw marks above the axes where rows of results have no measures. Each line has its own row of marks."""
         lines = self._not_periodic()
         if not lines:
             return
@@ -254,7 +263,9 @@ class Family:
         )
 
     def mark_inside(self, ax: Axes) -> None:
-        """Draw the same marks inside, along the lower edge, and extend the limits for them."""
+        """Draw the marks of `mark` inside the axes, along the lower edge, and extend the limits of the axes for the
+        marks.
+        """
         lines = self._not_periodic()
         if not lines:
             return
@@ -265,7 +276,7 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """Return the rows without measures for each line with such rows, and the line's colour."""
+        """Return the rows without measures for each line that has such rows, and the colour of the line."""
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
         return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
@@ -275,7 +286,7 @@ class Family:
         _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
 
     def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
-        """Draw a legend, or a colour bar for many numbers."""
+        """Draw a legend for the lines, or a colour bar if there are many numbers."""
         handles: list[Any] = []
         if given and self._not_periodic():
             look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
@@ -325,7 +336,7 @@ def along(data: Data, by: str | None) -> str:
 
 
 def _beside(data: Data, x: str) -> str | None:
-    """Return the axis that remains besides x, if exactly one does."""
+    """Return the other axis of the grid besides x, if the grid has exactly one other axis."""
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
         return None
@@ -333,7 +344,7 @@ def _beside(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """Return a mask, True for values without a neighbour, which a line would not show."""
+    """Return a mask, which is True for values without a neighbour, because a line does not show such values."""
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])

@@ -47,7 +47,7 @@ def colours(
     vmax: float | None = None,
     log: bool = False,
 ) -> Colours:
-    """Return the colours of numbers from `vmin` to `vmax`; default: from the smallest to the largest number.
+    """Return the colours of numbers from `vmin` to `vmax`. The defaults are the smallest and the largest number.
 
     Without a `cmap`, numbers of both signs get a diverging map whose middle is zero.
     """
@@ -63,14 +63,16 @@ def colours(
 
 
 def _diverging(low: float, high: float) -> Colormap:
-    """Return the part of the diverging map from `low` to `high`, with zero in the middle and equal strengths."""
+    """Return the part of a diverging colour map from `low` to `high`. Zero is white, and numbers of equal magnitude
+    have colours of equal strength.
+    """
     size = max(-low, high)
     places = 0.5 + 0.5 * np.linspace(low, high, 257) / size
     return ListedColormap(mpl.colormaps[DIVERGING](places), name="signed")
 
 
 def in_ratio(values: np.ndarray) -> bool:
-    """Return True for three or more rising values with a constant ratio."""
+    """Return True if there are three or more rising values with a constant ratio."""
     if len(values) < 3 or values[0] <= 0:
         return False
     ratios = values[1:] / values[:-1]
@@ -78,7 +80,7 @@ def in_ratio(values: np.ndarray) -> bool:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers on a logarithmic scale; a short scale may contain no power of ten."""
+    """Return round numbers for the ticks of a logarithmic scale. A short scale may contain no power of ten."""
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
@@ -86,7 +88,7 @@ def log_ticks(low: float, high: float) -> list[float]:
 
 
 def show_log_ticks(axis: Any, low: float, high: float) -> None:
-    """Label round places of a logarithmic axis with plain numbers."""
+    """Put ticks at round numbers of a logarithmic axis, and label them with plain numbers."""
     axis.set_major_locator(FixedLocator(log_ticks(low, high)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())

@@ -1,4 +1,4 @@
-"""Designs in the plane of two measures, coloured by a third."""
+"""A picture of designs as points in the plane of two measures, coloured by a third measure."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def scatter(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw designs, for example of a sample, in the plane of two measures, coloured by a third.
+    """Draw designs, for example of a sample, as points in the plane of two measures, coloured by a third measure.
 
     Designs without a periodic motion are left out.
 
@@ -39,21 +39,22 @@ def scatter(
     x, y : str, optional
         Columns of numbers. Default: the mean power along x and the mean lift along y, or other measures of the table.
     color : str, optional
-        A column for the points' colours: numbers with a colour bar, words with a legend. Default: the stroke, peak to
-        peak, or another measure.
+        A column that sets the colours of the points: numbers with a colour bar, words with a legend. Default: the
+        stroke, peak to peak, or another measure.
     cmap : str, optional
         A colour map of matplotlib, for numbers. Default: as for `heatmap`.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes to draw it in. Default: beside the picture, which becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
+        becomes smaller.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -63,7 +64,7 @@ def scatter(
     Raises
     ------
     ValueError
-        An unknown column or value; no design with values in both columns.
+        A column or value is unknown, or no design has values in both columns.
 
     Examples
     --------
@@ -100,7 +101,9 @@ def scatter(
 
 
 def _third(data: Data, taken: list[str]) -> str | None:
-    """Return the default measure for colours besides two others; None if the table has no other."""
+    """Return the default measure for colours, which differs from two other measures. Return None if the table has no
+    other measure.
+    """
     try:
         return data.usual("motion", "color", taken)
     except ValueError:

@@ -1,4 +1,4 @@
-"""The style of pictures. Its settings apply while a picture is drawn, and are then restored."""
+"""The style of pictures. Its settings apply only while a picture is drawn; then the old settings return."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .. import _flapwing, _labels
 if TYPE_CHECKING:
 
     class Drawn(Axes):
-        """Axes with a picture, for type checkers: their figure can be saved."""
+        """The type of axes with a picture: type checkers then accept that their figure is saved."""
 
         @property
         def figure(self) -> Figure: ...
@@ -63,10 +63,10 @@ _SETTINGS: Any = {
 
 @contextmanager
 def style(ax: Axes | None = None) -> Iterator[None]:
-    """Apply the style of flap's pictures while one is drawn.
+    """Apply the style of flap's pictures while a picture is drawn.
 
-    Settings that the user has changed are kept. A setting counts as changed if it differs from matplotlib's default.
-    Axes that the user gives keep the style of their figure.
+    Settings of matplotlib that the user has changed stay. A setting counts as changed if it differs from the default of
+    matplotlib. Axes that the user gives keep the style of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     with mpl.rc_context(own):
@@ -84,7 +84,7 @@ def _is_default(name: str) -> bool:
 
 
 def ink(ax: Axes) -> Any:
-    """Return the colour of texts and thin lines: the colour of the axes' labels if the user set one, else flap's."""
+    """Return the colour of texts and thin lines: the user's colour of labels, or the colour of flap by default."""
     for colour in (ax.xaxis.label.get_color(), mpl.rcParams["text.color"]):
         if not same_color(colour, "black"):
             return colour
@@ -92,12 +92,12 @@ def ink(ax: Axes) -> Any:
 
 
 def width(factor: float) -> float:
-    """Return a line width, as a multiple of the user's."""
+    """Return a line width, given as a multiple of the line width in the user's settings."""
     return factor * float(mpl.rcParams["lines.linewidth"])
 
 
 def size(factor: float) -> float:
-    """Return a marker size, as a multiple of the user's."""
+    """Return a marker size, given as a multiple of the marker size in the user's settings."""
     return factor * float(mpl.rcParams["lines.markersize"])
 
 
@@ -132,8 +132,8 @@ def legend(
     outside: Mapping[str, Any] = _ABOVE,
     **options: Any,
 ) -> None:
-    """Draw a legend if `wanted`: outside of new axes, or inside given axes. If `wanted` is a place, it is inside in
-    both cases.
+    """Draw a legend if `wanted` is true: outside of new axes, or inside given axes. If `wanted` is a place, the legend
+    is inside in both cases.
     """
     if wanted is False:
         return
@@ -146,7 +146,9 @@ def legend(
 
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:
-    """Draw a colour bar for a map or for coloured points: none, beside `ax`, or in the axes `wanted`."""
+    """Draw a colour bar for a map or for coloured points: beside `ax`, or in the axes `wanted`. If `wanted` is False,
+    draw none.
+    """
     if wanted is False:
         return None
     first = ax[0] if isinstance(ax, list) else ax
@@ -160,7 +162,7 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """If the label of a colour bar is longer than the bar, break it into lines or make its letters smaller."""
+    """If the label of a colour bar is longer than the bar, break the label into lines or make its letters smaller."""
     label = bar.ax.yaxis.label
     text, letters = label.get_text(), label.get_fontsize()
     if not text or bar.orientation != "vertical":
@@ -177,19 +179,19 @@ def _fit_label(bar: Any) -> None:
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
-    """Draw strokes at values of x, all at `height`, a share of the axes' height."""
+    """Draw short vertical lines at values of x, all at the same `height`, a share of the height of the axes."""
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
 def series() -> list[Any]:
-    """Return the colours of series: the user's if `axes.prop_cycle` differs from matplotlib's default."""
+    """Return the colours of series. If the user changed `axes.prop_cycle`, the colours of this cycle are returned."""
     cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
     return list(cycle) or COLOURS
 
 
 def further_shades(ax: Axes | None, count: int) -> list[Any]:
-    """Return colours for new series, different from the colours of the lines in the axes."""
+    """Return colours for new series, which differ from the colours of the lines in the axes."""
     every = series()
     taken = [] if ax is None else [line.get_color() for line in ax.lines]
     free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every

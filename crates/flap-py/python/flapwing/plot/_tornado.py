@@ -1,4 +1,4 @@
-"""Changes of a measure with each parameter, as bars."""
+"""A picture of the changes of a measure with each parameter, as bars."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def tornado(
 ) -> _style.Drawn:
     """Draw the sensitivity of a measure to each parameter, as bars in the order of their length.
 
-    For a preset, each parameter is changed slightly. For a sample, bars show the rank correlation (Spearman) of each
-    parameter with the measure, from -1 to 1.
+    If `design` is a preset, each parameter is changed slightly. If `design` is a sample, bars show the rank correlation
+    (Spearman) of each parameter with the measure, from -1 to 1.
 
     Parameters
     ----------
@@ -45,10 +45,10 @@ def tornado(
     top : int
         The largest number of parameters to draw.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: beside new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
+        axes, but inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels and a colour bar are drawn outside of them.
+        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
         Default: axes of a new figure.
 
     Returns
@@ -59,7 +59,8 @@ def tornado(
     Raises
     ------
     ValueError
-        As for `sensitivities` and `rank_correlations`; no sensitivities; a measure that is zero for the design.
+        The same errors as for `sensitivities` and `rank_correlations`. There are no sensitivities, or the measure is
+        zero for the design.
     """
     if _is_table(design):
         names = None if parameters is None else list(parameters)
@@ -122,7 +123,7 @@ def tornado(
 
 
 def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Drawn:
-    """Draw bars of correlations, the largest at the top."""
+    """Draw bars of correlations, with the largest correlation at the top."""
     shown = found[:top]
     sizes = np.array([each.correlation for each in shown])
     places = np.arange(len(shown))
@@ -155,21 +156,23 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
 
 
 def _is_table(design: Any) -> bool:
-    """Return True for results: a table of any kind, or the path of a file, whose name has an ending."""
+    """Return True if the argument is a table of results, or a path of results, which has an ending."""
     if isinstance(design, str):
         return bool(os.path.splitext(design)[1])
     return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
 
 
 def _named(each: Sensitivity) -> str:
-    """Return a parameter with its value in the design, as text."""
+    """Return the name of a parameter and its value in the design, as text."""
     factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"
 
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
-    """Return the names of the two changes: their sizes, if they are the same for all parameters."""
+    """Return the names of both changes in the legend. If the changes are equal for all parameters, the names have their
+    sizes.
+    """
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)
         for each in shown

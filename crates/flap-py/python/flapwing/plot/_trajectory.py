@@ -1,4 +1,4 @@
-"""A motion over time and its phase portrait."""
+"""A picture of a motion over time, and of its phase portrait."""
 
 from __future__ import annotations
 
@@ -50,38 +50,38 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw signals over time and, beside them, phase portraits: the rate of each angle over the angle.
+    """Draw signals over time. Beside these curves, draw phase portraits: the rate of each angle against the angle.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``.
     signals : str or sequence of str
-        The columns over time; columns with the same unit share axes. Default: stroke and pitch.
+        The columns to draw over time. Columns with the same unit share axes. Default: stroke and pitch.
     portrait : sequence of str, optional
-        The columns with a phase portrait. Default: stroke and pitch, if they are among the signals. If the table has no
-        column for a rate, it is computed from the samples.
+        The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
+        table has no column for a rate, the rate is computed from the samples.
     time : str
-        The column of the time.
+        The column that contains the time.
     label : str, optional
-        The name of the motion in the legend, to compare motions in the same axes. Default: later motions are
-        numbered.
+        The name of the motion in the legend, with which you compare motions in the same axes. By default, later motions
+        get numbers.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
-        axes that you give.
+        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is above new
+        axes, but inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw signals of one unit in, without a portrait. If they already have motions, the colours continue and
-        the legend has all lines.
+        Axes for signals of one unit, without a portrait. If the axes already have motions, the new lines have other
+        colours, and the legend has all lines.
 
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The figure's axes are first the axes over time, from top to bottom, then the portraits.
+        The axes of the figure are first the axes over time, from top to bottom, and then the axes of portraits.
 
     Raises
     ------
     ValueError
-        An unknown column. With `ax`: signals of several units, portraits, or another unit than the motions in it.
+        A column is unknown. With `ax`, there are portraits, or signals of several units, or another unit than in `ax`.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def trajectory(
 
 
 def _earlier(ax: Axes, unit: str) -> list[str]:
-    """Return the words on the vertical axis, if the axes already have motions in this unit."""
+    """Return the label of the vertical axis, if the axes already have motions in this unit."""
     told = ax.get_ylabel()
     if not told or not ax.lines:
         return []
@@ -162,7 +162,7 @@ def _earlier(ax: Axes, unit: str) -> list[str]:
 
 
 def _factor(ax: Axes, time: Shown) -> float:
-    """Return the factor from the shown unit of time to the unit of the motions in the axes."""
+    """Return the factor from the displayed unit of time to the unit of the motions that are already in the axes."""
     sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
     there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
     return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0
@@ -176,7 +176,7 @@ def _numbered(label: str, ax: Axes) -> str:
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
-    """Return axes over time in a column, and axes of portraits beside them."""
+    """Return axes over time, one below the other, and axes of portraits beside them."""
     rows = max(signals, portraits)
     height = 1.0 + 1.9 * rows
     if not portraits:
@@ -190,7 +190,9 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
 
 
 def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return the rate of a signal and its unit: from the rate's column if there is one, else from the samples."""
+    """Return the rate of a signal, and the unit of the rate. If there is no column with the rate, compute it from the
+    samples.
+    """
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name
@@ -203,7 +205,9 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _common(words: list[str], unit: str) -> str:
-    """Return the label of an axis: "Angle" for degrees, the names of up to two signals, or their common last word."""
+    """Return the label of an axis: "Angle" for degrees, the names of up to two signals, or the common last word of all
+    names.
+    """
     if unit == "°":
         return "Angle"
     if len(words) <= 2:
@@ -213,7 +217,7 @@ def _common(words: list[str], unit: str) -> str:
 
 
 def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """Draw an arrow along a curve, after a third of its first turn."""
+    """Draw an arrow along the curve of a portrait, after a third of the first turn."""
     i = max(1, len(x) // 12)
     if i + 1 < len(x):
         ax.annotate(

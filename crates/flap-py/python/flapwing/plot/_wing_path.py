@@ -28,7 +28,7 @@ _SMALL = np.radians(11.0)
 
 
 class WingPath(FuncAnimation):
-    """An animation that notebooks show with buttons."""
+    """An animation that notebooks display with buttons."""
 
     def __init__(self, scene: _Scene) -> None:
         self._scene = scene
@@ -70,33 +70,33 @@ def wing_path(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> WingPath:
-    """Animate the last cycle of a motion: the wing's chord seen from its tip, moving along the stroke.
+    """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
 
     The dot is the leading edge, which is up, and the line ends at the trailing edge. The length of the arrow shows the
-    lift; it points down if the lift is negative. Below are stroke and pitch over the cycle. Keep the returned object
-    until it is saved or shown: ``plot.wing_path(trajectory).save("cycle.gif")``.
+    lift; the arrow points down if the lift is negative. Below the wing, curves show stroke and pitch over the cycle.
+    Keep the returned object until you have saved or shown it: ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A trajectory of at least one cycle with ``time_s``, ``stroke_deg`` and ``pitch_deg``, evenly sampled.
     frames : int
-        Number of frames in the cycle, evenly spaced.
+        Number of frames in the cycle. The frames are evenly spaced in time.
     frequency : float, optional
         Cycles per second (Hz). Default: the rate at which the motion repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke axis, in chords. Default: 3. For strokes of less than 11 degrees,
-        peak to peak, the default is larger, so that the leading edge moves by 2.5 chords.
+        Distance of the drawn chord from the stroke axis, in chords. Default: 3. If the peak-to-peak stroke is less than
+        11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
     lift : str or None
         The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
     pitch_sign : {1, -1}, optional
-        Sign convention of the pitch. 1: at a positive pitch, the trailing edge of a wing that moves to positive stroke
-        lags. -1: it leads. Default: the convention of the table's model. For a table without a model, the sign for
-        which the trailing edge lags.
+        Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
+        lags (1) or leads (-1). Default: the convention of the model of the table. For a table without a model, the
+        default is the sign for which the trailing edge lags.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. Default: above the axes.
     ax : matplotlib Axes, optional
-        Axes to draw the wing in, without the curves below; the legend is inside.
+        Axes for the wing, without the curves below it. The legend is inside these axes.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def wing_path(
     Raises
     ------
     ValueError
-        An unknown column; a motion that does not repeat, or is shorter than one cycle.
+        A column is unknown, or the motion does not repeat or is shorter than one cycle.
     """
     data = Data.of(table)
     if frames < 2:
@@ -125,7 +125,7 @@ def wing_path(
 
 
 class _Cycle:
-    """The last cycle of a trajectory, resampled; phases run from 0 to 1."""
+    """The resampled last cycle of a trajectory. Phases are from 0 to 1."""
 
     def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
         t, stroke, pitch = (data.numbers(name) for name in ("time_s", "stroke_deg", "pitch_deg"))
@@ -145,7 +145,7 @@ class _Cycle:
 
 
 class _Scene:
-    """The parts of the picture: parts that are drawn once, and parts that move in every frame."""
+    """The parts of the picture: fixed parts, and parts that move in every frame."""
 
     def __init__(self, cycle: _Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
         self.cycle = cycle
@@ -244,7 +244,7 @@ class _Scene:
 
 
 def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
-    """Return the time after which the motion repeats (s), from its end."""
+    """Return the time (s) after which the motion repeats, computed from the end of the motion."""
     n = len(t)
     states = np.column_stack([stroke, pitch])
     size = np.ptp(states, axis=0)
@@ -265,9 +265,10 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def _pitch_sign(data: Data, cycle: _Cycle) -> int:
-    """Return 1 if the trailing edge lags at a positive pitch, -1 if it leads.
+    """Return 1 if the trailing edge lags at a positive pitch, and -1 if the trailing edge leads.
 
-    The sign is the convention of the model, else the sign for which the trailing edge lags on average.
+    The sign is the convention of the model. For a table without a model, the sign is chosen so that the trailing edge
+    lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
