@@ -44,7 +44,7 @@ fn rows_of_another_grid_or_shard_are_not_replaced_unasked() {
         "error: grid.csv exists already, with other rows: the grid file differs; the solver settings differ\n\
          help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
          help: an edited grid is another sweep: write its rows to another file with --out FILE\n\
-         help: use --out FILE to write to another file, or --restart to replace it\n"
+         help: use --out FILE to write to another file, or --restart to replace the file\n"
     );
     fs::write(folder.path("grid.toml"), quick(3)).unwrap();
     folder

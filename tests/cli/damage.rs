@@ -249,7 +249,7 @@ fn commands_refuse_what_is_damaged() {
     assert!(ended.stderr.starts_with("error: grid.2of2.csv is damaged: rows 1 to 256"), "{}", ended.stderr);
     folder.ends(0, &format!("{merge} --ignore-damage"));
     let ended = folder.ends(1, "results verify merged.csv");
-    assert_eq!(ended.stdout, "merged.csv: unverified: its sidecar has no checksums\n");
+    assert_eq!(ended.stdout, "merged.csv: unverified: the sidecar has no checksums\n");
 }
 
 /// Damaged rows stay damaged in another format.
@@ -289,7 +289,7 @@ fn rows_without_checksums_must_be_those_of_the_grid() {
     sidecar.checksums = None;
     sidecar.write(&folder.path("rows.csv.meta.toml")).unwrap();
     let ended = folder.ends(1, "results verify rows.csv");
-    assert_eq!(ended.stdout, "rows.csv: unverified: its sidecar has no checksums\n");
+    assert_eq!(ended.stdout, "rows.csv: unverified: the sidecar has no checksums\n");
     let ended = folder.ends(0, "results convert rows.csv out.csv");
     assert!(ended.stderr.starts_with("warning: rows.csv could not be verified: "), "{}", ended.stderr);
     assert_eq!(folder.flap("results verify out.csv").code, 0, "the copy has checksums");
@@ -327,7 +327,7 @@ fn results_without_a_sidecar_could_not_be_verified() {
     let folder = finished();
     fs::remove_file(folder.path("rows.csv.meta.toml")).unwrap();
     let ended = folder.ends(1, "results verify rows.csv");
-    assert_eq!(ended.stdout, "rows.csv: unverified: there is no sidecar beside it\n");
+    assert_eq!(ended.stdout, "rows.csv: unverified: there is no sidecar beside the file\n");
     folder
         .ends(0, "plot rows.csv --y cycles")
         .says("warning: rows.csv could not be verified: there is no sidecar");
@@ -397,7 +397,7 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
         let done: usize = told.strip_suffix(" points done)\n").unwrap().parse().unwrap();
         assert!(done > 0);
         let warning = format!(
-            "warning: {name} is unfinished: {done} points done so far; `flap results resume` continues it\n"
+            "warning: {name} is unfinished: {done} points done so far; `flap results resume` continues the run\n"
         );
         let ended = folder.ends(0, &format!("plot {name} --y cycles --html page.html"));
         assert!(ended.stderr.starts_with(&warning), "{}", ended.stderr);
@@ -420,7 +420,7 @@ fn unfinished_results_say_so_and_are_read_as_far_as_they_are_safe() {
             ["results verify NAME", "results convert NAME other.csv", "plot NAME --y cycles --force"]
         {
             let ended = folder.ends(3, &command.replace("NAME", &name));
-            assert!((ended.stdout + &ended.stderr).contains("it has changed since the sweep wrote it"));
+            assert!((ended.stdout + &ended.stderr).contains("the file has changed since the sweep wrote it"));
         }
     }
 }

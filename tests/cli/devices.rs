@@ -194,7 +194,7 @@ fn mistakes_in_devices_are_told_with_their_place() {
         "`vehicle_mass` must be zero or more, not -8e-5 kg",
         "mybee.toml:3:16",
     );
-    told(&params("wing_area = nan"), "`wing_area` cannot be `nan`: values are finite", "mybee.toml:3:13");
+    told(&params("wing_area = nan"), "`wing_area` cannot be `nan`: values must be finite", "mybee.toml:3:13");
     told(
         &params("wing_area = \"50 mm\""),
         "`mm` is a length, but `wing_area` is in m^2",

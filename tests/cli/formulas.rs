@@ -129,7 +129,7 @@ other = "drive_frequency > 102"
     // Too many to count.
     let many = grid.replace("n = 5", "n = 4_000_000_000");
     let ended = Folder::with_grid(&many).flap("check grid.toml");
-    let counted = "\nthe grid is too large to check every point; of 1000000 points spread over it, ";
+    let counted = "\nthe grid is too large to check every point; of 1000000 points spread over the grid, ";
     let (_, rest) = ended.stdout.split_once(counted).unwrap();
     let excluded: f64 = rest.split(' ').next().unwrap().parse().unwrap();
     assert!((excluded / 1e6 - 0.4).abs() < 1e-3, "{excluded}");

@@ -188,7 +188,7 @@ fn mistakes_in_the_section_are_told_with_their_place() {
 fn one_point_prints_the_parameters_that_move_a_measure_most() {
     let folder = Folder::with_grid(GRID);
     let printed = folder.ends(0, "run grid.toml --point 15 --gradient lift_mean_mn").stdout;
-    let table = printed.split("and in % of it:\n\n").nth(1).unwrap_or_else(|| panic!("{printed}"));
+    let table = printed.split("and in % of the measure:\n\n").nth(1).unwrap_or_else(|| panic!("{printed}"));
     let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split_whitespace().collect()).collect();
     assert_eq!(lines[0][0], "PARAMETER");
     assert_eq!(lines.len(), 11);

@@ -9,13 +9,13 @@ use crate::support::{Folder, frequencies};
 
 /// The meanings of the statuses of rows, in the order of `Status::ALL`.
 const STATUSES: [&str; 7] = [
-    "settled on an orbit of one drive period; the row has measures",
-    "an unstable orbit: motions near it move away from it; only `flap respond --unstable` writes such rows",
-    "settled on an orbit of 2 to 8 drive periods, in which successive periods differ; the row has no measures",
-    "not settled after max_cycles drive periods: quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
+    "the motion has settled on an orbit of one drive period; the row has measures",
+    "an unstable orbit: nearby motions move away from the orbit; only `flap respond --unstable` writes such rows",
+    "the motion has settled on an orbit of 2 to 8 drive periods, in which successive periods differ; the row has no measures",
+    "the motion has not settled after max_cycles drive periods: it is quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
     "the state became infinite or not a number: check the parameters against their units",
-    "more than max_steps integration steps in one drive period: check the parameters against their units, or raise max_steps in [solver]",
-    "the parameters are impossible together, or a derived one is out of its range; `flap run GRID --point N` prints the reason",
+    "one drive period needs more than max_steps integration steps: check the parameters against their units, or raise max_steps in [solver]",
+    "the parameters are impossible together, or a derived parameter is out of its range; `flap run GRID --point N` prints the reason",
 ];
 
 #[test]

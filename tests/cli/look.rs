@@ -213,9 +213,9 @@ fn columns_that_cannot_be_ranked_are_named() {
     folder
         .refuses("top rows.csv --by lift_mean_mn --all", "no row of rows.csv has a value of lift_mean_mn\n");
     folder.refuses("describe rows.csv --by lift_mean_mn", "no periodic row of rows.csv has a value of lift");
-    folder.refuses("top rows.csv --by status --all", "column `status` holds words such as `unsettled`");
+    folder.refuses("top rows.csv --by status --all", "column `status` contains text such as `unsettled`");
     folder.refuses("top rows.csv --by lift_men_mn", "did you mean `lift_mean_mn`?");
-    folder.refuses("describe rows.csv --by status --all", "column `status` holds words, not numbers");
+    folder.refuses("describe rows.csv --by status --all", "column `status` contains text, not numbers");
     folder.refuses("top rows.csv --by residual -n 0", "expected a whole number of 1 or more");
     folder.refuses("top rows.csv", "--by <COLUMN>");
     // Nothing is periodic, and that is told.

@@ -65,7 +65,7 @@ fn results_are_not_overwritten_unasked() {
     let ended = folder.ends(2, "sweep --grid grid.toml");
     assert_eq!(
         ended.stderr,
-        "error: grid.csv exists already\nhelp: use --out FILE to write to another file, or --restart to replace it\n"
+        "error: grid.csv exists already\nhelp: use --out FILE to write to another file, or --restart to replace the file\n"
     );
     assert_eq!(folder.read("grid.csv"), "precious\n");
     assert_eq!(folder.flap("sweep --grid grid.toml --restart").code, 0);

@@ -46,7 +46,7 @@ fn a_device_has_the_row_of_the_optimum_to_the_last_digit() {
     assert_ne!(value(&one.stdout, "parameter", "air_density"), "");
 
     let again = [&goal[..], &["--out", "best.toml"]].concat();
-    folder.ends_with(2, &again).says("use --force to overwrite it");
+    folder.ends_with(2, &again).says("use --force to overwrite the file");
     let forced = [&again[..], &["--force", "--rtol", "1e-8"]].concat();
     folder.ends_with(0, &forced).says("`flap run best.toml --rtol 1e-8");
     folder.refuses(
@@ -64,7 +64,7 @@ fn the_answer_names_what_holds_the_design_back() {
         "optimal: the largest lift_mean_mn is ",
         "MEASURE",
         "stroke_pp_deg < 60 deg",
-        "bounds and conditions that hold the design back:\n  1 % more of the ",
+        "bounds and conditions that limit the design:\n  1 % more of the ",
         " end at this design",
     ] {
         assert!(ended.stdout.contains(text), "{text}:\n{}", ended.stdout);
@@ -82,7 +82,7 @@ fn without_a_feasible_design_the_exit_code_is_1() {
     assert_eq!(value(&ended.stdout, "answer", "status"), "infeasible");
     let page = folder.ends(1, "optimise grid.toml --maximise lift_mean_mn --where power_mean_mw<0.1").stdout;
     assert!(
-        page.starts_with("infeasible: no design satisfies all conditions; this one exceeds them least"),
+        page.starts_with("infeasible: no design satisfies all conditions; this design has the smallest violation of the conditions"),
         "{page}"
     );
     assert!(page.contains("no, by "), "{page}");

@@ -285,10 +285,10 @@ fn a_changed_grid_is_not_resumed() {
     fs::write(folder.path("grid.toml"), grid).unwrap();
     let ended = folder.ends(2, "sweep --grid grid.toml");
     let told = "error: grid.csv cannot be resumed: the grid file differs; the solver settings differ\n\
-                help: `flap results resume grid.csv` continues it with its original grid\n\
+                help: `flap results resume grid.csv` continues the run with its original grid\n\
                 help: line 7 of the grid was `rtol = 1e-3`, it is `rtol = 1e-4`\n\
                 help: an edited grid is another sweep: write its rows to another file with --out FILE\n\
-                help: use --restart to delete its rows and start over\n";
+                help: use --restart to delete the rows of this file and start over\n";
     assert!(ended.stderr.ends_with(told), "{}", ended.stderr);
     assert_eq!(folder.read("grid.csv"), rows, "nothing is lost");
 
@@ -298,7 +298,7 @@ fn a_changed_grid_is_not_resumed() {
     ended.says(
         "error: part.csv exists already, with other rows: the rows cover shard 1/1000000, not all points\n",
     );
-    ended.says("help: use --out FILE to write to another file, or --restart to replace it\n");
+    ended.says("help: use --out FILE to write to another file, or --restart to replace the file\n");
 }
 
 #[test]
@@ -314,7 +314,7 @@ fn rows_edited_meanwhile_are_not_resumed() {
     let folder = unfinished();
     let rows = folder.read("grid.csv").replacen("unsettled", "periodic!", 1);
     fs::write(folder.path("grid.csv"), &rows).unwrap();
-    folder.ends(2, "results resume grid.csv").says("it has changed since the sweep wrote it");
+    folder.ends(2, "results resume grid.csv").says("the file has changed since the sweep wrote it");
     assert_eq!(folder.read("grid.csv"), rows);
 }
 

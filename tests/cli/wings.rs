@@ -71,7 +71,7 @@ fn the_outline_of_a_preset_gives_its_rows() {
     fs::write(folder.path("own.csv"), outline(24.0, |x| [0.25 * chord(x), 0.75 * chord(x)])).unwrap();
     let arguments = ["device", "wing", "own.csv", "--preset", "arabagi2013-75hz", "--offset", "4 mm"];
     let ended = folder.ends_with(0, &arguments);
-    ended.says("of the wing are the preset's");
+    ended.says("of the wing are the values of the preset");
     assert!(ended.stdout.contains("chord_table = \"on\""), "{}", ended.stdout);
     fs::write(folder.path("wing.toml"), &ended.stdout).unwrap();
     let measure = |what: &str, name: &str| {

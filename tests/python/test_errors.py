@@ -81,7 +81,7 @@ def test_not_finite(name, value):
         ("100", "needs a unit"),
         ("100 V", "`V` is a voltage, but `drive_frequency` is in Hz"),
         ("100 hz", "did you mean `Hz`?"),
-        ("nan Hz", "values are finite"),
+        ("nan Hz", "values must be finite"),
         ("fast", "must start with a number"),
         ("", "must start with a number"),
     ],

@@ -104,7 +104,7 @@ impl Failure {
             JobError::Create(error) => error.into(),
             JobError::Exists { ref changed, .. } => {
                 edited(Failure::usage(error.to_string()), changed.as_ref())
-                    .help("use --out FILE to write to another file, or --restart to replace it")
+                    .help("use --out FILE to write to another file, or --restart to replace the file")
             }
             JobError::Resume { error: error @ ResumeError::Changed { .. }, changed, continues } => {
                 unfinished(Failure::usage(error.to_string()), out, changed.as_ref(), continues)
@@ -182,11 +182,11 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
     let grid = if changed.is_some() { " with its original grid" } else { "" };
     let failure = if continues {
-        failure.help(format!("`flap results resume {}` continues it{grid}", out.display()))
+        failure.help(format!("`flap results resume {}` continues the run{grid}", out.display()))
     } else {
         failure
     };
-    edited(failure, changed).help("use --restart to delete its rows and start over")
+    edited(failure, changed).help("use --restart to delete the rows of this file and start over")
 }
 
 /// Returns the help line if earlier results will be replaced by new ones; `None` if there are no earlier results.
@@ -255,11 +255,10 @@ impl From<JobError> for Failure {
 impl From<CreateError> for Failure {
     fn from(error: CreateError) -> Failure {
         match error {
-            CreateError::Exists { .. } => {
-                Failure::usage(error.to_string()).help("use --force to overwrite it, or choose another file")
-            }
+            CreateError::Exists { .. } => Failure::usage(error.to_string())
+                .help("use --force to overwrite the file, or choose another file"),
             CreateError::Unfinished(ref path) => Failure::usage(error.to_string()).help(format!(
-                "`flap results resume {}` continues it; --restart starts over",
+                "`flap results resume {}` continues the run; --restart starts over",
                 path.display()
             )),
             CreateError::InTheWay { .. } => Failure::usage(error.to_string())

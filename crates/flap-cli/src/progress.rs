@@ -52,7 +52,7 @@ impl Bar {
             let units = self.units;
             self.aside(|| {
                 console::say(&format!(
-                    "stopping: running {units} have half a second to finish; interrupt again to stop at once"
+                    "stopping: running {units} have half a second to finish; interrupt flap again to stop it at once"
                 ));
             });
         }

@@ -70,7 +70,7 @@ struct MeasureText {
     better: i8,
 }
 
-/// The first view: a measure over a parameter, with a line for each value of another.
+/// The first view: a measure over a parameter, with a line for each value of another parameter.
 #[derive(Serialize)]
 struct View<'a> {
     x: Axis<'a>,

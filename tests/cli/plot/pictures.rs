@@ -229,7 +229,7 @@ fn slices_are_told() {
     let folder = folder();
     let sliced = "sweep.csv --x drive_voltage_pp --y lift_mean_mn --by status";
     drawn(&folder, sliced)
-        .says("drawn: drive_frequency = 110 Hz, the middle of 4 values; --where chooses another")
+        .says("drawn: drive_frequency = 110 Hz, the middle of 4 values; --where chooses another value")
         .has(&["Drive frequency 110 Hz · 2 of 3 points without a value"]);
     let picture = drawn(&folder, &format!("{sliced} --where drive_frequency=0.12kHz"));
     assert!(!picture.said.contains("drawn:"), "{}", picture.said);

@@ -127,7 +127,8 @@ fn a_sample_may_be_crossed_with_an_axis() {
     folder.ends(0, "sweep grid.toml --out rows.csv");
     for kind in ["scatter", "histogram", "tornado"] {
         let picture = drawn(&folder, &format!("rows.csv --kind {kind}"));
-        picture.says("drawn: drive_frequency = 105 Hz, the middle of 3 values; --where chooses another");
+        picture
+            .says("drawn: drive_frequency = 105 Hz, the middle of 3 values; --where chooses another value");
     }
     drawn(&folder, "rows.csv --kind response").says("response in out.svg");
     drawn(&folder, "rows.csv").says("scatter in out.svg").has(&["Drive frequency 105 Hz · 6 designs"]);

@@ -267,7 +267,7 @@ impl Excluded {
         let runs = (plan.len() as f64 * share) as u64;
         let looked_at = found.looked_at;
         let line = format!(
-            "\nthe grid is too large to check every point; of {looked_at} points spread over it, {line}\n"
+            "\nthe grid is too large to check every point; of {looked_at} points spread over the grid, {line}\n"
         );
         Excluded { line, runs }
     }

@@ -83,7 +83,7 @@ impl<'c> Gradient<'c> {
         }
         let here = format!("{} {unit}", six_digits(*value));
         let head = format!(
-            "{column} = {}. Largest changes for a 1 % change of a parameter, in the unit of the measure and in % of it:",
+            "{column} = {}. Largest changes for a 1 % change of a parameter, in the unit of the measure and in % of the measure:",
             here.trim_end()
         );
         let mut page = wrapped(&head, 0) + "\n\n";

@@ -55,7 +55,8 @@ pub(crate) fn run(args: &OptimiseArgs) -> Result<Exit, Failure> {
         (Some(_), Some(_), None) => {
             let failure =
                 Failure::usage("--maximise and --minimise together have a front, not one best design");
-            return Err(failure.help("add --points N, or keep one of them and limit the other with --where"));
+            return Err(failure
+                .help("add --points N, or keep one of these options and limit the other goal with --where"));
         }
         (_, _, Some(_)) => {
             return Err(Failure::usage("--points needs both --maximise and --minimise"));
@@ -92,7 +93,7 @@ fn search(args: &OptimiseArgs, problem: &Problem) -> Result<Exit, Failure> {
 fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
     let text = grid::device(plan);
     if outputs::is_stdout(out) {
-        return Err(Failure::usage("--out -: stdout has the answer").help("name a file"));
+        return Err(Failure::usage("--out -: flap already prints the result to stdout").help("name a file"));
     }
     let written = job::make(out, overwrite, |mut file| file.write_all(text.as_bytes()).map(|()| None))?;
     written.map_err(|error: io::Error| Failure::cannot_write(out, &error))?;
@@ -124,7 +125,7 @@ fn remark(problem: &Problem, best: &Optimum) {
     let plan = problem.plan();
     if best.computed < best.points {
         console::say(&format!(
-            "{} of the {} points of the grid were computed, spread over it",
+            "{} of the {} points of the grid were computed; these points are spread over the grid",
             best.computed, best.points
         ));
     }
@@ -136,11 +137,11 @@ fn remark(problem: &Problem, best: &Optimum) {
     } else if !best.missing.is_empty() {
         let reasons: Vec<&str> = best.missing.iter().map(|reason| NoSlope::name(*reason)).collect();
         console::say(&format!(
-            "some rows lack derivatives ({}): differences of rows and a pattern search replace them",
+            "some rows lack derivatives ({}): differences of rows and a pattern search replace the derivatives",
             reasons.join(", ")
         ));
     } else if best.is_polished {
-        console::say("the search with derivatives did not converge: a pattern search ended it");
+        console::say("the search with derivatives did not converge: a pattern search completed the search");
     }
     for (parameter, [from, to]) in &best.at_end {
         let known = &plan.parameters()[*parameter];
@@ -244,7 +245,7 @@ fn page(problem: &Problem, best: &Optimum) -> String {
     let head = match best.status {
         Status::Infeasible => {
             format!(
-                "{status}: no design satisfies all conditions; this one exceeds them least ({goal} = {value})"
+                "{status}: no design satisfies all conditions; this design has the smallest violation of the conditions ({goal} = {value})"
             )
         }
         Status::Optimal | Status::Approximate => format!("{status}: the {word} {goal} is {value}"),
@@ -298,7 +299,7 @@ fn conditions(best: &Optimum) -> String {
 fn ends(problem: &Problem, best: &Optimum) -> String {
     let mut page = String::new();
     if !best.active.is_empty() {
-        page += "\nbounds and conditions that hold the design back:\n";
+        page += "\nbounds and conditions that limit the design:\n";
         for active in &best.active {
             let _ = writeln!(page, "{}", wrapped(&format!("  {}", active.sentence(problem.goal())), 4));
         }

@@ -171,7 +171,7 @@ fn table(found: &Effectiveness) -> String {
     let width = console::width();
     format!(
         "{}\n{}\nChange of force (mN) and torque (uN*m) per unit of each input:\n\n{}\n\
-         Strongest combinations of inputs (each of unit length; 1 µN·m counts as 1 mN):\n\n{}",
+         Combinations of inputs with the largest effects (each combination has unit length; 1 µN·m counts as 1 mN):\n\n{}",
         here.text_within(width),
         torque.text_within(width),
         matrix.text_within(width),

@@ -52,9 +52,8 @@ impl Table {
         match &column.cells {
             Cells::Numbers(values) => Ok(values),
             Cells::Words { .. } => {
-                let message = format!("column `{}` holds words, not numbers", column.name);
-                Err(Failure::usage(message)
-                    .help("choose a column of numbers; only --where accepts words too"))
+                let message = format!("column `{}` contains text, not numbers", column.name);
+                Err(Failure::usage(message).help("choose a column of numbers; only --where accepts text too"))
             }
             Cells::Unread => Err(Failure::Bug(format!("column `{}` was not read", column.name))),
         }

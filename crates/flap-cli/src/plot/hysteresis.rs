@@ -45,7 +45,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let shown = scale::even(lines.len(), MOST_CURVES);
     if shown.len() < lines.len() {
         let (drawn, all) = (shown.len(), lines.len());
-        console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where chooses one"));
+        console::say(&format!("{drawn} of {all} curves are drawn, evenly chosen; --where chooses one curve"));
     }
     let curves = (shown.iter())
         .map(|&number| curve(table, selection, &lines[number], (x.factor, y.factor)))
@@ -132,7 +132,7 @@ fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64))
 fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> bool + 't, Failure> {
     let column = table.find(name)?;
     let Cells::Words { codes, words } = &table.columns[column].cells else {
-        return Err(Failure::usage(format!("column `{name}` holds numbers, not words"))
+        return Err(Failure::usage(format!("column `{name}` contains numbers, not text"))
             .help("draw the results of `flap respond --out`"));
     };
     Ok(move |row: usize, word: &str| words.get(codes[row] as usize).is_some_and(|known| known == word))

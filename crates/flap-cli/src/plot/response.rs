@@ -34,7 +34,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         let by = selection.columns.by.map_or("", |by| table.columns[by].name.as_str());
         let (drawn, all) = (shown.len(), family.len());
         console::say(&format!(
-            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where chooses one"
+            "{drawn} of the {all} values of {by} are drawn, evenly chosen; --where chooses one value"
         ));
     }
 

@@ -433,7 +433,9 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     }));
     let slice = slices::sliced(table, &left(&columns, &axes), rows);
     for Taken { name, value, of, .. } in &slice.taken {
-        console::say(&format!("drawn: {name} = {value}, the middle of {of} values; --where chooses another"));
+        console::say(&format!(
+            "drawn: {name} = {value}, the middle of {of} values; --where chooses another value"
+        ));
     }
     notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
     let mut parameters: Vec<usize> = (1..request.end).collect();

@@ -94,10 +94,10 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         if self.checksums {
-            parts.push("its checksums cannot be read".to_owned());
+            parts.push("the checksums cannot be read".to_owned());
         }
         if self.header {
-            parts.push("its header has changed".to_owned());
+            parts.push("the header has changed".to_owned());
         }
         if !self.rows.is_empty() {
             parts.push(format!("rows {} have changed since they were written", listed(&self.rows)));
@@ -109,7 +109,7 @@ impl fmt::Display for Damage {
             parts.push(format!("the rest cannot be read ({reason})"));
         }
         if self.altered {
-            parts.push("it has changed since the sweep wrote it".to_owned());
+            parts.push("the file has changed since the sweep wrote it".to_owned());
         }
         if self.lost > 0 {
             parts.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
@@ -197,17 +197,19 @@ pub enum Note {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unverified {
     /// There is no sidecar.
-    #[error("there is no sidecar beside it")]
+    #[error("there is no sidecar beside the file")]
     NoSidecar,
     /// The sidecar has no checksums.
-    #[error("its sidecar has no checksums")]
+    #[error("the sidecar has no checksums")]
     NoChecksums,
 }
 
 fn so_far(done: Option<u64>) -> String {
     match done {
-        Some(done) => format!("{} done so far; `flap results resume` continues it", count(done, "point")),
-        None => "it has fewer rows than points".to_owned(),
+        Some(done) => {
+            format!("{} done so far; `flap results resume` continues the run", count(done, "point"))
+        }
+        None => "the file has fewer rows than points".to_owned(),
     }
 }
 

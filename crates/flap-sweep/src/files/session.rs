@@ -77,7 +77,7 @@ pub enum ResumeError {
     #[error(transparent)]
     Format(#[from] FormatError),
     /// There is no journal.
-    #[error("{} has no journal: it is not the result of an interrupted sweep", .0.display())]
+    #[error("{} has no journal, so this file is not the result of an interrupted sweep", .0.display())]
     NoJournal(PathBuf),
     /// The remaining rows would differ from the rows of the earlier run.
     #[error("{} cannot be resumed: {}", path.display(), changes.join("; "))]
@@ -88,7 +88,7 @@ pub enum ResumeError {
         changes: Vec<String>,
     },
     /// Another program has changed the results.
-    #[error("{} cannot be resumed: it has changed since the sweep wrote it", .0.display())]
+    #[error("{} cannot be resumed: the file has changed since the sweep wrote it", .0.display())]
     Altered(PathBuf),
 }
 

@@ -29,12 +29,12 @@ impl Words {
         let name = table.columns[column].name.clone();
         let levels = Levels::of(table, column, rows);
         let Values::Words(words) = &levels.values else {
-            return Err(Failure::Bug(format!("column `{name}` holds numbers")));
+            return Err(Failure::Bug(format!("column `{name}` contains numbers")));
         };
         if words.len() > MOST {
-            let message = format!("column `{name}` holds {} different words, not numbers", words.len());
+            let message = format!("column `{name}` holds {} different texts, not numbers", words.len());
             return Err(Failure::usage(message)
-                .help("choose columns of numbers, or columns with few different words"));
+                .help("choose columns of numbers, or columns with few different texts"));
         }
         let count = |place: usize| levels.codes.iter().filter(|&&code| code == place).count();
         let counts = words.iter().enumerate();

@@ -39,7 +39,7 @@ pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     console::results(&grid::wing(&plan, &args.preset, &parameters))?;
     if wing.material.is_none() {
         console::say(
-            "without --mass, or --thickness and --density, the mass and inertias of the wing are the preset's",
+            "without --mass, or --thickness and --density, the mass and inertias of the wing are the values of the preset",
         );
     }
     if let Some(masses) = wing.masses() {

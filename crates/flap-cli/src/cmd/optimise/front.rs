@@ -38,7 +38,9 @@ pub(super) fn run(
     })?;
     let is_feasible = front.points.iter().all(|point| point.best.is_feasible());
     if !is_feasible {
-        console::say("infeasible: no design satisfies all conditions; this one exceeds them least");
+        console::say(
+            "infeasible: no design satisfies all conditions; this design has the smallest violation of the conditions",
+        );
     }
     let seconds = begun.elapsed().as_secs_f64();
     let rows = count(front.rows, "row");

@@ -58,7 +58,7 @@ where
         return Ok(Ok(found));
     }
     if stop.load(Ordering::Relaxed) {
-        console::say("interrupted: there is no answer yet");
+        console::say("interrupted: there is no result yet");
         return Ok(Err(Exit::Interrupted));
     }
     let grid = args.grid.display();

@@ -41,9 +41,11 @@ fn verdict(results: &Path) -> (&'static str, String, Exit) {
         Ok(Integrity::Unfinished { done: Some(done) }) => {
             ("unfinished", format!("sound so far ({} done)", count(done, "point")), Exit::Done)
         }
-        Ok(Integrity::Unfinished { done: None }) => {
-            ("unfinished", "it has no journal, so nothing could be verified".to_owned(), Exit::NotAll)
-        }
+        Ok(Integrity::Unfinished { done: None }) => (
+            "unfinished",
+            "the file has no journal, so flap could not verify anything".to_owned(),
+            Exit::NotAll,
+        ),
         Ok(Integrity::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
         Ok(Integrity::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
         Err(error @ integrity::OpenError::Format(_)) => ("unreadable", error.to_string(), Exit::Usage),

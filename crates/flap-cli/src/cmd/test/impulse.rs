@@ -68,7 +68,7 @@ fn summary(
     let row = |column: &str, value: f64, unit: &str, meaning: &str| {
         vec![column.to_owned(), number(value), unit.to_owned(), meaning.to_owned()]
     };
-    let impulse = "amplitude that the first mode alone would reach without damping";
+    let impulse = "amplitude that the stroke would reach in the first mode alone, without damping";
     let mut rows = vec![
         row("impulse_deg", amplitude.to_degrees(), "deg", impulse),
         row(&format!("{}_hz", first.name), first.frequency, "Hz", "natural frequency of the first mode"),

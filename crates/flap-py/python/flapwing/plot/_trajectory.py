@@ -76,7 +76,7 @@ def trajectory(
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The axes of the figure are first the axes over time, from top to bottom, and then the axes of portraits.
+        The axes of the figure are the axes over time, from top to bottom, then the portraits.
 
     Raises
     ------

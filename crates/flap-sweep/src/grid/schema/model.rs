@@ -275,7 +275,7 @@ fn keyed<'p>(
 fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
     let value = reference(model.name(), parameter, "value");
     let uncertain = reference(model.name(), parameter, "uncertain");
-    let word = json!({"const": resonance::WORD, "description": "Each design is run at its own resonance."});
+    let word = json!({"const": resonance::WORD, "description": "The drive frequency of each design is the resonance of this design."});
     let alone = if parameter.name == DRIVE_FREQUENCY { json!({"anyOf": [value, word]}) } else { value };
     // The conditions decide. The list with the empty schema shows both forms to editors.
     json!({"anyOf": [{}, alone, uncertain], "if": {"type": "object"}, "then": uncertain, "else": alone})
@@ -309,13 +309,16 @@ fn sample(parameters: &Value) -> Value {
     let mut keys = SAMPLE_KEYS.to_vec();
     keys.extend(FILE_KEYS.iter().filter(|key| !SAMPLE_KEYS.contains(key)));
     let properties = sections::properties(keys, |key| match key {
-        "method" => sections::choice("The method by which points are spread.", &METHODS),
+        "method" => sections::choice("The method that spreads the points over the design space.", &METHODS),
         "n" => sections::count("Number of points.", Design::MAX_POINTS),
         "seed" => json!({
-            "description": "Number of the sample: another seed gives another sample. Default: 0.",
+            "description": "Seed of the random points: another seed gives other points. Default: 0.",
             "type": "integer", "minimum": 0,
         }),
-        "of" => sections::choice("Builds of the device: all parameters with standard errors.", &OF),
+        "of" => sections::choice(
+            "The sampled parameters are all parameters of the device that have standard errors.",
+            &OF,
+        ),
         "path" => sections::text("The file of points, relative to the folder of the grid file."),
         _ => parameters.clone(),
     });

@@ -74,11 +74,13 @@ pub(super) fn positive(description: &str, has_unit: bool) -> Value {
 pub(super) fn about(section: &str) -> &'static str {
     match section {
         "description" => "Free text.",
-        "preset" => "The published design to start from. It chooses the model.",
-        "device" => "The file of a design to start from, in place of a preset.",
+        "preset" => "The published design to start from. The preset determines the model.",
+        "device" => "The device file of a design to start from, in place of a preset.",
         "params" => "Single values that replace values of the preset or device.",
         "correlation" => "Correlations between parameters that have standard errors.",
-        "vehicle" => "Wings of a vehicle, with their positions and their differences.",
+        "vehicle" => {
+            "Wings of a vehicle, with the positions of the wings and the parameters in which wings differ."
+        }
         "resonance" => {
             "The search for the resonance of each design. It requires drive_frequency = \"resonance\" under [params]."
         }
@@ -88,11 +90,11 @@ pub(super) fn about(section: &str) -> &'static str {
         "zip" => "Parameters that vary together along one axis.",
         "sample" => "Points that are spread over the design space, or listed in a file.",
         "derived" => "Parameters that follow from others by a formula in SI units.",
-        "where" => "Conditions: points that do not satisfy all of them are not run.",
+        "where" => "Conditions on the points: flap runs only points that satisfy all conditions.",
         "measure" => "Additional columns, computed from measures and parameters.",
         "gradient" => "Columns with derivatives of measures by parameters.",
         "solver" => "Settings of the integrator and of the search for settled motions.",
-        "output" => "The file for the rows, and its columns.",
+        "output" => "The file for the rows, and the columns of this file.",
         _ => "",
     }
 }
@@ -107,7 +109,8 @@ pub(super) fn preset(models: &[&'static dyn Simulator]) -> Value {
 }
 
 pub(super) fn resonance() -> Value {
-    let tolerance = format!("Largest error of the frequency. Default: {} Hz.", Range::default().tolerance);
+    let tolerance =
+        format!("Largest error of the resonance frequency. Default: {} Hz.", Range::default().tolerance);
     let of = format!("The measure that is largest at the resonance. Default: {}.", Objective::NAMES[0]);
     let keys = properties(resonance::KEYS, |key| match key {
         "of" => choice(&of, &Objective::NAMES),
@@ -169,10 +172,10 @@ pub(super) fn capitalized(text: &str) -> String {
 
 pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(KEYS, |key| match key {
-        "about" => lengths("Reference point of the torques: forward, to the left, upwards."),
+        "about" => lengths("Position of the reference point of the torques: forward, to the left, upwards."),
         "total_mass" => mass(),
         _ => json!({
-            "description": "The wings, each under [[vehicle.wings]].",
+            "description": "The wings of the vehicle, each in its own table [[vehicle.wings]].",
             "type": "array", "minItems": 1, "maxItems": MOST_WINGS, "items": wing(models),
         }),
     });
@@ -196,21 +199,21 @@ fn mass() -> Value {
 fn wing(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(WING_KEYS, |key| match key {
         "name" => json!({
-            "description": "First part of the names of its parameters and columns.",
+            "description": "Name of the wing: the first part of the names of its parameters and columns.",
             "type": "string", "pattern": "^[a-z][a-z0-9_]*$",
         }),
         "mirrored" => json!({
             "description": "True for the mirror image of a wing at its position, which is a wing on the right.", "type": "boolean",
         }),
-        "position" => {
-            lengths("The shoulder: forward, to the left (for a mirrored wing to the right), upwards.")
-        }
+        "position" => lengths(
+            "Position of the shoulder: forward, to the left (for a mirrored wing to the right), upwards.",
+        ),
         "plane" => {
             let angles = properties(PLANE_KEYS, |_| number("An angle, in rad or as text with a unit."));
             table("The orientation of the stroke plane.", angles)
         }
         "preset" => preset(models),
-        "device" => text("A device with the numbers of this wing."),
+        "device" => text("A device file with the parameters of this wing."),
         _ => json!({"description": "Parameters of this wing alone.", "type": "object"}),
     });
     let mut table = table("A wing of the vehicle.", keys);

@@ -104,7 +104,7 @@ pub enum ExpressionProblem {
 
 /// Returns the reason why an unset parameter has no number.
 fn why_unset(follows: &str) -> String {
-    text::no_default(follows).unwrap_or_else(|| format!("it follows others ({follows})"))
+    text::no_default(follows).unwrap_or_else(|| format!("it follows other parameters ({follows})"))
 }
 
 impl ExpressionError {

@@ -72,7 +72,7 @@ impl UnitError {
         match &self.problem {
             UnitProblem::NoNumber => format!("{what} must start with a number"),
             UnitProblem::BadNumber(text) => format!("`{text}` is not a number"),
-            UnitProblem::NotFinite(text) => format!("{what} cannot be `{text}`: values are finite"),
+            UnitProblem::NotFinite(text) => format!("{what} cannot be `{text}`: values must be finite"),
             UnitProblem::TooLarge(text) => {
                 format!("`{text}` is too large for {what} (largest about 1.8e308)")
             }

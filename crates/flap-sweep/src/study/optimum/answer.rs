@@ -9,7 +9,7 @@ pub enum Status {
     Optimal,
     /// The best point that was found. Derivatives do not confirm it: some are missing, or the search ended early.
     Approximate,
-    /// No point satisfies all conditions. The point exceeds them least.
+    /// No point satisfies all conditions. The point has the smallest violation of the conditions.
     Infeasible,
 }
 

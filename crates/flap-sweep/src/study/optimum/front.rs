@@ -52,7 +52,7 @@ pub enum FrontError {
 ///
 /// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///
-/// If no design satisfies all conditions, the front has one point, which exceeds them least.
+/// If no design satisfies all conditions, the front has one point, which has the smallest violation of the conditions.
 ///
 /// # Errors
 /// [`FrontError`].

@@ -10,7 +10,7 @@ pub(super) const TABLES: &[Columns] = &[
         &[
             ("begin_s", "beginning of the cycle, measured from the beginning of the chirp"),
             ("end_s", "end of the cycle, measured from the beginning of the chirp"),
-            ("frequency_hz", "one over the duration of the cycle"),
+            ("frequency_hz", "cycles per second: one divided by the duration of the cycle"),
         ],
     ),
     (
@@ -28,6 +28,6 @@ pub(super) const TABLES: &[Columns] = &[
     ),
     (
         "a value of an impulse (`flap test impulse`)",
-        &[("impulse_deg", "amplitude that the first mode alone would reach without damping")],
+        &[("impulse_deg", "amplitude that the stroke would reach in the first mode alone, without damping")],
     ),
 ];
