@@ -14,7 +14,7 @@ pub(crate) enum DeviceCommand {
     New(NewArgs),
     /// Compute the parameters of a wing from its outline, and print them as a device file
     ///
-    /// These parameters are areas, radii, inertias, and a table of the chord.
+    /// The parameters of the wing are areas, radii, inertias, and a table of the chord.
     Wing(WingArgs),
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct WingArgs {
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// Preset, device file or grid file to which flap adds the wing. Its model determines the parameters that flap computes
+    /// Preset, device file or grid file to which flap adds the wing; the model determines the computed parameters
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 

@@ -61,7 +61,7 @@ const DESCRIBE_HELP: &str = "\
 flap prints three kinds of tables. The first table has the number of rows of each status. The second table has the smallest \
 value, the 5th, 50th and 95th percentile and the largest value of each measure. The third kind of table shows the best value \
 of each axis for one main measure. For each axis, this table has the value in the best row, and the range of values in the \
-best tenth of the rows. If this range is wide, the axis has little influence. `at the end` means that the best value is at \
+best tenth of the rows. If the range of the best tenth is wide, the axis has little influence. `at the end` means that the best value is at \
 an end of the axis: a wider axis may contain better designs. An axis is a varied parameter; in results of `flap respond`, \
 the branch is an axis too.
 

@@ -68,7 +68,7 @@ fn starts(text: &str) -> Result<usize, String> {
 }
 
 const OPTIMISE_HELP: &str = "\
-flap first computes the points of the grid. It then improves the best points step by step, with the derivatives of the \
+flap first computes the points of the grid. The search then improves the best points step by step, with the derivatives of the \
 measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole numbers and \
 parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
 

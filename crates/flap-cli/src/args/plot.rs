@@ -14,7 +14,7 @@ pub(crate) struct PlotArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// File for the picture. The ending chooses the format: .svg or .png. [default: FILE's name with the ending .svg, in
+    /// File for the picture. The ending of the name sets the format: .svg or .png. [default: FILE's name with the ending .svg, in
     /// the working directory. No picture with --html]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,

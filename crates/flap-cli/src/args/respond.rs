@@ -10,7 +10,7 @@ use super::values::assignment;
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// flap leaves out the axis of the followed parameter. Every other point of the grid is a design with its own curve.
+    /// flap leaves out the axis of the followed parameter. Each remaining point of the grid is a design with its own curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
@@ -18,7 +18,7 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
-    /// First value of the followed parameter: a number in SI units, or a number with a unit [default: the first value of the grid file's axis]
+    /// First value of the followed parameter, in SI units or with a unit [default: the first value of the grid file's axis]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub(crate) from: Option<String>,
 
@@ -45,7 +45,7 @@ pub(crate) struct RespondArgs {
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// File for the rows, one per motion; `-` prints the rows to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows, one per motion; `-` prints the rows to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -63,15 +63,15 @@ pub(crate) struct RespondArgs {
 }
 
 const RESPOND_HELP: &str = "\
-The followed parameter first rises, then falls. The first point of each branch starts at rest. Every other point starts from the \
-settled motion of the point before it. If the branches up and down settle to different motions, the design is bistable. \
-flap halves a step if a bistable band ends in this step. It also halves a step in which the motion changes by more than a \
+The followed parameter first rises, then falls. The first point of each branch starts at rest. All later points start from the \
+settled motion of the point before. If the branches up and down settle to different motions, the design is bistable. \
+flap halves a step if a bistable band ends in this step. flap also halves a step in which the motion changes by more than a \
 tenth, because such a step may hide a narrow band. The summary has one line per design. flap prints the summary to stdout, \
 or to stderr if you give `--out -`.
 
 flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
-second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, beside \
-FILE, records the command's options. Until all curves are complete, FILE.journal records the progress. To continue an \
+second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, in the folder of \
+FILE, records the options of the command. Until all curves are complete, FILE.journal records the progress. To continue an \
 interrupted command, run the same command again.
 
 Examples:

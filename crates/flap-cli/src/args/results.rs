@@ -18,14 +18,14 @@ pub(crate) enum ResultsCommand {
     Merge(MergeArgs),
     /// Write results in another format
     Convert(ConvertArgs),
-    /// Compare results with their recorded checksums
+    /// Compare results with the checksums in their sidecars
     Verify(VerifyArgs),
 }
 
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
 pub(crate) struct VerifyArgs {
-    /// Result files; their sidecars (FILE.meta.toml) must be in the same folder
+    /// Result files, each with its sidecar (FILE.meta.toml) in the same folder
     #[arg(value_name = "FILE", required = true)]
     pub(crate) results: Vec<PathBuf>,
 
@@ -37,8 +37,8 @@ pub(crate) struct VerifyArgs {
 }
 
 const VERIFY_HELP: &str = "\
-flap compares each FILE with the checksums in its sidecar FILE.meta.toml. It prints one line per file: the file is sound, \
-or the rows that are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
+flap compares each FILE with the checksums in its sidecar FILE.meta.toml. flap prints one line per file: the file is sound, \
+or these rows are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
 256. If a row is missing or added, all rows after it count as damaged.
 
 Exit codes:
@@ -53,7 +53,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
 pub(crate) struct ResumeArgs {
-    /// Unfinished results; their sidecar (FILE.meta.toml) must be in the same folder
+    /// Unfinished results, with their sidecar (FILE.meta.toml) in the same folder
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
@@ -66,7 +66,7 @@ pub(crate) struct ResumeArgs {
 
 const RESUME_HELP: &str = "\
 flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes as a sweep without \
-interruption. flap reads the grid from FILE.meta.toml. It stops with an error if another build of flap or another kind \
+interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if another build of flap or another kind \
 of machine started the sweep, or if complete results are damaged.
 
 Example:
@@ -75,7 +75,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RERUN_HELP)]
 pub(crate) struct RerunArgs {
-    /// Earlier results; their sidecar (RESULTS.meta.toml) must be in the same folder
+    /// Earlier results, with their sidecar (RESULTS.meta.toml) in the same folder
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
@@ -93,7 +93,7 @@ pub(crate) struct RerunArgs {
     #[arg(long)]
     pub(crate) inaccurate: bool,
 
-    /// File for the rows. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows. The ending of the name sets the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: PathBuf,
 
@@ -118,11 +118,11 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = MERGE_HELP)]
 pub(crate) struct MergeArgs {
-    /// File for the rows; `-` prints CSV to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows; `-` prints CSV to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
-    /// Results of all shards; their sidecars (SHARD.meta.toml) must be in the same folder
+    /// Results of all shards, each with its sidecar (SHARD.meta.toml) in the same folder
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
@@ -149,11 +149,11 @@ Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`
 #[derive(clap::Args)]
 #[command(after_help = CONVERT_HELP)]
 pub(crate) struct ConvertArgs {
-    /// Results; their sidecar (IN.meta.toml) must be in the same folder
+    /// Results, with their sidecar (IN.meta.toml) in the same folder
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
-    /// File for the rows; `-` prints CSV to stdout. The ending chooses the format: .csv, .csv.zst or .parquet
+    /// File for the rows; `-` prints CSV to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet
     #[arg(value_name = "OUT")]
     pub(crate) to: PathBuf,
 

@@ -21,7 +21,7 @@ pub(crate) struct SweepArgs {
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 
-    /// File for the rows; `-` prints the rows to stdout. The ending chooses the format: .csv, .csv.zst or .parquet.
+    /// File for the rows; `-` prints the rows to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet.
     /// [default: `path` in [output] of the grid file, else the grid file's name with the ending .csv, in the working
     /// directory]
     #[arg(short, long, value_name = "FILE")]
@@ -47,7 +47,7 @@ impl SweepArgs {
 const SWEEP_HELP: &str = "\
 flap writes rows in the order of the points, as soon as they are computed. After Ctrl-C or SIGTERM, running points have half \
 a second to finish. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml (the \
-sidecar), beside FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records the progress. To \
+sidecar), in the folder of FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records the progress. To \
 continue an interrupted sweep, run the same command again. If FILE already has all rows, flap runs no points. flap replaces \
 rows of another grid or of another build of flap only if you give --restart.
 
@@ -88,7 +88,7 @@ const CHECK_HELP: &str = "\
 flap shows the range of each axis, the number of points that [where] excludes, the first and the last point, and estimates \
 of the time of the sweep and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. \
 The command also lists the parameters that differ from the preset, and parameters that stay the same although they usually \
-change with a varied parameter. It warns if a value is more than a hundred times larger or smaller than the value of the \
+change with a varied parameter. flap warns if a value is more than a hundred times larger or smaller than the value of the \
 preset. If a grid has more than a million points, flap counts the excluded points in a sample of a million.
 
 Examples:

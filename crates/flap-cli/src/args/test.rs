@@ -78,7 +78,7 @@ pub(crate) struct ImpulseArgs {
 
     /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// This angle is the amplitude that the stroke would reach in the first mode alone, without damping. For example, `20 deg` is a
+    /// The angle of the impulse is the amplitude that the stroke would reach in the first mode alone, without damping. For example, `20 deg` is a
     /// stroke rate of 2 pi f_1 20 deg, with the frequency f_1 of the first mode.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) amplitude: f64,
@@ -121,7 +121,7 @@ pub(crate) struct ResonanceArgs {
 
     /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// This angle is the amplitude that the stroke would reach in the first mode alone, without damping.
+    /// The angle of the impulse is the amplitude that the stroke would reach in the first mode alone, without damping.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 

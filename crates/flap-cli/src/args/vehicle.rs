@@ -32,7 +32,7 @@ pub(crate) struct VehicleArgs {
 
 const VEHICLE_HELP: &str = "\
 flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of force \
-and torque with respect to each input. It also prints the combinations of inputs with the largest effects (singular values). \
+and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular values). \
 The derivatives are exact derivatives of the settled motion.
 
 The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append _difference for \

@@ -25,27 +25,27 @@ crate::parameters! {
     pub struct ChordTable {
         /// Source of the chord of the wing: the chord shape of the model, or the table chord_0 to chord_10.
         chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
-        /// Chord at 0 % of the length of the wing, the root. This parameter has an effect only if chord_table is "on".
+        /// Chord at 0 % of the length of the wing, the root, for chord_table = "on".
         chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 10 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 10 % of the length of the wing, for chord_table = "on".
         chord_1: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 20 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 20 % of the length of the wing, for chord_table = "on".
         chord_2: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 30 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 30 % of the length of the wing, for chord_table = "on".
         chord_3: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 40 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 40 % of the length of the wing, for chord_table = "on".
         chord_4: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 50 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 50 % of the length of the wing, for chord_table = "on".
         chord_5: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 60 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 60 % of the length of the wing, for chord_table = "on".
         chord_6: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 70 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 70 % of the length of the wing, for chord_table = "on".
         chord_7: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 80 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 80 % of the length of the wing, for chord_table = "on".
         chord_8: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 90 % of the length of the wing. This parameter has an effect only if chord_table is "on".
+        /// Chord at 90 % of the length of the wing, for chord_table = "on".
         chord_9: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 100 % of the length of the wing, the tip. This parameter has an effect only if chord_table is "on".
+        /// Chord at 100 % of the length of the wing, the tip, for chord_table = "on".
         chord_10: f64 = ("m", "", Number(NonNegative), default: 0.0),
     }
 }

@@ -31,22 +31,20 @@ crate::parameters! {
         /// Shape of the drive over a period: a sine, a sine with second and third harmonic, or a square wave with
         /// finite rise time.
         drive_shape: Shape = ("", "", Choice(Shape::NAMES)),
-        /// Amplitude of the second harmonic of the drive, relative to the amplitude of the first harmonic. This
-        /// parameter has an effect only if drive_shape is "harmonics".
+        /// Amplitude of the second harmonic of the drive, relative to the amplitude of the first harmonic, for
+        /// drive_shape = "harmonics".
         drive_second_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase p_2 of the second harmonic in the drive sin(w t) + h_2 sin(2 w t + p_2). Here w is the angular drive
-        /// frequency, t the time, and h_2 is drive_second_harmonic. This parameter has an effect only if drive_shape is
-        /// "harmonics".
+        /// Phase p_2 of the second harmonic in the drive sin(w t) + h_2 sin(2 w t + p_2), for drive_shape =
+        /// "harmonics". Here w is the angular drive frequency, t the time, and h_2 is drive_second_harmonic.
         drive_second_phase: f64 = ("rad", "", Number(Any)),
-        /// Amplitude of the third harmonic of the drive, relative to the amplitude of the first harmonic. This
-        /// parameter has an effect only if drive_shape is "harmonics".
+        /// Amplitude of the third harmonic of the drive, relative to the amplitude of the first harmonic, for
+        /// drive_shape = "harmonics".
         drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase p_3 of the third harmonic in the drive sin(w t) + h_3 sin(3 w t + p_3). Here w is the angular drive
-        /// frequency, t the time, and h_3 is drive_third_harmonic. This parameter has an effect only if drive_shape is
-        /// "harmonics".
+        /// Phase p_3 of the third harmonic in the drive sin(w t) + h_3 sin(3 w t + p_3), for drive_shape = "harmonics".
+        /// Here w is the angular drive frequency, t the time, and h_3 is drive_third_harmonic.
         drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise time of the square wave, which equals its fall time, as a fraction of the drive period. The fraction is
-        /// at most 0.5. This parameter has an effect only if drive_shape is "square".
+        /// Rise time of the square wave, which equals its fall time, as a fraction of the drive period, for drive_shape
+        /// = "square". The fraction is at most 0.5.
         drive_rise: f64 = ("", "", Number(Positive)),
     }
 }
@@ -74,7 +72,7 @@ crate::parameters! {
         /// Motion of the stroke: driven by the actuator, or prescribed. A prescribed stroke is stroke_amplitude times
         /// the waveform of the drive, and the force for this motion is not limited. The pitch is free in both modes.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
-        /// Amplitude of the prescribed stroke. This parameter has an effect only if stroke_mode is "prescribed".
+        /// Amplitude of the prescribed stroke, for stroke_mode = "prescribed".
         stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
     }
 }

@@ -116,8 +116,8 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The default is the same as
-        in `flap plot`.
+        """Return the default measure for a role: "response", "benefit", "cost" or "motion". `flap plot` has the same
+        default measures.
         """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:

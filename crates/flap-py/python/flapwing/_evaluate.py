@@ -65,8 +65,8 @@ def evaluate(
     gradient : list of str, optional
         Parameters by which the measures of the settled motion are differentiated. `Table.gradient` has the derivatives,
         with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's column per SI
-        unit of the parameter. These derivatives replace the derivatives of ``[gradient]`` in a grid. The work for each
-        parameter is about the work of three drive periods.
+        unit of the parameter. Derivatives by `gradient` replace the derivatives of ``[gradient]`` in a grid. The work
+        for each parameter is about the work of three drive periods.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period. Columns are the components (see
         `states`), in the units of their names, with one row per point. A row with nan begins at rest. If a design has

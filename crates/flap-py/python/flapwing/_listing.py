@@ -69,8 +69,8 @@ def measures(design: Design, /) -> dict[str, Measure]:
 
 
 def states(design: Design, /) -> dict[str, State]:
-    """Return the states of the equations of motion of a design or a model. These states are the components of
-    `initial_state`.
+    """Return the states of the equations of motion of a design or a model. The states are the components of the
+    argument `initial_state`.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """The error for an unknown name. It is both a KeyError, as for a dictionary, and a ValueError, as for other
+    """The error for an unknown name. The error is both a KeyError, as for a dictionary, and a ValueError, as for other
     arguments.
     """
 

@@ -57,7 +57,7 @@ def run(
     initial_state : dict, Table or DataFrame, optional
         The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
         ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
-        also give a row that has the states among its columns, such as ``trajectory(…)[-1:]``. This row is a Table, a
+        also give a row that has the states among its columns, such as ``trajectory(…)[-1:]``. Such a row is a Table, a
         DataFrame, a dictionary or a row of a DataFrame. If a state in the row is nan, the motion begins at rest. If the
         design has several orbits, the state determines the orbit that is found. Default: rest.
     waveform : path, tuple or columns, optional
@@ -69,7 +69,7 @@ def run(
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
         pair of arrays (s, rad). The model must have the parameter `stroke_mode`.
     progress : bool or function, optional
-        The same as for `sweep`; one point is one step of the progress.
+        As for `sweep`; one point is one step of the progress.
     client : distributed.Client, optional
         Run the point on a worker of a Dask cluster, which must have the same build of flapwing. The cluster does not
         change the result.
@@ -93,7 +93,7 @@ def run(
         integrated again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if 1000 rtol is larger.
     newton : bool, optional
         If True, the orbit that the motion approaches is found by Newton's iteration. If False, the motion is integrated
-        until it settles on the same orbit, which takes more periods. Default True.
+        until the motion settles on this orbit, which takes more periods. Default True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
         rtol: it finds the same orbit with about twice the work. Default True.

@@ -34,16 +34,16 @@ def respond(
 ) -> Table:
     """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
 
-    The first point of each branch starts at rest. Every other point starts from the settled motion of the point before
-    it. If the branches up and down settle to different motions, the design is bistable. A step is halved if a bistable
-    band ends in this step. A step in which the motion changes by more than a tenth is also halved, because such a step
-    may hide a narrow band.
+    The first point of each branch starts at rest. All later points start from the settled motion of the point before.
+    If the branches up and down settle to different motions, the design is bistable. A step is halved if a bistable band
+    ends in this step. A step in which the motion changes by more than a tenth is also halved, because such a step may
+    hide a narrow band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). The axis of the followed parameter is left out. Every other point of the grid
-        is a design with its own curve.
+        A preset or a grid (see `Grid`). The axis of the followed parameter is left out. Each remaining point of the
+        grid is a design with its own curve.
     parameter : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional

@@ -46,7 +46,7 @@ class Row(Mapping[str, Any]):
     """The results of one design point.
 
     ``row["lift_mean_mn"]`` is the value of a column: a measure, or one of the attributes below. ``dict(row)`` has all
-    columns. Their order is the same for every point of a model.
+    columns. The order of the columns is the same for every point of a model.
 
     Attributes
     ----------

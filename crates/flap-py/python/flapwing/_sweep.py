@@ -146,8 +146,8 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
         Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of another command, such
         as ``flap run --trajectory``. A Parquet table of another program (Zstandard, Snappy or no compression) works
         too. Units, meanings and axes are read from the sidecar beside the results, or from the metadata of flap's
-        Parquet files. If both are missing, units are taken from the names of the columns. If results are unfinished,
-        the rows up to the last checkpoint are read, with a warning.
+        Parquet files. Without a sidecar or metadata, units are taken from the names of the columns. If results are
+        unfinished, the rows up to the last checkpoint are read, with a warning.
     ignore_damage : bool, optional
         If True, damaged results raise a warning instead of an error, and only readable rows are returned. By default,
         damage is an error.
@@ -155,8 +155,9 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Returns
     -------
     Table
-        The rows. Numbers have the same bits as when they were written. ``meta["verified"]`` is True if the checksums
-        agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without checksums.
+        The rows. Numbers have the same bits as the numbers that were written. ``meta["verified"]`` is True if the
+        checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without
+        checksums.
 
     Raises
     ------

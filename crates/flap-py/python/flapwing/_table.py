@@ -55,8 +55,8 @@ class Table:
 
     ``table["lift_mean_mn"]`` is a column. ``table[["drive_frequency", "lift_mean_mn"]]`` is a table of some of the
     columns. ``table[rows]`` is a table of some of the rows, where `rows` is a slice, a mask or indices. ``len(table)``
-    is the number of rows. Iterating yields the names of the columns, as for a DataFrame. Columns are read-only; change
-    a copy, such as ``table["lift_mean_mn"].copy()``.
+    is the number of rows. Iterating yields the names of the columns, as for a DataFrame. Columns are read-only; to
+    change values, use a copy such as ``table["lift_mean_mn"].copy()``.
 
     Numbers are float64, with nan for unknown values such as the measures of a point that is not periodic. Counts are
     uint64, flags are bool, options and words are text. If the flag of some row is unknown, the column is float64: 1 for
@@ -170,7 +170,7 @@ class Table:
             raise unknown("column", name, self._columns) from None
 
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
-        """Return a table with some of the rows. Its `meta` has new counts of rows and copies of other entries."""
+        """Return a table with some of the rows. The attribute `meta` of this table has new counts of rows."""
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
         table = self._new(columns, self.axes, copy.deepcopy(self.meta))
         if "counts" in table.meta:
@@ -188,7 +188,7 @@ class Table:
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of each column, ``""`` for none."""
+        """The unit of each column; ``""`` for a column without a unit."""
         return {name: column.unit for name, column in self._columns.items()}
 
     @property

@@ -229,7 +229,7 @@ def rank_correlations(
     Raises
     ------
     ValueError
-        An unknown column or value; no design with the measure; no parameter that varies.
+        A column or value is unknown; no design has the measure; no parameter varies.
 
     Examples
     --------

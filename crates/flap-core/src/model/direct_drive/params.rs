@@ -31,8 +31,8 @@ crate::parameters! {
         mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
         /// Distance from the stroke axis to the root of the wing. The paper does not give this distance.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
-        /// Chord of the wing at half of the wing length. The paper does not give this chord. This parameter has an
-        /// effect only if flow_direction is "uniform".
+        /// Chord of the wing at half of the wing length, for flow_direction = "uniform". The paper does not give this
+        /// chord.
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Mass of the wing.
         wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
@@ -65,42 +65,35 @@ crate::parameters! {
         /// moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for these
         /// parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
-        /// Chord shape: coefficient of the Legendre polynomial P_1(2r/R - 1) in chord / mean_chord. The constant term
-        /// of this series is 1. The paper gives no chord shape: the coefficients were fitted to the shape moments of
-        /// the paper. This parameter has an effect only if flow_direction is "blade".
+        /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
+        /// mean_chord. The constant term of this series is 1. The paper gives no chord shape: the coefficients were
+        /// fitted to the shape moments of the paper.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
-        /// Chord shape: coefficient of the Legendre polynomial P_2(2r/R - 1) in chord / mean_chord. The coefficient was
-        /// fitted to the shape moments of the paper. This parameter has an effect only if flow_direction is "blade".
+        /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_2(2r/R - 1) in chord /
+        /// mean_chord. The coefficient was fitted to the shape moments of the paper.
         chord_legendre_2: f64 = ("", "a_2", Number(Any)) -0.0913,
-        /// Chord shape: coefficient of the Legendre polynomial P_3(2r/R - 1) in chord / mean_chord. The coefficient was
-        /// fitted to the shape moments of the paper. This parameter has an effect only if flow_direction is "blade".
+        /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
+        /// mean_chord. The coefficient was fitted to the shape moments of the paper.
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
         /// every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
-        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22). This parameter has an effect
-        /// only if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
-        /// Wing shape moment: normalised integral of chord^4 along the span. This parameter has an effect only if
-        /// flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of chord^4 along the span, for flow_direction = "uniform".
         shape_moment_04: f64 = ("", "I_w0,4", Number(Positive)) 1.04,
-        /// Wing shape moment: normalised integral of radius * chord^2 along the span. This parameter has an effect only
-        /// if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of radius * chord^2 along the span, for flow_direction = "uniform".
         shape_moment_12: f64 = ("", "I_w1,2", Number(Positive)) 0.88,
-        /// Wing shape moment: normalised integral of radius * chord^3 along the span. This parameter has an effect only
-        /// if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of radius * chord^3 along the span, for flow_direction = "uniform".
         shape_moment_13: f64 = ("", "I_w1,3", Number(Positive)) 0.89,
-        /// Wing shape moment: normalised integral of radius^2 * chord along the span. This parameter has an effect only
-        /// if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of radius^2 * chord along the span, for flow_direction = "uniform".
         shape_moment_21: f64 = ("", "I_w2,1", Number(Positive)) 0.82,
-        /// Wing shape moment: normalised integral of radius^2 * chord^2 along the span. This parameter has an effect
-        /// only if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of radius^2 * chord^2 along the span, for flow_direction = "uniform".
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)) 0.84,
-        /// Wing shape moment: normalised integral of radius^3 * chord along the span. This parameter has an effect only
-        /// if flow_direction is "uniform".
+        /// Wing shape moment: normalised integral of radius^3 * chord along the span, for flow_direction = "uniform".
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span. This
-        /// parameter has an effect only if flow_direction is "uniform".
+        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span, for
+        /// flow_direction = "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.68e-10,
 
         ["actuator"]

@@ -180,8 +180,8 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, with standard errors for the end of the search. Readings whose motion does not settle there
-    are left out.
+    """Run the last search, with standard errors for the end of the search. Readings without a settled motion at this
+    end are left out.
     """
     found = best
     for _ in range(_ROUNDS):

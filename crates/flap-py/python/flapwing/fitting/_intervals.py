@@ -186,10 +186,10 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
     """Return one sentence for each combined change of parameters that affects no reading at any values of the
     parameters.
 
-    The derivatives of the readings are computed at several random sets of parameters. If they have a null space at each
-    set, no data of this kind can distinguish the parameters. If only a product of parameters matters, the null space in
-    logarithms is the same at all sets. If only a sum of parameters matters, the null space in the parameters is the
-    same at all sets. In both cases, the stacked derivatives have this null space.
+    The derivatives of the readings are computed at several random sets of parameters. If these derivatives have a null
+    space at each set, no data of this kind can distinguish the parameters. If only a product of parameters matters, the
+    null space in logarithms is the same at all sets. If only a sum of parameters matters, the null space in the
+    parameters is the same at all sets. In both cases, the stacked derivatives have this null space.
     """
     space = model.space
     looks = sobol(space, _SETS_LOOKED_AT, seed)

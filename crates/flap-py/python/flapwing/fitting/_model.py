@@ -1,4 +1,6 @@
-"""The model of a fit. It computes readings at many sets of parameters in one batch, also on branches of hysteresis."""
+"""The model of a fit. The model computes readings at many sets of parameters in one batch, also on branches of
+hysteresis.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,7 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class Way:
-    """The points of a branch. They are run one after the other, while a parameter rises or falls."""
+    """The points of a branch. These points are run one after the other, while a parameter rises or falls."""
 
     parameter: str
     falls: bool

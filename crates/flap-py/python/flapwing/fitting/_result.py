@@ -240,7 +240,7 @@ class Fit(Solution):
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You may leave out parameters that have the same value in all data.
         measure : str
-            A measure, with or without readings.
+            The measure to predict. The data need not have readings of this measure.
         data_set : str, optional
             The data set whose parameters and branch are used. Default: the parameters of the first data set, and
             motions from rest.

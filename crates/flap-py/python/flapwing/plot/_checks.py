@@ -85,7 +85,8 @@ _KINDS: dict[str, _Kind | None] = {
 
 
 def checked(function: _F) -> _F:
-    """Return the function with a check of its arguments. The check raises TypeError or ValueError.
+    """Return a function that checks its arguments before it calls the given function. The check raises TypeError or
+    ValueError.
 
     Each argument must have a kind in `_KINDS`; otherwise importing the module raises KeyError. An argument may be None
     if its default is None.

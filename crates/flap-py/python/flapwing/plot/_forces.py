@@ -185,7 +185,7 @@ def _per(unit: str) -> str:
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects from a table of `flap vehicle`. This table has one row of means, and then one row for each
+    """Return the effects from a table of `flap vehicle`. Such a table has one row of means, and then one row for each
     input.
     """
     if "input" not in data:
@@ -239,7 +239,7 @@ def _input(name: str, unit: str) -> str:
 
 
 def _cell(value: float, share: float) -> str:
-    """Return a change with three digits."""
+    """Return the number in a cell of the map, with three digits."""
     if not np.isfinite(value):
         return "?"
     return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))

@@ -1,4 +1,4 @@
-"""The style of pictures. Its settings apply only while a picture is drawn; then the old settings return."""
+"""The style of pictures. The settings apply only while a picture is drawn, and are then restored."""
 
 from __future__ import annotations
 
