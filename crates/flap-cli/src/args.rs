@@ -78,7 +78,7 @@ pub(crate) enum Command {
     Vehicle(VehicleArgs),
     /// Find the best design within the axes of a grid file, under conditions
     Optimise(OptimiseArgs),
-    /// Open a page in the browser with sliders for the parameters, and curves that change with the sliders
+    /// Open a page with sliders for the parameters, and curves that change with the sliders
     #[cfg(feature = "live")]
     Live(LiveArgs),
     /// Check a grid file and summarize the sweep that it describes

@@ -41,10 +41,10 @@ def sweep(
         columns, but its `path` is not used.
     out : path, optional
         File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed. The
-        file has the same bytes as a file of ``flap sweep --out``. A sidecar beside the file records the origin of the
-        rows. If `out` has unfinished rows of the same grid, the sweep continues them. If `out` has all rows, no point
-        is run. Any other file that is not empty is an error. By default, rows are kept in memory: about half a kilobyte
-        for each row.
+        file has the same bytes as a file of ``flap sweep --out``. A sidecar in the same folder records the origin of
+        the rows. If `out` has unfinished rows of the same grid, the sweep continues them. If `out` has all rows, no
+        point is run. Any other file that is not empty is an error. By default, rows are kept in memory: about half a
+        kilobyte for each row.
     restart : bool, optional
         If True, the sweep starts over, and replaces the results in `out` when the new results are complete.
     threads : int, optional
@@ -61,7 +61,7 @@ def sweep(
         The measures of the rows. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`. Keywords have the same effect as entries of
-        ``[params]`` and ``[solver]`` in the grid, and `out` and its sidecar record them in this form.
+        ``[params]`` and ``[solver]`` in the grid, and results record the keywords as such entries.
 
     Returns
     -------

@@ -15,12 +15,12 @@ crate::parameters! {
         /// drive_voltage_pp, in antiphase, Eq. (7). If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak
         /// voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
-        /// Drive frequency. The experiments of the paper sweep the drive frequency at 15 Hz/s.
+        /// Drive frequency. Jafferis et al. (2016) sweep the drive frequency at 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 120.0,
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Constant voltage difference between the two plates. Half of drive_offset is added to the voltage of plate 1,
-        /// and half is subtracted from the voltage of plate 2. The paper does not contain this parameter.
+        /// and half is subtracted from the voltage of plate 2. Jafferis et al. (2016) do not use this parameter.
         drive_offset: f64 = ("V", "", Number(Any), default: 0.0) 0.0,
 
         ["transmission"]
@@ -30,9 +30,9 @@ crate::parameters! {
         /// rotational stiffness kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true, scales_with: &[("transmission_ratio", 2.0)]) 197.7,
         /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
-        /// The paper does not contain this parameter.
+        /// Jafferis et al. (2016) do not use this parameter.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Viscous damping of the stroke about the stroke axis. The paper does not contain this parameter.
+        /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the springs that act on the stroke: the actuator and the transmission together. The loss
         /// factor adds a viscous damping: loss factor times stiffness, divided by the angular drive frequency.
@@ -61,13 +61,13 @@ crate::parameters! {
         ["hinge"]
         /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true, scales_with: FLEXURE) 0.985 * 1.52e-6,
-        /// Viscous damping of the wing hinge. The paper does not contain this parameter.
+        /// Viscous damping of the wing hinge. Jafferis et al. (2016) do not use this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
-        /// Density of the air. The value is assumed, because the paper does not give one.
+        /// Density of the air. The value is assumed, because Jafferis et al. (2016) do not give one.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Drag coefficient of the wing at an attack angle of 90 deg (pitch 0).
         drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), is_fitted: true) 1.25 * 3.4,
@@ -94,8 +94,8 @@ crate::parameters! {
         actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
         /// Length of the actuator's rigid extension, divided by actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
-        /// Mass of the actuator, as a point mass at the actuator's tip. The equations of the paper leave out this mass,
-        /// which is about 7 mg.
+        /// Mass of the actuator, as a point mass at the actuator's tip. The equations of Jafferis et al. (2016) leave
+        /// out this mass, which is about 7 mg.
         actuator_mass: f64 = ("kg", "", Number(NonNegative)) 0.0,
         /// Thickness of each piezoelectric plate.
         piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)) 135e-6,
@@ -135,8 +135,8 @@ crate::parameters! {
         /// Second factor that multiplies the stiffness of the actuator. The factor adjusts the computed free deflection
         /// of the actuator to the measured deflection. A factor of 1 means no correction.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
-        /// Force of plate 2, divided by the force of plate 1 at the same voltage. The paper does not contain this
-        /// parameter.
+        /// Force of plate 2, divided by the force of plate 1 at the same voltage. Jafferis et al. (2016) do not use
+        /// this parameter.
         plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,

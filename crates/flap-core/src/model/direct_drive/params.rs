@@ -12,10 +12,10 @@ crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
     pub struct Params {
         ["drive"]
-        /// Peak-to-peak drive voltage: twice the V_0 of the paper. If drive_shape is "harmonics", drive_voltage_pp is
-        /// the peak-to-peak voltage of the fundamental alone.
+        /// Peak-to-peak drive voltage: twice V_0 of Ozaki and Hamaguchi (2018). If drive_shape is "harmonics",
+        /// drive_voltage_pp is the peak-to-peak voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
-        /// Constant part of the drive voltage. The drive voltage of the paper is V_0 sin(w t) + V_0.
+        /// Constant part of the drive voltage. The drive voltage of Ozaki and Hamaguchi (2018) is V_0 sin(w t) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
         /// Drive frequency.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 209.0,
@@ -29,17 +29,17 @@ crate::parameters! {
         wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
         /// Mean chord of the wing.
         mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
-        /// Distance from the stroke axis to the root of the wing. The paper does not give this distance.
+        /// Distance from the stroke axis to the root of the wing. Ozaki and Hamaguchi (2018) do not give this distance.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
-        /// Chord of the wing at half of the wing length, for flow_direction = "uniform". The paper does not give this
-        /// chord.
+        /// Chord of the wing at half of the wing length, for flow_direction = "uniform". Ozaki and Hamaguchi (2018) do
+        /// not give this chord.
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Mass of the wing.
         wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
         /// Distance of the wing's centre of mass from the root of the wing, along the span.
         mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
         /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The position of a real
-        /// wing is negative, but the paper prints its magnitude.
+        /// wing is negative, but Ozaki and Hamaguchi (2018) print the magnitude.
         mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
         /// Moment of inertia of the wing about the spanwise axis through its centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,
@@ -53,27 +53,27 @@ crate::parameters! {
         ["hinge"]
         /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
-        /// Viscous damping of the wing hinge. The paper does not contain this parameter.
+        /// Viscous damping of the wing hinge. Ozaki and Hamaguchi (2018) do not use this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
         /// Direction of the flow for the translational forces: of the whole wing ("uniform"), or of each blade element
-        /// ("blade"). The direction "uniform" follows from the mean velocity of the wing, as in the paper. The
-        /// direction "blade" follows from the velocity of each blade element. With "blade", flap computes the shape
-        /// moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for these
-        /// parameters.
+        /// ("blade"). The direction "uniform" follows from the mean velocity of the wing, as in Ozaki and Hamaguchi
+        /// (2018). The direction "blade" follows from the velocity of each blade element. With "blade", flap computes
+        /// the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for
+        /// these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
-        /// mean_chord. The constant term of this series is 1. The paper gives no chord shape: the coefficients were
-        /// fitted to the shape moments of the paper.
+        /// mean_chord. The constant term of this series is 1. Ozaki and Hamaguchi (2018) give no chord shape: the
+        /// coefficients were fitted to their shape moments.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_2(2r/R - 1) in chord /
-        /// mean_chord. The coefficient was fitted to the shape moments of the paper.
+        /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_2: f64 = ("", "a_2", Number(Any)) -0.0913,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
-        /// mean_chord. The coefficient was fitted to the shape moments of the paper.
+        /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
         /// every flow_direction.
@@ -123,10 +123,10 @@ crate::parameters! {
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
         /// Piezoelectric coefficient. The sign of the coefficient only mirrors the motion.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
-        /// Permittivity of the piezoelectric layer. The paper does not state if the value is for a free or a clamped
-        /// layer.
+        /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the value is for a free
+        /// or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Viscous damping of the stroke about the stroke axis. The paper does not contain this parameter.
+        /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the actuator, which is the spring of the stroke. The loss factor adds a viscous damping: loss
         /// factor times stiffness, divided by the angular drive frequency.
@@ -152,8 +152,8 @@ crate::parameters! {
         /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion, folded to at most 90
         /// deg, or as printed. The printed equation breaks the mirror symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
-        /// Moments of the added mass, Eqs. (28) to (30): as in the paper, or with the gyroscopic terms of a Lagrangian
-        /// derivation.
+        /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018), or with the gyroscopic terms
+        /// of a Lagrangian derivation.
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
         /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,

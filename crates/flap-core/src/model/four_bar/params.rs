@@ -28,8 +28,8 @@ crate::parameters! {
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
-        /// Voltage at which the actuator exerts no force at zero stroke. The value is assumed, because the paper does
-        /// not give one.
+        /// Voltage at which the actuator exerts no force at zero stroke. The value is assumed, because Arabagi et al.
+        /// (2013) do not give one.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]

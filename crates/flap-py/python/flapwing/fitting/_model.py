@@ -41,7 +41,7 @@ def states_along(
 ) -> dict[str, Array] | None:
     """Return the states in which motions on the branches begin. Return None if there are no branches.
 
-    Each of `columns` has all points once for each set of parameters, so `times` times. States have the components
+    Each of `columns` repeats all points `times` times, once for each set of parameters. States have the components
     `names`. All branches are followed at the same time: a batch has one point of each branch.
     """
     if not ways:
