@@ -81,7 +81,7 @@ fn a_grid_is_named_once() {
         .says("the argument '[GRID]' cannot be used with '--grid <GRID>'")
         .says("Usage: flap sweep");
     folder.ends(2, "sweep").says("<GRID>");
-    folder.ends(2, "sweep a.meta.toml").says("help: name their file with --out FILE");
+    folder.ends(2, "sweep a.meta.toml").says("help: name the file of the results with --out FILE");
     folder.ends(2, "sweep a.meta.toml --out b.csv --shard 1/2").says("--shard requires a grid file");
 }
 
@@ -104,7 +104,7 @@ fn a_grid_may_come_from_stdin() {
         (
             2,
             "error: a grid from stdin requires a name for its results\n\
-             help: name their file with --out FILE, or with `path` in [output] of the grid\n"
+             help: name the file of the results with --out FILE, or with `path` in [output] of the grid\n"
         )
     );
 

@@ -35,7 +35,7 @@ fn rows_without_their_estimate_cannot_be_chosen_by_it() {
     folder.refuses(
         "results rerun rows.csv --inaccurate --rtol 1e-10 --out again.csv",
         "error: rows.csv: the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]\n\
-         help: add the column there and sweep again, or choose points with --status\n",
+         help: add the column to `columns` and sweep again, or choose points with --status\n",
     );
     // Everything else reads such rows.
     folder.ends(0, "results rerun rows.csv --status periodic --out again.csv");

@@ -252,7 +252,7 @@ fn a_missing_lock_is_mentioned_once() {
         assert_eq!(code, Some(0), "{stderr}");
         let warning = format!(
             "warning: {out} cannot be locked (No locks available (os error 37)): \
-             make sure that no other run writes to it\n"
+             make sure that no other run writes to this file\n"
         );
         assert_eq!(stderr.matches("warning: ").count(), 1, "{stderr}");
         assert!(stderr.starts_with(&warning), "{stderr}");

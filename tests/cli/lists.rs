@@ -406,7 +406,7 @@ fn names_are_explained() {
     let resonance = "resonance_hz: a measure of the models bimorph, direct-drive and four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
     let gaps = folder.ends(0, "models resonance_gaps").stdout;
-    let meaning = "number of points in the search for the resonance without a periodic motion; at such a point may lie a larger peak";
+    let meaning = "number of points without a periodic motion in the search for the resonance; a larger peak may lie at such a point";
     assert_eq!(gaps, resonance.replace("_hz", "_gaps") + "  " + meaning + "\n", "once for all models");
 
     let fixed = folder.ends(0, "models floquet_max").stdout;

@@ -249,7 +249,7 @@ fn grids_and_sidecars_are_not_results() {
         );
         folder.refuses(
             &format!("{name} rows.csv.meta.toml {out} {options}"),
-            "error: rows.csv.meta.toml is the sidecar of results, not a file of results\nhelp: use the file of results: rows.csv\n",
+            "error: rows.csv.meta.toml is the sidecar of results, not a file of results\nhelp: give the file of results instead: rows.csv\n",
         );
     }
 }

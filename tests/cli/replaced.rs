@@ -56,7 +56,7 @@ fn a_killed_force_keeps_the_earlier_results_and_goes_on() {
         assert_eq!(wait(&mut child), Some(130));
         let mut told = String::new();
         std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut told).unwrap();
-        let expected = format!("until then, {out} keeps the earlier results\n");
+        let expected = format!("until the new results are complete, {out} keeps the earlier results\n");
         assert!(told.ends_with(&expected), "{told}");
         assert_kept(&folder, ending, &rows, &sidecar);
     }

@@ -95,7 +95,7 @@ fn a_table_of_chords_that_loses_area_is_told() {
     // Areas in mm²: the table falls over 3 mm, the outline over 0.1 mm.
     let (table, outline) = (5.0 * 28.5, 5.0 * 29.95);
     let told = format!(
-        "have {:.1} % less area than the outline: multiply each chord by {:.4} to match its area",
+        "have {:.1} % less area than the outline: multiply each chord by {:.4} to match the area of the outline",
         100.0 * (1.0 - table / outline),
         outline / table
     );

@@ -85,7 +85,9 @@ impl Failure {
         let name = path.to_string_lossy();
         if let Some(results) = name.strip_suffix(".meta.toml") {
             let message = format!("{name} is the sidecar of results, not a file of results");
-            return Some(Failure::usage(message).help(format!("use the file of results: {results}")));
+            return Some(
+                Failure::usage(message).help(format!("give the file of results instead: {results}")),
+            );
         }
         if !name.ends_with(".toml") {
             return None;
@@ -192,7 +194,8 @@ fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues:
 /// Returns the help line if earlier results will be replaced by new ones; `None` if there are no earlier results.
 pub(crate) fn still_kept(out: &Path) -> Option<String> {
     let is_kept = job::unfinished(out).is_some() && out.exists();
-    is_kept.then(|| format!("until then, {} keeps the earlier results", out.display()))
+    is_kept
+        .then(|| format!("until the new results are complete, {} keeps the earlier results", out.display()))
 }
 
 fn complain(message: &str, help: &[String]) {

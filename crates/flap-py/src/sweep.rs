@@ -121,7 +121,8 @@ fn into_file<'py>(
     });
     if let Some(error) = unlocked {
         let out = job.out.display();
-        let text = format!("{out} cannot be locked ({error}): make sure that no other run writes to it");
+        let text =
+            format!("{out} cannot be locked ({error}): make sure that no other run writes to this file");
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
     }
     if ran.is_ok() {

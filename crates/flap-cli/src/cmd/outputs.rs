@@ -43,7 +43,7 @@ pub(crate) fn check<'p>(
         inputs.protect(output)?;
         if outputs[..number].iter().any(|other| is_same_target(other, output)) {
             let message = format!("{} is the name of two outputs", output.display());
-            return Err(Failure::usage(message).help("give each output its own file"));
+            return Err(Failure::usage(message).help("give a different file for each output"));
         }
     }
     Ok(())

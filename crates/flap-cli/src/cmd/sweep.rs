@@ -42,7 +42,7 @@ fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     }
     if args.out.is_none() {
         return Err(Failure::usage("a sidecar as input requires a name for the new results")
-            .help("name their file with --out FILE"));
+            .help("name the file of the results with --out FILE"));
     }
     let sidecar = Sidecar::read(path)?;
     Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()))
@@ -54,9 +54,9 @@ fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
         Some(path) => path.clone(),
         None if grid::is_stdin(args.grid()) => {
             let failure = Failure::usage("a grid from stdin requires a name for its results");
-            return Err(
-                failure.help("name their file with --out FILE, or with `path` in [output] of the grid")
-            );
+            return Err(failure.help(
+                "name the file of the results with --out FILE, or with `path` in [output] of the grid",
+            ));
         }
         None => {
             let mut name = args.grid().file_stem().unwrap_or_default().to_owned();

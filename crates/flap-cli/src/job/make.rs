@@ -48,7 +48,7 @@ pub(crate) fn make<E: From<io::Error>>(
 /// Warns that another run could write to the same results.
 pub(super) fn warn_unlocked(results: &Path, error: &io::Error) {
     console::warn(&format!(
-        "{} cannot be locked ({error}): make sure that no other run writes to it",
+        "{} cannot be locked ({error}): make sure that no other run writes to this file",
         results.display()
     ));
 }

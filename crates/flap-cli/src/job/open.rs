@@ -16,7 +16,8 @@ use crate::failure::{Failure, IGNORE_HELP};
 use crate::models;
 
 /// The help line for results without a sidecar.
-const SIDECAR_HELP: &str = "the sidecar FILE.meta.toml must be beside the results; it contains their grid";
+const SIDECAR_HELP: &str =
+    "the sidecar FILE.meta.toml must be in the folder of the results; it contains the grid";
 
 /// Returns the plan of results, from the sidecar beside them.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {

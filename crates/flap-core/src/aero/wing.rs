@@ -23,7 +23,7 @@ pub enum OutlineError {
     #[error("the first station is at {0} m along the span: an outline begins at 0, the wing's root")]
     NotAtRoot(f64),
     /// The stations are not in order of increasing distance from the root.
-    #[error("station {0} is not farther out than the one before")]
+    #[error("station {0} is not farther out than the station before")]
     NotOutwards(usize),
     /// The chord is negative.
     #[error("the chord is negative at station {0}: its trailing edge is ahead of its leading edge")]

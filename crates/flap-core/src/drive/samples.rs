@@ -32,7 +32,7 @@ pub enum SamplesError {
         sample: usize,
     },
     /// Times do not increase.
-    #[error("times do not increase: sample {sample} is at {time} s, the one before at {before} s")]
+    #[error("times do not increase: sample {sample} is at {time} s, the sample before at {before} s")]
     TimesNotIncreasing {
         /// Position of the later sample, from 1.
         sample: usize,

@@ -99,7 +99,7 @@ pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
 pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
     let [a, b, c, d] = parameters;
     let reason = format!(
-        "the mass matrix is not positive definite: the wing's inertias do not go together ({a} and {b} against {c} and \
+        "the mass matrix is not positive definite: the wing's inertias contradict each other ({a} and {b} against {c} and \
          {d})"
     );
     Invalid::together(parameters, reason)

@@ -118,7 +118,7 @@ impl fmt::Display for Damage {
             parts.push(format!("its sidecar belongs to another sweep: {}", self.foreign_sidecar.join("; ")));
         }
         if self.bytes && parts.is_empty() {
-            parts.push("its rows are unchanged, but other bytes of the file have changed".to_owned());
+            parts.push("the rows are unchanged, but other bytes of the file have changed".to_owned());
         }
         f.write_str(&parts.join("; "))
     }

@@ -36,7 +36,7 @@ fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
     let margin = &*format!(
         "distance of resonance_hz from the nearer end of the searched range; zero if the {of} is largest at that end"
     );
-    let gaps = "number of points in the search for the resonance without a periodic motion; at such a point may lie a larger peak";
+    let gaps = "number of points without a periodic motion in the search for the resonance; a larger peak may lie at such a point";
     let added = [
         (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
         (

@@ -125,7 +125,7 @@ fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     let comparison = if share < 1.0 { "less" } else { "more" };
     Some(format!(
         "chord_0 to chord_10, with straight lines between {STATIONS} stations, have {percent:.1} % {comparison} area than the \
-         outline: multiply each chord by {:.4} to match its area",
+         outline: multiply each chord by {:.4} to match the area of the outline",
         1.0 / share
     ))
 }
@@ -137,7 +137,7 @@ fn material(args: &WingArgs) -> Result<Option<Material>, Failure> {
         (None, None) => None,
         _ => {
             return Err(Failure::usage("--thickness and --density are required together".to_owned())
-                .help("their product is the mass of the membrane per area".to_owned()));
+                .help("the product of both is the mass of the membrane per area".to_owned()));
         }
     };
     let spar = args.spar.unwrap_or(0.0);

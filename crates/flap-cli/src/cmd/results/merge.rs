@@ -29,7 +29,7 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let parts = args.shards.iter().map(|path| part(path, on_damage)).collect::<Result<Vec<_>, _>>()?;
     merge::check(&parts, if args.mixed_builds { OnBuilds::Mix } else { OnBuilds::Refuse })?;
     let (Some(first), Some(mut whole)) = (parts.first(), merge::sidecar(&parts)) else {
-        return Err(Failure::usage("give the shards to merge"));
+        return Err(Failure::usage("give the result files of the shards to merge"));
     };
     let plan = job::plan_of(&sidecar_of(&first.path), &first.sidecar)?.with_all_points();
     let Identity { flap, build, .. } = &whole.identity;

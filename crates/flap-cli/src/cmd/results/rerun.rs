@@ -21,7 +21,7 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     }
     let unreadable = |error: RerunError| match error {
         RerunError::NoEstimate => Failure::usage(format!("{of}: {error}"))
-            .help("add the column there and sweep again, or choose points with --status"),
+            .help("add the column to `columns` and sweep again, or choose points with --status"),
         _ => Failure::System(format!("cannot read {of}: {error}"), Vec::new()),
     };
     let rows = sidecar.rows();

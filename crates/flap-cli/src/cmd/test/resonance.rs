@@ -167,7 +167,7 @@ fn comment_on_free(free: &FreeMotion, args: &ResonanceArgs) {
 fn comment_on_driven(driven: &DrivenPeaks) {
     if let Some(frequency) = driven.larger_at {
         console::say(&format!(
-            "the settled stroke is larger at the end of the range, {} Hz, than at any peak in it: widen the range \
+            "the settled stroke is larger at the end of the range, {} Hz, than at any peak in the range: widen the range \
              with --from and --to",
             six_digits(frequency)
         ));
@@ -181,14 +181,14 @@ fn comment_on_driven(driven: &DrivenPeaks) {
     {
         let share = 100.0 * (1.0 - second.stroke_pp / first.stroke_pp);
         console::say(&format!(
-            "the second peak of the settled stroke is only {share:.1} % lower than the first"
+            "the second peak of the settled stroke is only {share:.1} % lower than the first peak"
         ));
     }
     let unsettled: usize = driven.gaps.iter().map(|gap| gap.points).sum();
     if unsettled > 0 {
         let gaps: Vec<String> = driven.gaps.iter().map(describe).collect();
         console::say(&format!(
-            "{unsettled} of {} drive frequencies have no periodic motion, so that a peak may be missed there: {}",
+            "{unsettled} of {} drive frequencies have no periodic motion, so that the search may miss a peak at these frequencies: {}",
             driven.points,
             gaps.join(", ")
         ));

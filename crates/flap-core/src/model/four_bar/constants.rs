@@ -247,7 +247,7 @@ fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
             &LINKS,
             format!(
                 "the four-bar cannot be assembled with its output link at {neutral} rad: \
-                 ground_link, input_link, coupler_link and output_link do not go together"
+                 ground_link, input_link, coupler_link and output_link do not fit together"
             ),
         ))
     }
