@@ -124,7 +124,7 @@ fn create(error: &CreateError) -> PyErr {
             "{error}: replace it with restart=True, or choose another file"
         )),
         CreateError::Unfinished { .. } => PyFileExistsError::new_err(format!(
-            "{error}: the same call continues it; restart=True replaces it"
+            "{error}: the same call continues the run; restart=True replaces the results"
         )),
         CreateError::InTheWay { .. } => PyFileExistsError::new_err(format!(
             "{error}: rename or remove that file, or choose another name for the results"

@@ -77,7 +77,7 @@ def impulse(
 ) -> Table:
     """Simulate the free motion of one design point after an impulse on the resting stroke.
 
-    During the motion, the drive voltage is constant, so that the wing can rest with zero stroke and pitch.
+    During the motion, the drive voltage is constant. At this voltage, the wing can rest with zero stroke and pitch.
 
     Parameters
     ----------
