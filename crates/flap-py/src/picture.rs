@@ -28,7 +28,7 @@ pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// Return the positions of `count` ordered lines in the sequential colour map, from 0 to 1; None for a single line.
+/// Return the positions of `count` ordered lines in the sequential colour map; None for a single line.
 #[pyfunction]
 #[pyo3(signature = (count, /))]
 pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {

@@ -83,7 +83,7 @@ pub(crate) struct LookArgs {
 
     /// Use only the rows that satisfy this condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a word. A comparison may have several parts,
+    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
     /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,

@@ -47,7 +47,7 @@ pub(crate) struct PlotArgs {
 
     /// Use only the rows that satisfy this condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a word. A comparison may have several parts,
+    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
     /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep, flap draws
     /// only the rows at the middle value of this axis. With --where you choose another value.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]

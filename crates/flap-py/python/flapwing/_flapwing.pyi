@@ -476,7 +476,7 @@ def colours() -> NativeColours:
     """
 
 def line_shades(count: int, /) -> list[float] | None:
-    """Return the positions of `count` ordered lines in the sequential colour map, from 0 to 1; None for a single line."""
+    """Return the positions of `count` ordered lines in the sequential colour map; None for a single line."""
 
 def is_signed(low: float, high: float, /) -> bool:
     """Return True if numbers from `low` to `high` have both signs. Such numbers require a diverging map with zero in its middle."""
