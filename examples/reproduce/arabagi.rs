@@ -14,18 +14,19 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Arabagi, Hines and Sitti (2013)",
-    preface: "The model is `four-bar` with the presets `arabagi2013-75hz` and `arabagi2013-30hz`.\n\
-              The paper gives neither the wings nor the [actuators](../glossary.md#actuator), and no lifts or amplitudes as numbers.\n\
-              The presets assume them, so you can compare only frequencies, trends and ratios.\n\
-              **(T)** marks a number to which the assumed values were tuned: agreement proves nothing.\n\
-              **(S)** marks a number that was in sight when the values were chosen: agreement is weak evidence.",
+    preface: "The model for this paper is `four-bar`.\n\
+              The 75 Hz system of the paper is the preset `arabagi2013-75hz`, and the 30 Hz system is the preset `arabagi2013-30hz`.\n\
+              The paper describes neither the wings nor the [actuators](../glossary.md#actuator), and gives no numbers for lifts or amplitudes.\n\
+              The presets contain assumed wings and actuators, so you can compare only frequencies, trends and ratios.\n\
+              The mark **(T)** stands for a published number to which the assumed parameters were tuned, so agreement proves nothing.\n\
+              The mark **(S)** stands for a published number that was known when the assumed parameters were chosen, so agreement is weak evidence.",
     groups: &[
         Group { title: "Resonances", preface: "", quick: false, claims: resonance::claims },
         Group {
             title: "Resonances of small motions",
-            preface: "The numbers are peaks of the spectrum of the first second after an impulse.\n\
-                      The impulse is sized so that the first mode alone, without damping, would reach 0.5°.\n\
-                      In the paper, amplitudes are below 5°, and they are amplitudes of the first link of the four-bar, which moves with the stroke.",
+            preface: "The computed numbers are frequencies of peaks in the spectra of stroke and pitch during the first second after an impulse.\n\
+                      The impulse is sized so that the stroke of the first mode alone, without damping, would reach 0.5°.\n\
+                      In the paper, the first link of the four-bar has amplitudes below 5°; this link moves with the stroke.",
             quick: true,
             claims: resonance::small_motions,
         },
@@ -33,19 +34,20 @@ pub(crate) const PAPER: Paper = Paper {
         Group { title: "Parts of the lift", preface: "", quick: true, claims: lift::parts },
         Group {
             title: "Voltage, hinge and slider-crank",
-            preface: "Figs. 13 to 15 are computed at 70 Hz with the 75 Hz system.",
+            preface: "The rows about Figs. 13 to 15 are computed with the 75 Hz system at 70 Hz.",
             quick: false,
             claims: control::claims,
         },
         Group { title: "Reynolds number", preface: "", quick: true, claims: reynolds::claims },
         Group {
             title: "Rotation alone",
-            preface: "The stroke is a sinusoid of the measured amplitude.\n\
-                      The paper does not give this amplitude as a number, so each row states the assumed one.\n\
-                      The paper measures arms from the leading edge instead of the axis of rotation.\n\
-                      The preset does the same; this choice was made with such trends in sight.\n\
-                      The paper first states that the full simulation underpredicts the stroke by ≈20° peak to peak, then that its larger strokes make more lift.\n\
-                      Only the second statement agrees with its lift, so the rows use the second one.",
+            preface: "The rows of this section compute the pitch for a prescribed stroke, which is a sinusoid of the measured amplitude.\n\
+                      The paper does not give the measured stroke amplitude as a number, so each row states an assumed amplitude.\n\
+                      The paper measures the lever arms of the air forces from the leading edge instead of the axis of rotation.\n\
+                      The preset also measures the lever arms from the leading edge; this choice was made when the trends of the paper were known.\n\
+                      The paper first states that the strokes of the full simulation are ≈20° smaller, peak to peak, than the measured strokes.\n\
+                      Later the paper states that the strokes of the full simulation are larger and make more lift.\n\
+                      Only the second statement agrees with the lift of the full simulation in the paper, so the rows use the second statement.",
             quick: true,
             claims: rotation::claims,
         },
@@ -100,6 +102,6 @@ fn straightness(points: &[(f64, f64)]) -> f64 {
 }
 
 fn unchecked() -> Vec<Claim> {
-    const SIZES: &str = "they depend on wings and actuators that the paper does not give";
-    vec![said("Figs. 7 to 15", "lifts and amplitudes", "drawn").cannot_be_checked(SIZES, "")]
+    const SIZES: &str = "lifts and amplitudes depend on wings and actuators that the paper does not describe";
+    vec![said("Figs. 7 to 15", "lifts and amplitudes of both systems", "drawn").cannot_be_checked(SIZES, "")]
 }

@@ -13,12 +13,13 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Jafferis, Graule and Wood (2016)",
-    preface: "The [model](../glossary.md#model) is `bimorph`.\n\
-              T₁ is Table I (preset `jafferis2016`).\n\
-              T₂ and T₃ scale its [transmission ratio](../glossary.md#transmission-ratio) by 0.8 and 0.6, as in Fig. 5.\n\
-              The redesign is the preset `jafferis2016-improved`.\n\
-              Many parameters of Table I were fitted to the same vehicle.\n\
-              Agreement therefore tests the transcription and the corrections rather than the physics.",
+    preface: "The [model](../glossary.md#model) for this paper is `bimorph`.\n\
+              The symbol T is the [transmission ratio](../glossary.md#transmission-ratio).\n\
+              The design T₁ has the parameters of Table I in the paper (preset `jafferis2016`).\n\
+              The designs T₂ and T₃ have 0.8 times and 0.6 times the transmission ratio of T₁, as in Fig. 5 of the paper.\n\
+              The redesigned vehicle of the paper is the preset `jafferis2016-improved`.\n\
+              The paper fitted many parameters of Table I to the same vehicle.\n\
+              Agreement therefore tests the transcription of the paper and the corrected equations rather than the physics of the model.",
     groups: &[
         Group { title: "From Table I, without a motion", preface: "", quick: true, claims: design::claims },
         Group {
@@ -29,8 +30,9 @@ pub(crate) const PAPER: Paper = Paper {
         },
         Group {
             title: "The redesigned vehicle",
-            preface: "The redesigned wings have another shape than the wings of Table I, but the model uses the coefficients of Table I.\n\
-                      Rows with two values give the value at the largest lift of the model, then the value at 155 Hz, as in the paper.",
+            preface: "The wings of the redesigned vehicle and the wings of Table I have different shapes, but the preset uses the coefficients of Table I for both.\n\
+                      In rows with two computed numbers, the first number is computed at the frequency of the largest computed lift, and the verdict uses this number.\n\
+                      The second number is computed at 155 Hz, the frequency of the largest lift in the paper.",
             quick: true,
             claims: redesign::claims,
         },
@@ -63,10 +65,10 @@ fn response(p: &Params, drive_voltage_pp: f64, [from, to]: [f64; 2]) -> Response
 fn unchecked() -> Vec<Claim> {
     vec![
         said("Figs. 4, 7", "measured strokes, pitches and lifts", "drawn")
-            .cannot_be_checked("neither the points nor the voltages are in the text", ""),
-        said("II-C", "peak-to-peak deflection at DC", "about 480 µm")
-            .cannot_be_checked("the text gives no voltage", ""),
-        said("Table II", "previous vehicle: lift, and lift per power", "140 mg, 7 mg/mW")
-            .cannot_be_checked("its actuators differ from Table I and are not described", ""),
+            .cannot_be_checked("the text of the paper gives neither the measured numbers nor the voltages", ""),
+        said("II-C", "peak-to-peak deflection of the actuator at a constant voltage (DC)", "about 480 µm")
+            .cannot_be_checked("the text of the paper gives no voltage", ""),
+        said("Table II", "lift and lift per power of the previous vehicle", "140 mg, 7 mg/mW")
+            .cannot_be_checked("the actuators of the previous vehicle differ from Table I, and the paper does not describe them", ""),
     ]
 }

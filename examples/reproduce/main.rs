@@ -23,38 +23,38 @@ const HEAD: &str = "\
 
 <!-- keywords: reproduction, papers, validation -->
 
-This page compares statements of the papers with numbers that flap computes from its [presets](../glossary.md#preset).
-Use it to judge how far a preset represents the published robot.
-`just reproduce` generates the page, so do not edit it by hand.
+This page compares statements of papers on flapping-wing robots with numbers that flap computes from its [presets](../glossary.md#preset).
+Use the comparison to judge how well a preset represents the published robot.
+The command `just reproduce` generates this page, so do not edit the page by hand.
 
-Each row is one statement.
-If a paper leaves out a size that the statement depends on, there is one row for each size that was tried.
-The solver uses [`rtol`](../glossary.md#rtol) = 1e-7.
-Motions are [settled](../glossary.md#settled), except motions after an impulse.
-Frequency responses have steps of 1 Hz or less.
-In the column *published*, *drawn* means that the paper gives no number.
+In the sections on the papers, each row of a table is about one statement.
+If a statement depends on a number that the paper leaves out, the table has one row for each number that was tried.
+All computations use the tolerance [`rtol`](../glossary.md#rtol) = 1e-7.
+All motions are [settled](../glossary.md#settled), except motions after an impulse and motions during a frequency sweep.
+Computed frequency responses have steps of 1 Hz or less.
+In the column *published*, the word *drawn* means that the paper gives no number.
 
-A rule computes each verdict from the two numbers:
+A fixed rule computes each verdict from the published number and the computed number:
 
 | verdict | meaning |
 |---|---|
-| met | the computed number equals the published one to its rounding, or the statement holds |
-| met within X % | the computed number differs by up to X %, and X is at most the limit below |
-| not reproduced | the difference is larger than the limit, or the statement does not hold |
-| cannot be checked | there is nothing to compare, for the reason in the row |
+| met | the computed number equals the rounded published number, or the computed motions fulfil the statement |
+| met within X % | the computed number differs from the published number by up to X %, and X is at most the limit in the next table |
+| not reproduced | the two numbers differ by more than the limit, or the computed motions do not fulfil the statement |
+| cannot be checked | the paper lacks the numbers for a comparison, and the row gives the reason |
 
-| published number | limit |
+| published number | limit of the difference |
 |---|---|
-| a resonance, or computed by the paper from the same parameters | 3 % |
-| called approximate by the paper | 10 % |
-| measured | 20 % |
-| any number of a robot whose wing and actuator are assumed | 25 % |
+| a resonance frequency, or a number that the paper computes from the same parameters | 3 % |
+| a number that the paper calls approximate | 10 % |
+| a number that the paper measured | 20 % |
+| any other number of a robot whose wing and actuator are assumed | 25 % |
 
-The limits were chosen after the results were known.
-Judge by X and by the computed number rather than by the verdict.
+These limits were chosen after the computed numbers were known.
+Judge the agreement by X and by the computed number rather than by the verdict.
 
-Corrections to the printed equations and all assumptions are listed with the models: [direct drive](../models/direct-drive.md), [bimorph](../models/bimorph.md) and [four-bar](../models/four-bar.md).
-[Resonance](../how-to/resonance.md) describes motions after an impulse, and [Experiments](../how-to/experiments.md) describes prescribed strokes.
+The pages on the models list all assumptions and all corrections to the equations of the papers: [direct drive](../models/direct-drive.md), [bimorph](../models/bimorph.md) and [four-bar](../models/four-bar.md).
+[Resonance](../how-to/resonance.md) describes how to compute motions after an impulse, and [Experiments](../how-to/experiments.md) describes how to prescribe strokes.
 
 ";
 

@@ -11,51 +11,56 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Ozaki and Hamaguchi (2018)",
-    preface: "The model is `direct-drive` with the presets `ozaki2018-small` and `ozaki2018-large`.\n\
-              They are Table A1 as printed, except for the sign of y_g.\n\
-              The drive is V₀ sin ωt + V₀.",
+    preface: "The paper describes a small and a large type of one actuator with a wing.\n\
+              The model for this paper is `direct-drive` with the presets `ozaki2018-small` and `ozaki2018-large`.\n\
+              The two presets have the parameters of Table A1 in the paper as printed, except for the sign of y_g.\n\
+              The drive voltage is V₀ sin ωt + V₀, and the rows give V₀.",
     groups: &[
         Group {
             title: "Resonance after an impulse",
             preface: "The paper fits A e^(-λt) sin(ω_r t + θ) to the [stroke](../glossary.md#stroke) after an impulse of the voltage.\n\
-                      It gives neither the size of the impulse nor the time that is fitted.\n\
-                      The frequency depends on both, because the model has no linear damping.\n\
-                      208.5 and 109.0 Hz follow from the errors that the paper reports (-0.7 % and 3.8 %) against the measured 210 and 105 Hz.\n\
-                      Here the fit covers 4 periods of small motions.\n\
-                      The impulses are sized so that small motions without damping would reach 0.3, 0.5 and 0.8 rad.\n\
-                      These choices were made after the results were known.",
+                      The paper gives neither the size of the impulse nor the duration of the fitted motion.\n\
+                      The fitted frequency depends on the impulse and on the duration, because the model has no linear damping.\n\
+                      The numbers 208.5 Hz and 109.0 Hz in parentheses follow from the errors that the paper reports.\n\
+                      These errors are -0.7 % and 3.8 % of the measured frequencies, 210 Hz and 105 Hz.\n\
+                      If a row does not give another duration, the fit covers 4 periods of small motions.\n\
+                      The impulses are sized so that the stroke of small motions without damping would reach 0.3, 0.5 and 0.8 rad.\n\
+                      The duration and the impulses were chosen after the results were known.",
             quick: true,
             claims: resonance::calculated,
         },
         Group {
             title: "Resonance, driven",
-            preface: "The paper does not give the voltage of the measurement.\n\
-                      Each row gives the computed frequencies at the lowest and at the highest voltage.\n\
-                      The verdict uses the frequency between these two that is nearest to the published one.\n\
-                      The steps are 0.1 Hz.",
+            preface: "The paper does not give the drive voltage of the measured resonance frequencies.\n\
+                      Each row gives the computed resonance frequencies at the lowest and at the highest drive voltage of the paper.\n\
+                      The verdict uses the frequency in the range between these two frequencies that is nearest to the published frequency.\n\
+                      The computed frequency responses of this section have steps of 0.1 Hz.",
             quick: false,
             claims: resonance::driven,
         },
         Group {
             title: "Performance at the paper's frequencies",
-            preface: "The paper does not state if these efficiencies are measured or calculated.",
+            preface: "The paper does not state if the efficiencies of Fig. 17 are measured or calculated.",
             quick: true,
             claims: performance::claims,
         },
         Group {
             title: "Hypotheses on Table A1",
-            preface: "**These parameters are not the defaults.**\n\
-                      One hypothesis is that the columns of k_w are swapped (presets `ozaki2018-small-kw-swapped` and `ozaki2018-large-kw-swapped`).\n\
-                      The other is that J_B of the small type is 3.39e-9 kg·m² instead of 3.89e-9 kg·m².\n\
-                      Both were found by trying to match the paper, and nothing in the paper proves either, so agreement is weak evidence.\n\
-                      The impulses are the same as above.\n\
-                      The verdict uses the impulse of 0.5 rad, because its first stroke peak is nearest to 20°.",
+            preface: "Table A1 of the paper may contain misprints, and this section tests two hypotheses about misprints.\n\
+                      **The presets `ozaki2018-small` and `ozaki2018-large` have the printed values instead of the hypothetical values.**\n\
+                      The first hypothesis is that the table swaps the hinge stiffnesses k_w of the small and the large type (presets `ozaki2018-small-kw-swapped` and `ozaki2018-large-kw-swapped`).\n\
+                      The second hypothesis is that the inertia J_B of the small type is 3.39e-9 kg·m² instead of 3.89e-9 kg·m².\n\
+                      Both hypotheses were found by trying to match the paper.\n\
+                      Nothing in the paper proves the hypotheses, so agreement is weak evidence.\n\
+                      The impulses are the same as in the section [Resonance after an impulse](#resonance-after-an-impulse).\n\
+                      The verdict on a resonance frequency uses the impulse of 0.5 rad, because the first stroke peak after this impulse is nearest to 20°.",
             quick: true,
             claims: hypothesis::claims,
         },
         Group {
             title: "Hypotheses on Table A1, driven",
-            preface: "The hypotheses and the steps of 0.1 Hz are the same as above.",
+            preface: "The rows test the two hypotheses of the section [Hypotheses on Table A1](#hypotheses-on-table-a1) with settled motions.\n\
+                      The computed frequency responses of this section have steps of 0.1 Hz.",
             quick: false,
             claims: hypothesis::driven,
         },

@@ -10,7 +10,7 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Torques of vehicles",
-    preface: "These statements come from several papers:\n\
+    preface: "The statements in the tables on vehicles come from these papers:\n\
               \n\
               - Ma, Felton and Wood (IROS 2012)\n\
               - Finio, Galloway and Wood (IROS 2011)\n\
@@ -19,49 +19,53 @@ pub(crate) const PAPER: Paper = Paper {
               - Jimbo, Ozaki, Ohta and Hamaguchi (arXiv 2407.06500)\n\
               - Fuller (RA-L 2019)\n\
               \n\
-              Only their abstracts and first pages were available.\n\
-              These pages give no robot completely (wings, actuators and voltages), and few give torques.\n\
-              You can therefore compare mostly signs, trends and ratios.\n\
+              Only the abstracts and first pages of these papers were available.\n\
+              No available page describes the wings, the actuators and the voltages of a robot completely, and few pages give torques.\n\
+              You can therefore compare mostly signs, trends and ratios of the torques.\n\
               \n\
-              Unless a row gives another one, the vehicle ([Forces and torques of vehicles](../how-to/vehicle.md)) has two wings of `jafferis2016` at 200 V and 120 Hz.\n\
-              Their shoulders are 1.5 mm left and right of the middle.\n\
-              Torques are about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
-              A positive roll lifts the left side, a positive pitch lowers the nose, and a positive yaw turns the nose to the left.",
+              If a section does not describe another vehicle, the vehicle has two wings of the preset `jafferis2016` at 200 V and 120 Hz.\n\
+              [Forces and torques of vehicles](../how-to/vehicle.md) describes how to simulate such a vehicle.\n\
+              The shoulders of the two wings are 1.5 mm left and right of the middle of the vehicle.\n\
+              Torques act about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
+              A positive roll torque lifts the left side of the vehicle, a positive pitch torque lowers the nose, and a positive yaw torque turns the nose to the left.",
     groups: &[
         Group {
             title: "One torque for each drive",
-            preface: "Each row changes one drive, on top of the same sine for both wings:\n\
+            preface: "Both wings are driven by the same sine voltage, and each row adds one change to the drive:\n\
                       \n\
-                      - roll: a difference of the amplitudes, left minus right, peak to peak\n\
-                      - pitch: a bias of both wings\n\
-                      - yaw: a second harmonic (split cycle), added on the left and subtracted on the right, at the phase of the largest yaw\n\
+                      - For roll, the peak-to-peak voltage of the left wing is larger than the voltage of the right wing.\n\
+                      - For pitch, both wings have the same bias voltage.\n\
+                      - For yaw, a second harmonic (split cycle) is added to the left drive and subtracted from the right drive, at the phase with the largest yaw torque.\n\
                       \n\
-                      On each wing, the change is a fifth of the amplitude.",
+                      On each wing, the change is a fifth of the drive amplitude.",
             quick: true,
             claims: drives::claims,
         },
         Group {
             title: "Roll and pitch at the same time",
             preface: "The robot of Weber, Dhingra and Fuller is the UW RoboFly with a mass of 180 mg.\n\
-                      The commands are differences up to 40 V and biases up to 20 V to both sides, in five steps each: 25 combinations.\n\
-                      This range is assumed.",
+                      The roll command is a difference of the drive voltages (left minus right) from -40 V to 40 V.\n\
+                      The pitch command is a bias voltage of both wings from -20 V to 20 V.\n\
+                      Five values of each command give 25 combinations.\n\
+                      The ranges of both commands are assumed.",
             quick: true,
             claims: coupling::claims,
         },
         Group {
             title: "Split cycle and hinge",
-            preface: "Gravish and Wood study one wing with half-strokes of different durations, in simulation and experiment.\n\
-                      Here the second harmonic is 0.2 and leads by 90°.",
+            preface: "Gravish and Wood study one wing with half strokes of different durations, in simulation and experiment.\n\
+                      In the rows of this section, the second harmonic has 0.2 times the amplitude of the drive and leads by 90°.",
             quick: true,
             claims: hinge::claims,
         },
         Group {
             title: "Four wings",
             preface: "The robot of Jimbo and others has a mass of 1.52 g and four pairs of tilted wings.\n\
-                      Here one wing of `ozaki2018-large` represents each pair, 10 mm in front of or behind and left or right of the middle.\n\
-                      The front wings are tilted backward by 10°, the rear wings forward by 10°.\n\
-                      The robot of Fuller has a mass of 143 mg; here it is four wings of `jafferis2016`.\n\
-                      Both layouts are assumed.",
+                      In the simulated vehicle, one wing of the preset `ozaki2018-large` represents each pair of wings.\n\
+                      Each wing is 10 mm in front of or behind the middle of the vehicle, and 10 mm left or right of the middle.\n\
+                      The front wings are tilted backward by 10°, and the rear wings are tilted forward by 10°.\n\
+                      The robot of Fuller has a mass of 143 mg and is represented by four wings of the preset `jafferis2016`.\n\
+                      The arrangements of the wings in both vehicles are assumed.",
             quick: true,
             claims: tilted::claims,
         },

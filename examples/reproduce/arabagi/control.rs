@@ -32,10 +32,10 @@ fn voltage() -> Claim {
     let upper = straightness(&upper);
     let at = |voltage: f64| lifts.iter().find(|(v, _)| *v == voltage).expect("it is in the response").1;
     let exponent = (at(160.0) / at(140.0)).ln() / (160.0_f64 / 140.0).ln();
-    said("VI, Fig. 13", "lift is linear in the voltage", "linear").is(
+    said("VI, Fig. 13", "the lift of the 75 Hz system is linear in the drive voltage", "linear").is(
         &about(1.0, 0.01),
         all,
-        format!("R² {all:.3} from 20 to 200 V, {upper:.3} from 100 V; convex: ∝ V^{exponent:.1} at 150 V"),
+        format!("a straight line has R² = {all:.3} from 20 to 200 V and R² = {upper:.3} from 100 to 200 V; near 150 V, lift is proportional to V^{exponent:.1}"),
     )
 }
 
@@ -52,12 +52,12 @@ fn hinge() -> Vec<Claim> {
     let [s_30, s_120] = [30.0, 120.0].map(|stiffness| at(&strokes, stiffness));
     let (best, _) = response.peak(LIFT);
     vec![
-        said("VI, Fig. 14", "lift falls with a stiffer hinge, from 30 to 120 mN·mm", "falls").holds(
+        said("VI, Fig. 14", "the lift falls as the hinge stiffness grows from 30 to 120 mN·mm", "falls").holds(
             lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
-            format!("{l_30:.2}, {l_50:.2}, {l_80:.2}, {l_120:.2} mN at 30, 50, 80, 120 mN·mm; largest at {best:.0} mN·mm"),
+            format!("{l_30:.2} mN at 30 mN·mm, {l_50:.2} mN at 50 mN·mm, {l_80:.2} mN at 80 mN·mm, {l_120:.2} mN at 120 mN·mm; largest lift at {best:.0} mN·mm"),
         ),
-        said("VI, Fig. 14", "the stroke grows with a stiffer hinge", "grows")
-            .holds(s_120 > s_30, format!("{s_30:.1}° to {s_120:.1}°, peak to peak")),
+        said("VI, Fig. 14", "the stroke grows as the hinge stiffness grows", "grows")
+            .holds(s_120 > s_30, format!("{s_30:.1}° at 30 mN·mm, {s_120:.1}° at 120 mN·mm, peak to peak")),
     ]
 }
 
@@ -72,11 +72,12 @@ fn surface() -> Claim {
     let lifts: Vec<f64> = bench().settle(values.collect()).iter().map(|point| point.get(LIFT)).collect();
     let planeness = planeness(&points, &lifts);
     let [low, high] = [f64::min, f64::max].map(|of| lifts.iter().copied().fold(lifts[0], of));
-    said("VI, Fig. 15", "lift against voltage and hinge stiffness resembles a plane", "a plane").is(
-        &about(1.0, 0.01),
-        planeness,
-        format!("R² {planeness:.3}, lifts from {low:.2} to {high:.2} mN"),
-    )
+    said("VI, Fig. 15", "the lift as a function of voltage and hinge stiffness resembles a plane", "a plane")
+        .is(
+            &about(1.0, 0.01),
+            planeness,
+            format!("a plane has R² = {planeness:.3} for lifts from {low:.2} to {high:.2} mN"),
+        )
 }
 
 /// Coefficient of determination of a plane fitted to values on a rectangular grid, where the two directions separate.
@@ -99,14 +100,14 @@ fn series(system: fn() -> System) -> Claim {
     });
     said(
         "V, Figs. 9 and 11",
-        format!("{}: first peak and lift are sensitive to k_sc, 300 to 1650 N/m", system().name),
+        format!("the first stroke peak and the lift of the {} are sensitive to the slider-crank stiffness k_sc from 300 to 1650 N/m", system().name),
         "sensitive",
     )
     .holds(
         soft.0 < base.0 && base.0 < stiff.0 && soft.1 < base.1 && base.1 < stiff.1,
         format!(
-            "peaks at {:.1}, {:.1}, {:.1} Hz and largest lifts of {:.2}, {:.2}, {:.2} mN at 300, 1400, 1650 N/m",
-            soft.0, base.0, stiff.0, soft.1, base.1, stiff.1
+            "first peak at {:.1} Hz and largest lift {:.2} mN with 300 N/m; {:.1} Hz and {:.2} mN with 1400 N/m; {:.1} Hz and {:.2} mN with 1650 N/m",
+            soft.0, soft.1, base.0, base.1, stiff.0, stiff.1
         ),
     )
 }

@@ -23,10 +23,10 @@ fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
     let mut rising = response.column(LIFT);
     rising.retain(|(frequency, _)| (0.7 * resonance..=resonance).contains(frequency));
     let straightness = straightness(&rising);
-    said("VI", format!("{}: lift rises linearly up to the first resonance", system.name), "linearly").is(
+    said("VI", format!("the lift of the {} rises linearly with the frequency up to the first resonance", system.name), "linearly").is(
         &about(1.0, 0.01),
         straightness,
-        format!("R² {straightness:.3} from 0.7 of the resonance"),
+        format!("a straight line from 0.7 times the resonance frequency to the resonance has R² = {straightness:.3}"),
     )
 }
 
@@ -34,13 +34,16 @@ fn largest(system: &System, response: &Response, resonance: f64) -> Claim {
     let (frequency, _) = response.peak(LIFT);
     said(
         "V-C",
-        format!("(S) {}: distance of the largest lift above the first resonance", system.name),
+        format!(
+            "(S) frequency of the largest lift minus frequency of the first resonance of the {}",
+            system.name
+        ),
         "10 to 20 Hz",
     )
     .is(
         &between(10.0, 20.0),
         frequency - resonance,
-        format!("{:.1} Hz ({frequency:.1} Hz)", frequency - resonance),
+        format!("{:.1} Hz (largest lift at {frequency:.1} Hz)", frequency - resonance),
     )
 }
 
@@ -57,14 +60,14 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
     said(
         "V-C",
         format!(
-            "(S) {}: beyond this peak lift falls sharply, as the phase lag of the pitch grows",
+            "(S) above the frequency of the largest lift, the lift of the {} falls sharply as the phase lag of the pitch grows",
             system.name
         ),
-        "to 180°",
+        "lag grows to 180°",
     )
     .holds(
         lags.windows(2).all(|pair| pair[1] > pair[0]) && lags[3] > 135.0 && from.is_finite(),
-        format!("lag {}; lift is negative from {from:.0} Hz", words.join(", ")),
+        format!("phase lag {}; the lift is negative from {from:.0} Hz", words.join(", ")),
     )
 }
 
@@ -74,18 +77,24 @@ pub(super) fn parts() -> Vec<Claim> {
         let point = super::bench().point(system.params.to_values());
         ["translational", "added_mass", "rotational"].map(|part| point.get(&format!("lift_{part}_mean_mn")))
     });
-    let shown = |split: [f64; 3]| format!("translation {:.3} mN, added mass {:.3} mN", split[0], split[1]);
+    let shown = |split: [f64; 3]| {
+        format!("lift of translation {:.3} mN, lift of added mass {:.3} mN", split[0], split[1])
+    };
     let [translational, added_mass, rotational] = split_30;
     vec![
-        said("V-B, Fig. 11", "(S) 75 Hz system: translation makes more lift than added mass", "dominant")
-            .holds(split_75[0] > split_75[1], shown(split_75)),
+        said(
+            "V-B, Fig. 11",
+            "(S) in the 75 Hz system, translation makes more lift than added mass",
+            "dominant",
+        )
+        .holds(split_75[0] > split_75[1], shown(split_75)),
         said(
             "IV-A, Fig. 7b",
-            "(S) 30 Hz system: most lift comes from translation, little from added mass",
+            "(S) in the 30 Hz system, most lift comes from translation and little lift from added mass",
             "most",
         )
         .holds(translational > 0.5 * (translational + added_mass + rotational), shown(split_30)),
-        said("IV-A, Fig. 7b", "30 Hz system: rotational lift is very low", "very low")
+        said("IV-A, Fig. 7b", "the rotational lift of the 30 Hz system is very low", "very low")
             .holds(rotational.abs() < 0.05 * translational, format!("{rotational:.3} mN")),
     ]
 }

@@ -14,30 +14,53 @@ pub(super) fn claims() -> Vec<Claim> {
     let [humps_75, humps_30] = [&response_75, &response_30].map(|response| response.humps(STROKE));
     let [second_75, second_30] = [&gentle_75, &gentle_30].map(|response| peak(&response.humps(STROKE), 1));
     let mut claims = vec![
-        frequency("V-B, Fig. 11", "(T) 75 Hz system, first peak of the stroke", 75.0, peak(&humps_75, 0)),
-        frequency("V-B, Fig. 11", "(T) 75 Hz system, second peak, simulated", 115.0, peak(&humps_75, 1)),
-        said("V-C", "75 Hz system: the second peak moves down with a stronger drive", "129 to 115 Hz").holds(
+        frequency(
+            "V-B, Fig. 11",
+            "(T) frequency of the first stroke peak of the 75 Hz system",
+            75.0,
+            peak(&humps_75, 0),
+        ),
+        frequency(
+            "V-B, Fig. 11",
+            "(T) simulated frequency of the second stroke peak of the 75 Hz system",
+            115.0,
+            peak(&humps_75, 1),
+        ),
+        said(
+            "V-C",
+            "the frequency of the second stroke peak of the 75 Hz system falls with a stronger drive",
+            "129 to 115 Hz",
+        )
+        .holds(
             peak(&humps_75, 1) < second_75,
             format!("{second_75:.0} Hz at 20 V, {:.0} Hz at 150 V", peak(&humps_75, 1)),
         ),
-        frequency("V-A, Fig. 9", "(T) 30 Hz system, first peak of the stroke", 30.0, peak(&humps_30, 0)),
-        said("V-A, Fig. 8", "30 Hz system, second peak, measured", "36 Hz").is(
+        frequency(
+            "V-A, Fig. 9",
+            "(T) frequency of the first stroke peak of the 30 Hz system",
+            30.0,
+            peak(&humps_30, 0),
+        ),
+        said("V-A, Fig. 8", "measured frequency of the second stroke peak of the 30 Hz system", "36 Hz").is(
             &closely(36.0, 0.5),
             peak(&humps_30, 1),
             if humps_30.len() > 1 {
                 format!("{:.1} Hz", peak(&humps_30, 1))
             } else {
-                format!("no peak up to {:.0} Hz at 180 V; {second_30:.1} Hz at 20 V", system_30().range[1])
+                format!(
+                    "no second peak up to {:.0} Hz at 180 V; second peak at {second_30:.1} Hz at 20 V",
+                    system_30().range[1]
+                )
             },
         ),
     ];
     for (name, response) in [("75 Hz system", &response_75), ("30 Hz system", &response_30)] {
         let [low, high] = half_power_band(response);
         let quality = response.peak(STROKE).0 / (high - low);
-        claims.push(said("V-A", format!("quality factor, {name}"), "≈ 2").is(
+        claims.push(said("V-A", format!("quality factor of the stroke response of the {name}"), "≈ 2").is(
             &assumed(2.0, 0.05),
             quality,
-            format!("{quality:.2} (half power from {low:.1} to {high:.1} Hz)"),
+            format!("{quality:.2} (half-power band from {low:.1} to {high:.1} Hz)"),
         ));
     }
     claims
@@ -60,15 +83,15 @@ pub(super) fn small_motions() -> Vec<Claim> {
             &closely(published, 0.5),
             computed,
             format!(
-                "{computed:.1} Hz (pitch {:.1} Hz, undamped mode {:.1} Hz)",
+                "{computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the undamped mode",
                 peak(&pitch, index),
                 modes[index].frequency
             ),
         )
     };
     vec![
-        claim(0, "(T) 75 Hz system, first peak below 5°", 78.0),
-        claim(1, "(T) 75 Hz system, second peak below 5°", 129.0),
+        claim(0, "(T) frequency of the first peak of the 75 Hz system at amplitudes below 5°", 78.0),
+        claim(1, "(T) frequency of the second peak of the 75 Hz system at amplitudes below 5°", 129.0),
     ]
 }
 

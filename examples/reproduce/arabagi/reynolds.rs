@@ -14,7 +14,8 @@ pub(super) fn claims() -> Vec<Claim> {
     [system_75(), system_30()]
         .map(|system| {
             let reynolds = strip_average(&system.params) * largest_rate(&system.params);
-            let statement = format!("{}: Reynolds number, mean over the strips", system.name);
+            let statement =
+                format!("Reynolds number of the {}, averaged over the strips of the wing", system.name);
             said("II-C", statement, "2800").is(
                 &assumed(2800.0, 50.0),
                 reynolds,

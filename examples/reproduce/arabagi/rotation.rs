@@ -36,19 +36,22 @@ fn lags() -> Vec<Claim> {
     let lag = |amplitude: f64, arms: Arms| alone(&system_75(), 95.0, amplitude, arms).get("pitch_lag_deg");
     let [small, large] = [7.5, 12.5].map(|amplitude| lag(amplitude, Arms::Printed));
     let axis = lag(12.5, Arms::Axis);
-    let simulated =
-        |system: &str, lag: f64| {
-            said("V-B, Fig. 10", format!("(S) simulated phase lag of the pitch at 95 Hz, {system}"), "81°")
-                .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
-        };
+    let simulated = |assumption: &str, lag: f64| {
+        said(
+            "V-B, Fig. 10",
+            format!("(S) simulated phase lag of the pitch behind the stroke at 95 Hz, with {assumption}"),
+            "81°",
+        )
+        .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
+    };
     vec![
-        simulated("stroke amplitude 7.5°", small),
-        simulated("stroke amplitude 12.5°", large),
-        simulated("stroke amplitude 12.5°, arms from the axis of rotation", axis),
-        said("V-B, Fig. 10", "measured phase lag of the pitch at 95 Hz", "138°").is(
+        simulated("a stroke amplitude of 7.5°", small),
+        simulated("a stroke amplitude of 12.5°", large),
+        simulated("a stroke amplitude of 12.5° and lever arms from the axis of rotation", axis),
+        said("V-B, Fig. 10", "measured phase lag of the pitch behind the stroke at 95 Hz", "138°").is(
             &assumed(138.0, 0.5),
             large,
-            format!("{small:.1}° at stroke amplitude 7.5°, {large:.1}° at 12.5°"),
+            format!("{small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke amplitude of 12.5°"),
         ),
     ]
 }
@@ -65,12 +68,12 @@ fn parts() -> Vec<Claim> {
         for amplitude in amplitudes {
             let [translation, added_mass] = split(&alone(&system_75(), frequency, *amplitude, Arms::Printed));
             holds &= added_mass > translation;
-            shown.push(format!("{added_mass:.3} against {translation:.3} mN at {amplitude}°"));
+            shown.push(format!("{added_mass:.3} mN (added mass) and {translation:.3} mN (translation) at a stroke amplitude of {amplitude}°"));
             let ratio = translation / added_mass;
             half.push(
                 said(
                     PLACE,
-                    format!("75 Hz system, {frequency} Hz, {amplitude}°: lift of translation over lift of added mass"),
+                    format!("lift of translation divided by lift of added mass in the 75 Hz system at {frequency} Hz and a stroke amplitude of {amplitude}°"),
                     "0.5",
                 )
                 .is(&assumed(0.5, 0.05), ratio, format!("{ratio:.2}")),
@@ -79,10 +82,10 @@ fn parts() -> Vec<Claim> {
         largest.push(
             said(
                 PLACE,
-                format!("75 Hz system, {frequency} Hz: added mass makes more lift than translation"),
-                "largest",
+                format!("in the 75 Hz system at {frequency} Hz, added mass makes more lift than translation"),
+                "added mass is largest",
             )
-            .holds(holds, shown.join(", ")),
+            .holds(holds, shown.join("; ")),
         );
     }
     largest.extend(half);
@@ -100,20 +103,25 @@ fn growth() -> Claim {
     let [growth, over_10] = [over(amplitude), over(10.0)];
     said(
         "V-B, Figs. 10b, 11",
-        "75 Hz system: translational lift grows in the full simulation, where the stroke is ≈20° larger peak to peak",
+        "growth of the translational lift of the 75 Hz system in the full simulation, where the stroke is ≈20° larger, peak to peak",
         "eightfold",
     )
     .is(
         &assumed(8.0, 0.5),
         growth,
-        format!("{growth:.1} times its value at {amplitude:.1}° (20° less than {stroke:.1}° peak to peak); {over_10:.1} times its value at 10°"),
+        format!("{growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak); {over_10:.1} times the lift at a stroke amplitude of 10°"),
     )
 }
 
 fn large_strokes() -> Claim {
     let [translation, added_mass] = split(&alone(&system_30(), 30.0, 30.0, Arms::Printed));
-    said("V-B, Fig. 8b", "30 Hz system: translation dominates the lift at 30 Hz, 30°", "dominates").holds(
+    said(
+        "V-B, Fig. 8b",
+        "translation dominates the lift of the 30 Hz system at 30 Hz and a stroke amplitude of 30°",
+        "dominates",
+    )
+    .holds(
         translation > added_mass,
-        format!("translation {translation:.3} mN, added mass {added_mass:.3} mN"),
+        format!("lift of translation {translation:.3} mN, lift of added mass {added_mass:.3} mN"),
     )
 }

@@ -15,8 +15,16 @@ fn masses() -> Vec<Claim> {
     let with_air = mass(&transmission(1.0));
     let without_air = mass(&Params { added_inertia_stroke: 0.0, ..transmission(1.0) });
     [
-        ("effective mass at the actuator, from the inertia of the wing", 570.0, without_air),
-        ("effective mass at the actuator, with the added mass of the air", 700.0, with_air),
+        (
+            "effective mass at the actuator with the inertia of the wing, without the added mass of the air",
+            570.0,
+            without_air,
+        ),
+        (
+            "effective mass at the actuator with the inertia of the wing and the added mass of the air",
+            700.0,
+            with_air,
+        ),
     ]
     .map(|(statement, published, mass)| {
         said("III-A", statement, format!("~{published} mg")).is(
@@ -35,19 +43,19 @@ fn transmissions() -> Vec<Claim> {
     vec![
         said(
             "II-C",
-            "stiffness of the transmission at 480 µm peak to peak, equal to the actuator's",
+            "stiffness of the transmission at a deflection of 480 µm peak to peak, equal to the stiffness of the actuator",
             "197.7 N/m",
         )
         .is(&closely(197.7, 0.05), stiffness, format!("{stiffness:.1} N/m")),
-        said("III-A", "resonance rises as 1/T: undamped natural frequency, T₂ over T₁", "1.25").is(
+        said("III-A", "undamped natural frequency of T₂ divided by the natural frequency of T₁, if the resonance is proportional to 1/T", "1.25").is(
             &about(1.25, 0.005),
             t_2 / t_1,
-            format!("{:.2} ({t_1:.1} Hz to {t_2:.1} Hz)", t_2 / t_1),
+            format!("{:.2} (T₁: {t_1:.1} Hz, T₂: {t_2:.1} Hz)", t_2 / t_1),
         ),
-        said("III-A", "resonance rises as 1/T: undamped natural frequency, T₃ over T₁", "1.67").is(
+        said("III-A", "undamped natural frequency of T₃ divided by the natural frequency of T₁, if the resonance is proportional to 1/T", "1.67").is(
             &about(1.0 / 0.6, 0.005),
             t_3 / t_1,
-            format!("{:.2} ({t_1:.1} Hz to {t_3:.1} Hz)", t_3 / t_1),
+            format!("{:.2} (T₁: {t_1:.1} Hz, T₃: {t_3:.1} Hz)", t_3 / t_1),
         ),
     ]
 }
@@ -63,17 +71,17 @@ fn lift_and_drag() -> Vec<Claim> {
     let gain = lift_to_drag(&drawn, 70.0) / before;
     let angle_lift = angle_of_largest(mean_lift);
     vec![
-        said("II-A, Fig. 3", "pitch at the largest ratio of lift to drag", "~70°").is(
+        said("II-A, Fig. 3", "pitch at which the ratio of lift to drag is largest", "~70°").is(
             &about(70.0, 0.5),
             angle,
-            format!("{angle:.1}° ({angle_fitted:.1}° with the fitted coefficients of Table I)"),
+            format!("{angle:.1}° with the drag coefficients of Fig. 3, {angle_fitted:.1}° with the fitted coefficients of Table I"),
         ),
-        said("III-A, Fig. 3", "ratio of lift to drag: at 70°, over its value at 45° to 50°", "about 1.5").is(
+        said("III-A, Fig. 3", "ratio of lift to drag at a pitch of 70° divided by the ratio at a pitch of 45° to 50°", "about 1.5").is(
             &about(1.5, 0.05),
             gain,
             format!("{gain:.2}"),
         ),
-        said("II-A", "peak pitch for the largest mean lift, at ideal phase", "51°").is(
+        said("II-A", "peak pitch that gives the largest mean lift if stroke and pitch have a phase difference of 90°", "51°").is(
             &closely(51.0, 0.5),
             angle_lift,
             format!("{angle_lift:.1}°"),
@@ -111,23 +119,23 @@ fn strains() -> Vec<Claim> {
     vec![
         said(
             "Table II, IV",
-            "largest strain at a stroke of 92° peak to peak, with T = 2666 rad/m",
+            "largest strain of the actuator at a stroke of 92° peak to peak, with a transmission ratio of 2666 rad/m",
             "0.079 %",
         )
         .is(
             &closely(0.079, 0.0005),
             strain,
-            format!("{strain:.4} % at the outer faces of the plates"),
+            format!("{strain:.4} % at the outer faces of the piezoelectric plates"),
         ),
-        said("IV", "stroke of the previous vehicle at the same actuator strain", "115°").is(
+        said("IV", "stroke of the previous vehicle, peak to peak, at the actuator strain that the redesigned vehicle has at a stroke of 92°", "115°").is(
             &closely(115.0, 0.5),
             equal,
             format!("{equal:.1}°"),
         ),
-        said("Table II, IV", "this stroke exceeds its typical stroke (strain 0.066 %) by", "15 to 25 %").is(
+        said("Table II, IV", "excess of the stroke of 115° over the typical stroke of the previous vehicle (at an actuator strain of 0.066 %)", "15 to 25 %").is(
             &between(15.0, 25.0),
             100.0 * (equal / typical - 1.0),
-            format!("{:.1} % ({typical:.1}°)", 100.0 * (equal / typical - 1.0)),
+            format!("{:.1} % (typical stroke {typical:.1}°)", 100.0 * (equal / typical - 1.0)),
         ),
     ]
 }

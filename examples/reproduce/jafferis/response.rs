@@ -37,16 +37,16 @@ fn regimes() -> Vec<Claim> {
     let [(f_low, r_low), (f_sharp, r_sharp), (f_high, r_high)] = [&low, &sharp, &high].map(peak);
     let humps = middle.humps(PER_VOLT);
     vec![
-        said("II-A (a)", "low force: one broad peak", "one peak").holds(
+        said("II-A (a)", "at a low drive force, the frequency response of the stroke has one broad peak", "one peak").holds(
             low.humps(PER_VOLT).len() == 1,
-            format!("80 V: one peak, {r_low:.3} °/V at {f_low:.0} Hz"),
+            format!("one peak at 80 V: {r_low:.3}° of stroke per volt at {f_low:.0} Hz"),
         ),
-        said("II-A (c), Fig. 4a", "medium force: a broad peak, then a sharp one", "two peaks")
-            .holds(humps.len() == 2, format!("140 V: peaks at {} Hz", list(&humps))),
-        said("II-A (c)", "the frequency of the sharp peak falls with more force", "falls")
+        said("II-A (c), Fig. 4a", "at a medium drive force, the frequency response of the stroke has a broad peak, then a sharp peak", "two peaks")
+            .holds(humps.len() == 2, format!("peaks at {} Hz with a voltage of 140 V", list(&humps))),
+        said("II-A (c)", "the frequency of the sharp stroke peak falls as the drive force grows", "falls")
             .holds(f_high < f_sharp, format!("{f_sharp:.0} Hz at 160 V, {f_high:.0} Hz at 200 V")),
-        said("II-A (c)", "the stroke per volt of the sharp peak rises with more force", "rises")
-            .holds(r_high > r_sharp && r_sharp > r_low, format!("{r_sharp:.3} to {r_high:.3} °/V")),
+        said("II-A (c)", "the stroke per volt at the sharp peak rises as the drive force grows", "rises")
+            .holds(r_high > r_sharp && r_sharp > r_low, format!("{r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V")),
     ]
 }
 
@@ -61,11 +61,12 @@ fn onset(response: &Response) -> f64 {
 fn steep_rise(families: &Families) -> Claim {
     let angles: Vec<f64> = families.iter().flatten().map(onset).collect();
     let (low, high) = extremes(&angles);
-    said("II-A, Fig. 4", "peak pitch at the onset of the steep rise", "around 50°").is(
-        &about(50.0, 0.5),
-        farther_from(50.0, low, high),
-        format!("{low:.1}° to {high:.1}° (T₁, T₂, T₃ at 160 to 240 V)"),
-    )
+    said("II-A, Fig. 4", "peak pitch at the frequency where the stroke starts to rise steeply", "around 50°")
+        .is(
+            &about(50.0, 0.5),
+            farther_from(50.0, low, high),
+            format!("{low:.1}° to {high:.1}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
+        )
 }
 
 fn phase(families: &Families) -> Claim {
@@ -75,10 +76,15 @@ fn phase(families: &Families) -> Claim {
         .map(|response| response.peak("stroke_pp_deg").1.get("pitch_lag_deg").abs())
         .collect();
     let (low, high) = extremes(&lags);
-    said("II-A", "phase between stroke and pitch, at the largest stroke", "near 90°").is(
+    said(
+        "II-A",
+        "phase difference between stroke and pitch at the frequency of the largest stroke",
+        "near 90°",
+    )
+    .is(
         &about(90.0, 0.5),
         farther_from(90.0, low, high),
-        format!("{low:.0}° to {high:.0}° (T₁, T₂, T₃ at 160 to 240 V)"),
+        format!("{low:.0}° to {high:.0}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
     )
 }
 
@@ -87,16 +93,17 @@ fn small_peaks() -> Vec<Claim> {
         Params { drive_voltage_pp: 160.0, drive_frequency, ..transmission(1.0) }.to_values()
     });
     let humps = response.humps("pitch_peak_deg");
-    [35.0, 60.0]
-        .map(|published| {
+    [("first", 35.0), ("second", 60.0)]
+        .map(|(which, published)| {
             let nearest =
                 humps.iter().copied().min_by(|a, b| (a - published).abs().total_cmp(&(b - published).abs()));
             let nearest = nearest.unwrap_or(f64::NAN);
-            said("II-C", "small peak of the pitch in the model", format!("about {published:.0} Hz")).is(
-                &about(published, 0.5),
-                nearest,
-                format!("{nearest:.1} Hz (160 V)"),
+            said(
+                "II-C",
+                format!("frequency of the {which} small peak of the pitch in the simulation of the paper"),
+                format!("about {published:.0} Hz"),
             )
+            .is(&about(published, 0.5), nearest, format!("{nearest:.1} Hz at 160 V"))
         })
         .into()
 }
@@ -111,13 +118,13 @@ fn scaling(families: &Families) -> Vec<Claim> {
         claims.push(
             said(
                 "III-A",
-                format!("frequency of the largest stroke as 1/T: {name}, 160 V"),
+                format!("frequency of the largest stroke at 160 V, {name} divided by T₁, if the frequency is proportional to 1/T"),
                 format!("{:.2}", 1.0 / ratio),
             )
             .is(
                 &about(1.0 / ratio, 0.005),
                 f_r / f_1,
-                format!("{:.2} ({f_1:.0} Hz to {f_r:.0} Hz)", f_r / f_1),
+                format!("{:.2} (T₁: {f_1:.0} Hz, {name}: {f_r:.0} Hz)", f_r / f_1),
             ),
         );
         for (voltage, v) in [(160, V_160), (200, V_200)] {
@@ -126,7 +133,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
             claims.push(
                 said(
                     "III-A",
-                    format!("mean lift as 1/T^1.47: {name}, {voltage} V"),
+                    format!("largest mean lift at {voltage} V, {name} divided by T₁, if the lift is proportional to 1/T^1.47"),
                     format!("{expected:.2}"),
                 )
                 .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
@@ -137,17 +144,20 @@ fn scaling(families: &Families) -> Vec<Claim> {
             |response: &Response| response.peak("vehicle_lift_mgf").1.get("efficiency_capacitive_gf_per_w");
         let gain = efficiency(&scaled[V_160]) / efficiency(&t_1[V_160]);
         claims.push(
-            said("III-A", format!("lift over power as 1/T^0.47: {name}, 160 V"), format!("{expected:.2}"))
+            said("III-A", format!("lift per power at the largest lift with 160 V, {name} divided by T₁, if lift per power is proportional to 1/T^0.47"), format!("{expected:.2}"))
                 .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
         );
     }
     let (at, best) = t_2[V_200].peak("vehicle_lift_mgf");
     let predicted = best.get("vehicle_lift_mgf");
-    claims.push(said("IV", "lift with T₂ (the paper scales 140 mg; agreement is chance)", "~290 mg").is(
-        &about(290.0, 5.0),
-        predicted,
-        format!("{predicted:.1} mg at 200 V, {at:.0} Hz"),
-    ));
+    claims.push(
+        said(
+            "IV",
+            "lift of the vehicle with T₂, which the paper scales from 140 mg (the agreement is chance)",
+            "~290 mg",
+        )
+        .is(&about(290.0, 5.0), predicted, format!("{predicted:.1} mg at 200 V, {at:.0} Hz")),
+    );
     claims
 }
 

@@ -42,11 +42,11 @@ fn as_settled() -> Claim {
     let (frequency, point) = settled.peak("stroke_pp_deg");
     let stroke = point.get("stroke_pp_deg");
     let farther = if (up - stroke).abs() > (down - stroke).abs() { up } else { down };
-    said("(7)", "largest stroke of T₁ at 160 V in a sweep of 15 Hz/s", "a sweep").is(
+    said("Eq. (7)", "the paper measures the largest stroke in a frequency sweep of 15 Hz/s instead of settled motions (computed for T₁ at 160 V)", "a sweep").is(
         &closely(stroke, 0.0),
         farther,
         format!(
-            "rising {up:.1}° at {f_up:.0} Hz, falling {down:.1}° at {f_down:.0} Hz, settled {stroke:.1}° at {frequency:.0} Hz"
+            "largest stroke {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at {f_down:.0} Hz with falling frequency, {stroke:.1}° at {frequency:.0} Hz with settled motions"
         ),
     )
 }
@@ -66,12 +66,13 @@ fn soft_hinge() -> Claim {
     };
     let [up, down] = apart(&soft);
     let [up_1, down_1] = apart(&table_1);
-    said("III-A", "scaling fails as the natural frequencies of pitch and stroke approach each other", "not sustainable")
+    said("III-A", "scaling of the transmission ratio fails as the natural frequencies of pitch and stroke approach each other", "not sustainable")
         .holds(
             (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
             format!(
-                "half of κ_wh (modes {hinge:.0} and {stroke:.0} Hz): {up:.0}° rising, {down:.0}° falling at 160 V, 126 Hz. \
-                 Table I: {up_1:.0}°, {down_1:.0}°"
+                "with half of the hinge stiffness κ_wh (natural frequencies {hinge:.0} Hz for pitch and {stroke:.0} Hz for stroke), \
+                 the stroke at 160 V and 126 Hz is {up:.0}° with rising frequency and {down:.0}° with falling frequency. \
+                 With κ_wh of Table I, the stroke is {up_1:.0}° with rising frequency and {down_1:.0}° with falling frequency"
             ),
         )
 }

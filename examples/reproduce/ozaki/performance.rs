@@ -18,24 +18,28 @@ pub(super) fn claims() -> Vec<Claim> {
     let [[s_15, s_30], [l_20, l_50]] =
         [&points_small, &points_large].map(|points| points.each_ref().map(efficiency));
     let mut claims = vec![
-        said("4.3, Fig. 17", "efficiency of the small type at 30 V, 209 Hz", "10.8 gf/W").is(
+        said("4.3, Fig. 17", "efficiency of the small type at 30 V and 209 Hz", "10.8 gf/W").is(
             &measured(SMALL, 0.05),
             s_30,
             format!("{s_30:.2} gf/W"),
         ),
-        said("4.3, Fig. 17", "efficiency of the large type at 50 V, 109 Hz", "7.31 gf/W").is(
+        said("4.3, Fig. 17", "efficiency of the large type at 50 V and 109 Hz", "7.31 gf/W").is(
             &measured(LARGE, 0.005),
             l_50,
             format!("{l_50:.2} gf/W"),
         ),
-        said("4.3, Fig. 17", "the small type is the more efficient one", "10.8 > 7.31")
-            .holds(s_30 > l_50, format!("{s_30:.2} and {l_50:.2}")),
-        said("4.3, Fig. 17", "efficiency falls as the voltage rises, small type", "falls")
-            .holds(s_30 < s_15, format!("{s_15:.2} to {s_30:.2} gf/W")),
-        said("4.3, Fig. 17", "efficiency falls as the voltage rises, large type", "falls")
-            .holds(l_50 < l_20, format!("{l_20:.2} to {l_50:.2} gf/W")),
-        said("4.3", "errors of the calculation: stroke, pitch, lift, power", "20, 8.1, 15, 8.7 %")
-            .cannot_be_checked("the paper only draws the measured points", ""),
+        said("4.3, Fig. 17", "the small type is more efficient than the large type", "10.8 > 7.31 gf/W")
+            .holds(s_30 > l_50, format!("small type {s_30:.2} gf/W, large type {l_50:.2} gf/W")),
+        said("4.3, Fig. 17", "the efficiency of the small type falls as the voltage rises", "falls")
+            .holds(s_30 < s_15, format!("{s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V")),
+        said("4.3, Fig. 17", "the efficiency of the large type falls as the voltage rises", "falls")
+            .holds(l_50 < l_20, format!("{l_20:.2} gf/W at 20 V, {l_50:.2} gf/W at 50 V")),
+        said(
+            "4.3",
+            "errors of the calculated stroke, pitch, lift and power in the paper",
+            "20, 8.1, 15, 8.7 %",
+        )
+        .cannot_be_checked("the paper shows the measured points only in figures", ""),
     ];
     for (actuator, points) in types.iter().zip([&points_small, &points_large]) {
         for (v_0, point) in actuator.voltages.iter().zip(points) {
@@ -48,14 +52,15 @@ pub(super) fn claims() -> Vec<Claim> {
 fn drawn(actuator: &Type, v_0: f64, point: &Settled) -> Claim {
     let Type { name, frequency, .. } = actuator;
     let computed = format!(
-        "{:.2}°, {:.1}°, {:.4} gf, {:.2} mW",
+        "stroke {:.2}°, pitch {:.1}°, lift {:.4} gf, power {:.2} mW",
         point.get("stroke_amplitude_deg"),
         point.get("pitch_amplitude_deg"),
         point.get("lift_mean_gf"),
         point.get("power_mean_mw"),
     );
-    let statement =
-        format!("amplitudes of stroke and pitch, lift, power: {name} type at {v_0:.0} V, {frequency:.0} Hz");
+    let statement = format!(
+        "amplitudes of stroke and pitch, mean lift and mean power of the {name} type at {v_0:.0} V and {frequency:.0} Hz"
+    );
     said("Figs. 13 to 16", statement, "drawn")
-        .cannot_be_checked("the paper only draws the calculated curves", computed)
+        .cannot_be_checked("the paper shows the calculated curves only in figures", computed)
 }

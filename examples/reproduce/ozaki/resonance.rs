@@ -18,8 +18,8 @@ pub(super) struct Published {
     frequency: f64,
 }
 
-pub(super) const SMALL: Published = Published { shown: "209 Hz (208.5)", frequency: 208.5 };
-pub(super) const LARGE: Published = Published { shown: "109 Hz (109.0)", frequency: 109.0 };
+pub(super) const SMALL: Published = Published { shown: "209 Hz (208.5 Hz)", frequency: 208.5 };
+pub(super) const LARGE: Published = Published { shown: "109 Hz (109.0 Hz)", frequency: 109.0 };
 const SMALL_MEASURED: Published = Published { shown: "210 Hz", frequency: 210.0 };
 const LARGE_MEASURED: Published = Published { shown: "105 Hz", frequency: 105.0 };
 
@@ -29,11 +29,11 @@ pub(super) fn calculated() -> Vec<Claim> {
     let mut claims = by_size(&small, &SMALL);
     claims.extend(by_size(&large, &LARGE));
     let ratios = IMPULSES.map(|impulse| fitted(&small, impulse, WINDOW) / fitted(&large, impulse, WINDOW));
-    claims.push(said("4.2", "ratio of the frequencies, small type to large type", "roughly 2").is(
+    claims.push(said("4.2", "resonance frequency of the small type divided by the resonance frequency of the large type", "roughly 2").is(
         &about(2.0, 0.05),
         ratios[MIDDLE],
         format!(
-            "{:.2} (0.5 rad; {:.2} and {:.2} with 0.3 and 0.8 rad; {:.2} for small motions)",
+            "{:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, {:.2} for small motions",
             ratios[MIDDLE],
             ratios[0],
             ratios[2],
@@ -48,12 +48,15 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
     let claim = |impulse: f64| {
         let swing = bench().swing(&actuator.params.to_values(), impulse, WINDOW);
         let [five, ten] = LONGER.map(|window| fitted(actuator, impulse, window));
-        let what = format!("{} type: calculated resonance, impulse of {impulse:.1} rad", actuator.name);
+        let what = format!(
+            "calculated resonance frequency of the {} type after an impulse of {impulse:.1} rad",
+            actuator.name
+        );
         said("4.2, Fig. 10", what, published.shown).is(
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "{:.1} Hz, first peak {:.1}°, residual {:.0} %; {five:.1} Hz through 5 periods, {ten:.1} Hz through 10",
+                "{:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %); {five:.1} Hz with a fit of 5 periods, {ten:.1} Hz with a fit of 10 periods",
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms
@@ -64,18 +67,18 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
 }
 
 /// A claim for the impulse in the middle, with the frequencies after the others.
-pub(super) fn after_an_impulse(what: &str, actuator: &Type, published: &Published) -> Claim {
+pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Published) -> Claim {
     let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
     said(
         "4.2, Fig. 10",
-        format!("{what}, {} type: calculated resonance, impulse of 0.5 rad", actuator.name),
+        format!("calculated resonance frequency of the {} type after an impulse of 0.5 rad{hypothesis}", actuator.name),
         published.shown,
     )
     .is(
         &closely(published.frequency, 0.5),
         middle,
         format!(
-            "{middle:.1} Hz; {weak:.1} and {strong:.1} Hz with 0.3 and 0.8 rad; small motions {:.1} Hz",
+            "{middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
             mode(actuator)
         ),
     )
@@ -95,31 +98,36 @@ fn mode(actuator: &Type) -> f64 {
 /// Measured as the frequency of the largest stroke.
 pub(super) fn driven() -> Vec<Claim> {
     vec![
-        largest_stroke_of_small("small type", &small(), [190.0, 202.0]),
-        largest_stroke_of_large("large type", &large(), [100.0, 115.0]),
+        largest_stroke_of_small("", &small(), [190.0, 202.0]),
+        largest_stroke_of_large("", &large(), [100.0, 115.0]),
     ]
 }
 
-pub(super) fn largest_stroke_of_small(what: &str, actuator: &Type, range: [f64; 2]) -> Claim {
-    largest_stroke(what, actuator, range, &SMALL_MEASURED)
+pub(super) fn largest_stroke_of_small(hypothesis: &str, actuator: &Type, range: [f64; 2]) -> Claim {
+    largest_stroke(hypothesis, actuator, range, &SMALL_MEASURED)
 }
 
-pub(super) fn largest_stroke_of_large(what: &str, actuator: &Type, range: [f64; 2]) -> Claim {
-    largest_stroke(what, actuator, range, &LARGE_MEASURED)
+pub(super) fn largest_stroke_of_large(hypothesis: &str, actuator: &Type, range: [f64; 2]) -> Claim {
+    largest_stroke(hypothesis, actuator, range, &LARGE_MEASURED)
 }
 
 /// At an unknown one of the voltages, so compared with the frequencies between those at the lowest and the highest.
 /// Peaks are looked for within `range`.
-fn largest_stroke(what: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
+fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
     let [low, high] = actuator.voltages.map(|v_0| {
         let (peak, _) = actuator.response(v_0, range).peak("stroke_amplitude_deg");
         assert!(range[0] < peak && peak < range[1], "a peak at {peak} Hz may lie outside {range:?}");
         peak
     });
     let [v_low, v_high] = actuator.voltages;
-    said("4.2, Fig. 10", format!("{what}: measured frequency of the largest stroke"), published.shown).is(
+    said(
+        "4.2, Fig. 10",
+        format!("measured frequency of the largest stroke of the {} type{hypothesis}", actuator.name),
+        published.shown,
+    )
+    .is(
         &closely(published.frequency, 0.5),
         published.frequency.clamp(low.min(high), low.max(high)),
-        format!("{low:.1} Hz ({v_low:.0} V) to {high:.1} Hz ({v_high:.0} V)"),
+        format!("{low:.1} Hz at {v_low:.0} V, {high:.1} Hz at {v_high:.0} V"),
     )
 }

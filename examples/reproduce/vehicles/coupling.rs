@@ -37,43 +37,43 @@ pub(super) fn claims() -> Vec<Claim> {
     let roll_moved = coupled(&rolls, |a, b| a.difference == b.difference);
     let pitch_moved = coupled(&pitches, |a, b| a.bias == b.bias);
     vec![
-        said("2604.22121, abstract", "R² of a line through pitch torque and command", "0.95").is(
+        said("2604.22121, abstract", "R² of a straight line through pitch torque against pitch command", "0.95").is(
             &assumed(0.95, 0.005),
             of_pitch,
-            format!("{of_pitch:.3}, ratio {:.2}", of_pitch / 0.95),
+            format!("{of_pitch:.3}, which is {:.2} times the published R²", of_pitch / 0.95),
         ),
-        said("2604.22121, abstract", "R² of a line through roll torque and command", "0.98").is(
+        said("2604.22121, abstract", "R² of a straight line through roll torque against roll command", "0.98").is(
             &assumed(0.98, 0.005),
             of_roll,
-            format!("{of_roll:.3}, ratio {:.2}", of_roll / 0.98),
+            format!("{of_roll:.3}, which is {:.2} times the published R²", of_roll / 0.98),
         ),
-        said("2604.22121, abstract", "correlation of a torque with the other command", "-0.001, -0.085")
+        said("2604.22121, abstract", "correlations of the roll torque with the pitch command and of the pitch torque with the roll command", "-0.001, -0.085")
             .holds(
                 cross.iter().all(|one| one.abs() < 0.0855),
-                format!("magnitudes {:.3}, {:.3}", cross[0].abs(), cross[1].abs()),
+                format!("correlations with magnitudes {:.3} and {:.3}", cross[0].abs(), cross[1].abs()),
             ),
-        said("2604.22121, abstract", "largest deviation of the thrust from its mean", "5.8 %").is(
+        said("2604.22121, abstract", "largest deviation of the thrust from the mean thrust", "5.8 %").is(
             &between(0.0, 5.8),
             deviation,
             format!("{deviation:.1} %"),
         ),
         said(
             "2407.00217, abstract",
-            "largest change of roll with the pitch command, relative to the range of roll",
+            "largest change of the roll torque with the pitch command, relative to the range of the roll torque",
             "8.58 %",
         )
         .is(&between(0.0, 8.58), roll_moved, format!("{roll_moved:.1} %")),
         said(
             "2407.00217, abstract",
-            "largest change of pitch with the roll command, relative to the range of pitch",
+            "largest change of the pitch torque with the roll command, relative to the range of the pitch torque",
             "17.24 %",
         )
         .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
-        said("both", "torques in µN·m", "drawn").cannot_be_checked(
-            "the available text has neither sizes nor voltages",
+        said("2407.00217, 2604.22121", "sizes of the roll and pitch torques in µN·m", "drawn").cannot_be_checked(
+            "the available text gives neither sizes of torques nor voltages",
             {
                 let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
-                format!("ranges {roll:.2} (roll) and {pitch:.2} µN·m (pitch)")
+                format!("range {roll:.2} µN·m of the roll torque and range {pitch:.2} µN·m of the pitch torque")
             },
         ),
     ]

@@ -9,7 +9,7 @@ use crate::points::Settled;
 /// Share of the amplitude by which each drive is changed.
 const SHARE: f64 = 0.2;
 const SENSOR: &str = "Finio and others, I";
-const PREDICTED: &str = "predicted torque of a robotic fly with asymmetric flapping:";
+const TORQUE: &str = "torque of a robotic fly with asymmetric flapping";
 
 pub(super) fn claims() -> Vec<Claim> {
     let pair = Flier::pair();
@@ -23,25 +23,25 @@ pub(super) fn claims() -> Vec<Claim> {
     let (phase, yaw) = split_cycle();
     let largest = |torques: [f64; 3], of: usize| (0..3).all(|i| torques[i].abs() <= torques[of].abs());
     vec![
-        said("Ma and others, abstract", "independent wings make a roll torque", "roll").holds(
+        said("Ma and others, abstract", "two wings with independent drives can make a roll torque", "roll torque").holds(
             largest(roll, 0) && roll[0] > 0.0,
-            format!("{} with {difference:.0} V more on the left", shown(roll)),
+            format!("{} with {difference:.0} V more on the left wing", shown(roll)),
         ),
-        said("Ma and others, abstract", "independent wings make a pitch torque", "pitch").holds(
+        said("Ma and others, abstract", "two wings with independent drives can make a pitch torque", "pitch torque").holds(
             largest(pitch, 1) && pitch[1] < 0.0,
             format!(
-                "{} with a bias of {bias:.0} V: both strokes move forward and the nose rises",
+                "{} with a bias voltage of {bias:.0} V: both strokes move forward and the nose rises",
                 shown(pitch)
             ),
         ),
-        said("Ma and others, abstract", "independent wings make a yaw torque by split cycles", "yaw").holds(
+        said("Ma and others, abstract", "two wings with independent drives can make a yaw torque by split cycles", "yaw torque").holds(
             largest(yaw, 2),
-            format!("{} with a second harmonic of {SHARE} that leads by {phase:.0}°", shown(yaw)),
+            format!("{} with a second harmonic of {SHARE} times the drive amplitude that leads by {phase:.0}°", shown(yaw)),
         ),
-        said("Ma and others", "sizes of the torques", "drawn")
-            .cannot_be_checked("the available text has neither sizes nor voltages", ""),
-        said("Ma and others, abstract", "peak lift of the vehicle of 70 mg", "1.3 mN").cannot_be_checked(
-            "the available text has no voltage, and the vehicle has other wings and actuators",
+        said("Ma and others", "sizes of the roll, pitch and yaw torques", "drawn")
+            .cannot_be_checked("the available text gives neither sizes of torques nor voltages", ""),
+        said("Ma and others, abstract", "peak lift of the robot of Ma and others with a mass of 70 mg", "1.3 mN").cannot_be_checked(
+            "the available text gives no voltage, and the robot has other wings and actuators than the simulated vehicle",
             format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
         ),
         of_size("roll", roll[0], &with_less(&rolling, difference)),
@@ -52,7 +52,7 @@ pub(super) fn claims() -> Vec<Claim> {
 
 /// The claim about the size of a torque.
 fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
-    said(SENSOR, format!("{PREDICTED} {name}"), "1 to 10 µN·m").is(
+    said(SENSOR, format!("predicted {name} {TORQUE}"), "1 to 10 µN·m").is(
         &between(1.0, 10.0),
         torque.abs(),
         format!("{} µN·m{besides}", rounded(torque.abs())),
@@ -72,12 +72,12 @@ fn rolls(pair: &Flier, difference: f64) -> Vec<Settled> {
 /// The roll torques of smaller differences in words, and the lift of the wing with less drive.
 fn with_less(points: &[Settled], difference: f64) -> String {
     let parts = PARTS.iter().zip(&points[1..]);
-    let torques =
-        parts.map(|(part, point)| format!("{} with {:.0} V", rounded(torques(point)[0]), part * difference));
+    let torques = parts
+        .map(|(part, point)| format!("{} µN·m with {:.0} V", rounded(torques(point)[0]), part * difference));
     let lift = |point: &Settled| rounded(point.get("right_lift_mean_mn"));
     format!(
-        " with {difference:.0} V more on the left. The right lift drops steeply from {} mN ({:.0} V) to {} mN \
-         ({difference:.0} V). Smaller differences: {}",
+        " with {difference:.0} V more on the left wing. The lift of the right wing drops steeply from {} mN with a difference of {:.0} V \
+         to {} mN with a difference of {difference:.0} V. Roll torques with smaller differences are {}",
         lift(&points[1]),
         PARTS[0] * difference,
         lift(&points[0]),

@@ -85,7 +85,12 @@ pub(super) fn torques(point: &Settled) -> [f64; 3] {
 
 /// Three torques in words.
 pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
-    format!("roll {}, pitch {}, yaw {} µN·m", rounded(roll), rounded(pitch), rounded(yaw))
+    format!(
+        "roll torque {} µN·m, pitch torque {} µN·m, yaw torque {} µN·m",
+        rounded(roll),
+        rounded(pitch),
+        rounded(yaw)
+    )
 }
 
 /// A torque with two decimals. A torque that rounds to zero has no sign.

@@ -22,20 +22,24 @@ pub(super) fn claims() -> Vec<Claim> {
     let turned: Vec<usize> = (1..yaws.len()).filter(|&i| yaws[i - 1] * yaws[i] < 0.0).collect();
     let list = |values: Vec<String>| values.join(", ");
     let shown = format!(
-        "{} µN·m at {} times the stiffness",
+        "yaw torques of {} µN·m at {} times the hinge stiffness of the preset",
         list(yaws.iter().map(|yaw| rounded(*yaw)).collect()),
         list(FACTORS.iter().map(f64::to_string).collect())
     );
     let place = match turned[..] {
         [place] => {
-            format!("sign changes between {} and {} times the stiffness", FACTORS[place - 1], FACTORS[place])
+            format!(
+                "the yaw torque changes its sign between {} and {} times the hinge stiffness of the preset",
+                FACTORS[place - 1],
+                FACTORS[place]
+            )
         }
-        _ => format!("sign changes {} times", turned.len()),
+        _ => format!("the yaw torque changes its sign {} times", turned.len()),
     };
     vec![
-        said("abstract", "yaw depends strongly on the stiffness of the hinge", "strongly")
+        said("abstract", "the yaw torque depends strongly on the stiffness of the wing hinge", "strongly")
             .holds(largest > 2.0 * smallest, shown),
-        said("abstract", "the relation between yaw and split cycle changes at a critical stiffness", "one")
+        said("abstract", "the relation between yaw torque and split cycle changes at a critical stiffness of the wing hinge", "one critical stiffness")
             .holds(turned.len() == 1, place),
     ]
 }

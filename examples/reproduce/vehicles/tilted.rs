@@ -29,10 +29,10 @@ pub(super) fn claims() -> Vec<Claim> {
     let share = values.min() / values.max();
     let payload = payload();
     vec![
-        said("2407.06500, abstract", "with tilted wings, amplitudes alone make a yaw torque", "yaw").holds(
+        said("2407.06500, abstract", "in a vehicle with tilted wings, the drive amplitudes alone can make a yaw torque", "yaw torque").holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{} and lift {} mN, per volt on the diagonals; yaw {} µN·m without tilt",
+                "{} and lift {} mN for 1 V more on one diagonal pair of wings and 1 V less on the other pair; yaw torque {} µN·m without tilt",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
                 rounded(of_tilted[0]),
                 rounded(of_flat[3])
@@ -40,19 +40,19 @@ pub(super) fn claims() -> Vec<Claim> {
         ),
         said(
             "2407.06500, abstract",
-            "four amplitudes control lift, roll, pitch and yaw at the same time",
-            "four",
+            "four drive amplitudes control lift, roll, pitch and yaw at the same time",
+            "four at the same time",
         )
         .holds(
             share > 1e-3,
             format!(
-                "ratio of the smallest to the largest singular value {share:.3}, where 1 mN counts as 1 µN·m"
+                "smallest singular value of the control matrix divided by the largest: {share:.3}, where 1 mN counts as 1 µN·m"
             ),
         ),
-        said("2407.06500", "torques and tilt", "drawn")
-            .cannot_be_checked("they are not in the available text", ""),
-        said("Fuller, abstract", "payload of four wings", "> 260 mg")
-            .holds(payload > 260.0, format!("{payload:.0} mg at 200 V, 120 Hz")),
+        said("2407.06500", "torques of the vehicle and tilt of the wings", "drawn")
+            .cannot_be_checked("the available text gives neither torques nor tilt", ""),
+        said("Fuller, abstract", "payload of the robot of Fuller with four wings", "> 260 mg")
+            .holds(payload > 260.0, format!("{payload:.0} mg at 200 V and 120 Hz")),
     ]
 }
 
