@@ -30,7 +30,7 @@ pub(crate) const PAPER: Paper = Paper {
         },
         Group {
             title: "The redesigned vehicle",
-            preface: "The wings of the redesigned vehicle and the wings of Table I have different shapes, but the preset uses the coefficients of Table I for both.\n\
+            preface: "The wings of the redesigned vehicle and of Table I differ in shape, but the preset uses the coefficients of Table I.\n\
                       In rows with two computed numbers, the first number is computed at the frequency of the largest computed lift, and the verdict uses this number.\n\
                       The second number is computed at 155 Hz, the frequency of the largest lift in the paper.",
             quick: true,

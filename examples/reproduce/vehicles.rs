@@ -27,7 +27,8 @@ pub(crate) const PAPER: Paper = Paper {
               [Forces and torques of vehicles](../how-to/vehicle.md) describes how to simulate such a vehicle.\n\
               The shoulders of the two wings are 1.5 mm left and right of the middle of the vehicle.\n\
               Torques act about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
-              A positive roll torque lifts the left side of the vehicle, a positive pitch torque lowers the nose, and a positive yaw torque turns the nose to the left.",
+              A positive roll torque lifts the left side of the vehicle.\n\
+              A positive pitch torque lowers the nose, and a positive yaw torque turns the nose to the left.",
     groups: &[
         Group {
             title: "One torque for each drive",
@@ -35,7 +36,7 @@ pub(crate) const PAPER: Paper = Paper {
                       \n\
                       - For roll, the peak-to-peak voltage of the left wing is larger than the voltage of the right wing.\n\
                       - For pitch, both wings have the same bias voltage.\n\
-                      - For yaw, a second harmonic (split cycle) is added to the left drive and subtracted from the right drive, at the phase with the largest yaw torque.\n\
+                      - For yaw, a second harmonic (split cycle) is added on the left and subtracted on the right, at the phase with the largest yaw torque.\n\
                       \n\
                       On each wing, the change is a fifth of the drive amplitude.",
             quick: true,

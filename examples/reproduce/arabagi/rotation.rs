@@ -39,15 +39,15 @@ fn lags() -> Vec<Claim> {
     let simulated = |assumption: &str, lag: f64| {
         said(
             "V-B, Fig. 10",
-            format!("(S) simulated phase lag of the pitch behind the stroke at 95 Hz, with {assumption}"),
+            format!("(S) simulated phase lag of the pitch at 95 Hz and a stroke amplitude of {assumption}"),
             "81°",
         )
         .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
     };
     vec![
-        simulated("a stroke amplitude of 7.5°", small),
-        simulated("a stroke amplitude of 12.5°", large),
-        simulated("a stroke amplitude of 12.5° and lever arms from the axis of rotation", axis),
+        simulated("7.5°", small),
+        simulated("12.5°", large),
+        simulated("12.5°, with lever arms from the axis of rotation", axis),
         said("V-B, Fig. 10", "measured phase lag of the pitch behind the stroke at 95 Hz", "138°").is(
             &assumed(138.0, 0.5),
             large,
@@ -68,7 +68,7 @@ fn parts() -> Vec<Claim> {
         for amplitude in amplitudes {
             let [translation, added_mass] = split(&alone(&system_75(), frequency, *amplitude, Arms::Printed));
             holds &= added_mass > translation;
-            shown.push(format!("{added_mass:.3} mN (added mass) and {translation:.3} mN (translation) at a stroke amplitude of {amplitude}°"));
+            shown.push(format!("Added mass {added_mass:.3} mN and translation {translation:.3} mN at a stroke amplitude of {amplitude}°"));
             let ratio = translation / added_mass;
             half.push(
                 said(
@@ -85,7 +85,7 @@ fn parts() -> Vec<Claim> {
                 format!("in the 75 Hz system at {frequency} Hz, added mass makes more lift than translation"),
                 "added mass is largest",
             )
-            .holds(holds, shown.join("; ")),
+            .holds(holds, shown.join(". ")),
         );
     }
     largest.extend(half);
@@ -109,7 +109,7 @@ fn growth() -> Claim {
     .is(
         &assumed(8.0, 0.5),
         growth,
-        format!("{growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak); {over_10:.1} times the lift at a stroke amplitude of 10°"),
+        format!("{growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke amplitude of 10°, the lift grows {over_10:.1} times"),
     )
 }
 

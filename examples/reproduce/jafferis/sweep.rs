@@ -70,9 +70,9 @@ fn soft_hinge() -> Claim {
         .holds(
             (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
             format!(
-                "with half of the hinge stiffness κ_wh (natural frequencies {hinge:.0} Hz for pitch and {stroke:.0} Hz for stroke), \
-                 the stroke at 160 V and 126 Hz is {up:.0}° with rising frequency and {down:.0}° with falling frequency. \
-                 With κ_wh of Table I, the stroke is {up_1:.0}° with rising frequency and {down_1:.0}° with falling frequency"
+                "with half of the hinge stiffness κ_wh, the natural frequencies are {hinge:.0} Hz (pitch) and {stroke:.0} Hz (stroke). \
+                 At 160 V and 126 Hz, the stroke is then {up:.0}° with rising frequency and {down:.0}° with falling frequency. \
+                 With κ_wh of Table I, the strokes are {up_1:.0}° and {down_1:.0}°"
             ),
         )
 }

@@ -56,7 +56,7 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "{:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %); {five:.1} Hz with a fit of 5 periods, {ten:.1} Hz with a fit of 10 periods",
+                "{:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms

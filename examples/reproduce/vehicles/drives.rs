@@ -30,13 +30,13 @@ pub(super) fn claims() -> Vec<Claim> {
         said("Ma and others, abstract", "two wings with independent drives can make a pitch torque", "pitch torque").holds(
             largest(pitch, 1) && pitch[1] < 0.0,
             format!(
-                "{} with a bias voltage of {bias:.0} V: both strokes move forward and the nose rises",
+                "{} with a bias voltage of {bias:.0} V. Both strokes move forward and the nose rises",
                 shown(pitch)
             ),
         ),
         said("Ma and others, abstract", "two wings with independent drives can make a yaw torque by split cycles", "yaw torque").holds(
             largest(yaw, 2),
-            format!("{} with a second harmonic of {SHARE} times the drive amplitude that leads by {phase:.0}°", shown(yaw)),
+            format!("{} with a second harmonic of {SHARE} times the amplitude that leads by {phase:.0}°", shown(yaw)),
         ),
         said("Ma and others", "sizes of the roll, pitch and yaw torques", "drawn")
             .cannot_be_checked("the available text gives neither sizes of torques nor voltages", ""),
@@ -76,8 +76,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
         .map(|(part, point)| format!("{} µN·m with {:.0} V", rounded(torques(point)[0]), part * difference));
     let lift = |point: &Settled| rounded(point.get("right_lift_mean_mn"));
     format!(
-        " with {difference:.0} V more on the left wing. The lift of the right wing drops steeply from {} mN with a difference of {:.0} V \
-         to {} mN with a difference of {difference:.0} V. Roll torques with smaller differences are {}",
+        " with {difference:.0} V more on the left wing. The lift of the right wing drops steeply from {} mN with {:.0} V \
+         to {} mN with {difference:.0} V. Roll torques with smaller differences are {}",
         lift(&points[1]),
         PARTS[0] * difference,
         lift(&points[0]),

@@ -86,7 +86,7 @@ pub(super) fn torques(point: &Settled) -> [f64; 3] {
 /// Three torques in words.
 pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
     format!(
-        "roll torque {} µN·m, pitch torque {} µN·m, yaw torque {} µN·m",
+        "roll torque {}, pitch torque {}, yaw torque {} µN·m",
         rounded(roll),
         rounded(pitch),
         rounded(yaw)

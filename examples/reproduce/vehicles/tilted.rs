@@ -32,7 +32,7 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2407.06500, abstract", "in a vehicle with tilted wings, the drive amplitudes alone can make a yaw torque", "yaw torque").holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{} and lift {} mN for 1 V more on one diagonal pair of wings and 1 V less on the other pair; yaw torque {} µN·m without tilt",
+                "{}, lift {} mN. One diagonal pair of wings has 1 V more, and the other pair has 1 V less. Without tilt, the yaw torque is {} µN·m",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
                 rounded(of_tilted[0]),
                 rounded(of_flat[3])
