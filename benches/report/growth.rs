@@ -11,10 +11,10 @@ pub(crate) fn print(files: &[PathBuf]) {
     println!(
         "## Growth\n\n\
          This section reports the time and memory of `flap sweep` for different numbers of points.\n\
-         The grids vary voltage and frequency around the published values of a preset, with `settle_tol` = `rtol`.\n\
-         The rows have four measures and go into CSV files.\n\
-         [Shards](../glossary.md#shard) run at the same time on one thread each and are then merged.\n\
-         Their CPU time includes the merge, and their memory is the memory of the largest process.\n"
+         The grids vary voltage and frequency around the published values of a preset; the tolerance `settle_tol` equals `rtol`.\n\
+         Each row has four measures, and the rows go into CSV files.\n\
+         [Shards](../glossary.md#shard) run at the same time, each on one thread, and their files are then merged.\n\
+         The CPU time of shards includes the merge, and the memory of shards is the memory of the largest process.\n"
     );
     if files.is_empty() {
         println!("Not measured.\n");
@@ -29,7 +29,7 @@ fn print_table(file: &Path) -> Option<()> {
     let told: Value = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
     println!(
         "![CPU time per point and peak memory over the number of points](../pictures/growth.svg)\n\n\
-         `{}` on {}:\n\n\
+         The next table is for sweeps of `{}` on {}:\n\n\
          | points | rtol | sweep | points per second | CPU time per point, µs | peak memory, MiB | file, MB |\n\
          |---|---|---|---|---|---|---|",
         told["preset"].as_str()?,

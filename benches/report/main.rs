@@ -58,9 +58,9 @@ fn main() {
     println!("# Performance\n\n<!-- keywords: performance, speed, benchmark, memory -->\n");
     println!(
         "This page reports the speed and memory of flap on one machine, beside other solvers.\n\
-         `just bench-report` measures all numbers and writes the page, so do not edit it by hand.\n\
-         Other machines give other numbers.\n\
-         Numbers are medians, with the smallest and the largest value in parentheses.\n"
+         The command `just bench-report` measures all numbers and writes this page, so do not edit the page by hand.\n\
+         The numbers differ between machines.\n\
+         Measured numbers are medians of several rounds, with the smallest and the largest value in parentheses.\n"
     );
     machine::print();
     peers::print(&files_of(&arguments, "--peers"));

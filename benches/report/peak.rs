@@ -21,14 +21,16 @@ const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-7, max_steps: 1
 pub(crate) fn print(effort: Effort) {
     println!(
         "## Share of the peak\n\n\
-         This section compares the hot loop with the peak arithmetic rate of the processor.\n\
-         The loop marches the equations of `examples/own_equations` at rtol 1e-6 in full lanes.\n\
-         The peak is a loop of fused multiplications and additions in ten independent registers; both loops run in turn.\n\
-         Single steps count the instructions, and a disassembly names them.\n\
-         Counts are per right-hand side and vector of two registers, and include the other instructions of a step.\n\
+         This section compares the arithmetic rate of the integration loop with the peak arithmetic rate of the processor.\n\
+         The integration loop marches the equations of `examples/own_equations` at rtol 1e-6, with a point in every lane.\n\
+         The peak rate is the rate of a loop of fused multiplications and additions in ten independent registers.\n\
+         The integration loop and the peak loop run in turn.\n\
+         The program counts the executed instructions by single steps, and reads the kind of each instruction from a disassembly.\n\
+         Counts are numbers of instructions per right-hand side and vector of two registers.\n\
+         Counts include the other instructions of an integration step.\n\
          \n\
          - *arithmetic*: instructions that add, multiply, divide or compare vectors of doubles, or fuse a multiplication and an addition\n\
-         - *with the stack*: instructions with an operand in the memory of the stack\n\n\
+         - *with the stack*: instructions that read or write an operand on the stack in memory\n\n\
          | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
          share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
     );

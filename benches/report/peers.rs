@@ -17,17 +17,17 @@ const WORKS: [Work; 3] = [
     Work {
         name: "integration",
         text: "## Beside other solvers\n\n\
-               All solvers integrate the same points of the equations of `examples/own_equations`, in turn on one core.\n\
-               [The comparison](../../benches/peers/README.md) describes the programs and the measurement.\n",
+               All solvers integrate the equations of `examples/own_equations` for the same points, in turn on one core.\n\
+               [Comparison with other solvers](../../benches/peers/README.md) describes the programs and the measurement.\n",
     },
     Work {
         name: "settled",
         text: "## Settled motions beside other solvers\n\n\
-               The points are the preset `jafferis2016` at 120 to 200 V and 102 to 132 Hz.\n\
-               Each motion starts at rest, runs until a drive period changes the state by at most 1e-6, and is measured over one more period.\n\
-               The other solvers [march](../glossary.md#march).\n\
-               flap runs as `flap sweep` and writes rows with all columns.\n\
-               Its rate is in [verified periodic orbits per second and core](../../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
+               Except in the last table of this section, all points have the preset `jafferis2016`, voltages of 120 to 200 V and frequencies of 102 to 132 Hz.\n\
+               Each motion starts at rest, runs until a drive period changes the state by at most 1e-6, and is measured over the next drive period.\n\
+               The other solvers [march](../glossary.md#march) until the motion is settled.\n\
+               flap runs as the command `flap sweep`, which writes rows with all columns.\n\
+               The unit of the rate of `flap sweep` is [verified periodic orbits per second and core](../../benches/peers/README.md#verified-periodic-orbits-per-second).\n",
     },
     Work {
         name: "responses",
@@ -64,8 +64,8 @@ fn print_table(told: &Value) -> Option<()> {
 
     let counted = peers.iter().any(|peer| peer["periods_per_point"].is_number());
     println!(
-        "{} points at rtol {:e}, {} rounds on {}:\n\n\
-         | solver | points per CPU-second | rate of flap over this rate |{} median deviation | remarks |\n\
+        "The next table is for {} points at rtol {:e}, in {} rounds on {}:\n\n\
+         | solver | points per CPU-second | rate of flap divided by rate of the solver |{} median deviation | remarks |\n\
          |---|---|---|{}---|---|",
         told["points"],
         told["rtol"].as_f64()?,

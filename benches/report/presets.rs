@@ -15,17 +15,18 @@ pub(crate) fn print(effort: Effort) {
     println!(
         "## Presets\n\n\
          Each preset is computed at {0} × {0} points on one thread.\n\
-         Voltages are 60 to 100 % of the published voltage, and frequencies 85 to 110 % of the published frequency.\n\
-         The residual is at most {1:e}, at rtol {2:e}.\n\
-         The columns *marching* have `newton = false` in `[solver]`; the columns *Newton* use [Newton shooting](../glossary.md#newton-shooting), the default.\n\
+         The voltages are 60 to 100 % of the published voltage, and the frequencies are 85 to 110 % of the published frequency.\n\
+         The residual of each orbit is at most {1:e}, at rtol {2:e}.\n\
+         The columns *marching* are computed with `newton = false` in `[solver]`.\n\
+         The columns *Newton* are computed with [Newton shooting](../glossary.md#newton-shooting), the default.\n\
          \n\
-         - *cycles*: median of the drive periods per point\n\
+         - *cycles*: median number of drive periods per point\n\
          - *settled*: number of points with an orbit\n\
-         - *ratio of times*: time by marching over time with Newton shooting\n\
-         - *lanes full*: share of the steps of all [lanes](../glossary.md#lane) that a point needed, with Newton shooting\n\
+         - *ratio of times*: time with marching divided by time with Newton shooting\n\
+         - *lanes full*: share of the steps in all [lanes](../glossary.md#lane) that a point needed, computed with Newton shooting\n\
          \n\
-         The numbers of *lanes full* cover marching, periods with responses, measured periods, and all steps.\n\
-         Responses are derivatives with respect to the initial state.\n\n\
+         The four numbers of *lanes full* are the shares for marching, for periods with responses, for measured periods, and for all steps.\n\
+         Responses are derivatives of the motion with respect to the initial state.\n\n\
          | preset | marching, points/s | cycles | settled | Newton, points/s | cycles | settled | ratio of times | lanes full |\n\
          |---|---|---|---|---|---|---|---|---|",
         effort.side,

@@ -33,11 +33,11 @@ pub(crate) fn print(effort: Effort) {
     }
     let lane_use = listed.map_or_else(String::new, |listed| lanes_full(&listed.lane_use));
     println!(
-        "## A whole sweep\n\nA sweep of {} points of `{PRESET}` into a CSV file:\n\n| | |\n|---|---|\n\
-         | points per second, one thread | {} |\n| points per second, two threads | {} |\n| speed of two threads over one | {} |\n\
-         | time to write the CSV file, % of the sweep on one thread | {} |\n\
-         | time to read the CSV file, % of the sweep on one thread | {} |\n\
-         | lanes full: marching, responses, measuring; all | {lane_use} |\n",
+        "## A whole sweep\n\nThe sweep of this table computes {} points of `{PRESET}` and writes a CSV file:\n\n| | |\n|---|---|\n\
+         | points per second, one thread | {} |\n| points per second, two threads | {} |\n| speed with two threads divided by speed with one thread | {} |\n\
+         | time to write the CSV file, in % of the time of the sweep on one thread | {} |\n\
+         | time to read the CSV file, in % of the time of the sweep on one thread | {} |\n\
+         | lanes full during marching, responses and measuring; lanes full in all steps | {lane_use} |\n",
         plan.len(),
         Spread::of(one.iter().map(|seconds| plan.len() as f64 / seconds)),
         Spread::of(two.iter().map(|seconds| plan.len() as f64 / seconds)),

@@ -8,7 +8,7 @@ from .work import Axis, Measure, Work
 
 BASE = Peer(
     "boost",
-    "Boost.Odeint (C++), DP5(4), dense output",
+    "Boost.Odeint in C++: Dormand-Prince 5(4) with dense output",
     # Its fastest build: with AVX-512 it is slower.
     Cpp("boost_dense.cpp", ("-O3", processor_flag("x86-64-v3")), BOOST),
 )
@@ -27,7 +27,7 @@ INTEGRATION = Work(
         BASE,
         Peer(
             "flap",
-            "examples/own_equations, DP5(4) in lanes",
+            "flap with examples/own_equations: Dormand-Prince 5(4) in lanes",
             Cargo(
                 REPOSITORY,
                 ("-p", "flap-core", "--example", "own_equations"),
@@ -37,31 +37,31 @@ INTEGRATION = Work(
         ),
         Peer(
             "ode_solvers",
-            "the Rust crate, DP5(4), dense output",
+            "ode_solvers in Rust: Dormand-Prince 5(4) with dense output",
             # Built for the processor at hand it is no faster.
             Cargo(PEERS / "rust", ("--target-dir", str(WORK / "rust")), WORK / "rust" / "release" / "flap-peer"),
         ),
         Peer("cyrk", "CyRK (Python, C++), RK45", Python("cyrk_rk45.py", (NUMPY, NUMBA, "CyRK==0.20.0"))),
         Peer(
             "heyoka",
-            "heyoka (Python, LLVM), Taylor in lanes, kinks as events",
+            "heyoka in Python: Taylor series in lanes, kinks located as events",
             Python("heyoka_taylor.py", (NUMPY, "heyoka==7.13.2")),
         ),
         Peer(
             "scipy",
-            "SciPy solve_ivp, RK45, plain Python",
+            "SciPy solve_ivp: RK45 in plain Python",
             Python("scipy_rk45.py", (NUMPY, SCIPY)),
             most_points=8,
         ),
         Peer(
             "numba_rk4",
-            "RK4 by hand (Python, numba)",
+            "handwritten Runge-Kutta 4 in Python with numba",
             Python("numba_rk4.py", (NUMPY, NUMBA)),
             adaptive=False,
         ),
         Peer(
             "rk4_lanes",
-            "RK4 by hand in lanes (C++): an upper mark",
+            "handwritten Runge-Kutta 4 in lanes in C++",
             Cpp(
                 "rk4_lanes.cpp",
                 ("-O3", processor_flag("native"), "-ffast-math", "-fopenmp-simd", "-mprefer-vector-width=512"),

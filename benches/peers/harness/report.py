@@ -30,9 +30,9 @@ class Row:
         """Notes on the line for its reader."""
         remarks = []
         if not self.timing.peer.adaptive:
-            remarks.append("fixed step, no error control")
+            remarks.append("fixed step without error control")
         if self.timing.points < of:
-            remarks.append(f"{self.timing.points} of {of} points: slow")
+            remarks.append(f"{self.timing.points} of {of} points, because the solver is slow")
         if self.integration is not None:
             if self.integration.missing:
                 remarks.append(f"{self.integration.missing} POINTS WITHOUT AN ANSWER")

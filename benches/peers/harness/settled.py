@@ -14,7 +14,7 @@ COMMAND = Cargo(REPOSITORY, ("-p", "flap-cli"), TARGET / "release" / "flap")
 
 BASE = Peer(
     "boost",
-    "Boost.Odeint (C++), DP5(4), strobe test",
+    "Boost.Odeint in C++: Dormand-Prince 5(4), marching",
     Cpp("settled_boost.cpp", ("-O3", processor_flag("x86-64-v3")), BOOST),
 )
 
@@ -29,19 +29,19 @@ PEERS_IN_TURN: tuple[Peer, ...] = (
     ),
     Peer(
         "scipy",
-        "SciPy solve_ivp, RK45, plain Python, strobe test",
+        "SciPy solve_ivp: RK45 in plain Python, marching",
         Python("settled_scipy.py", (NUMPY, SCIPY)),
         most_points=16,
     ),
     Peer(
         "numba_rk4",
-        "RK4 by hand (Python, numba), strobe test",
+        "handwritten Runge-Kutta 4 in Python with numba, marching",
         Python("settled_numba.py", (NUMPY, NUMBA)),
         adaptive=False,
     ),
     Peer(
         "rk4_lanes",
-        "RK4 by hand in lanes (C++), strobe test: an upper mark",
+        "handwritten Runge-Kutta 4 in lanes in C++, marching",
         Cpp(
             "settled_rk4_lanes.cpp",
             ("-O3", processor_flag("native"), "-ffast-math", "-fopenmp-simd", "-mprefer-vector-width=512"),
