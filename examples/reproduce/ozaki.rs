@@ -25,7 +25,7 @@ pub(crate) const PAPER: Paper = Paper {
                       These errors are -0.7 % and 3.8 % of the measured frequencies, 210 Hz and 105 Hz.\n\
                       If a row does not give another duration, the fit covers 4 periods of small motions.\n\
                       The impulses are sized so that the stroke of small motions without damping would reach 0.3, 0.5 and 0.8 rad.\n\
-                      The duration and the impulses were chosen after the results were known.",
+                      The duration of the fit and the sizes of the impulses were chosen after the results were known.",
             quick: true,
             claims: resonance::calculated,
         },
@@ -33,7 +33,7 @@ pub(crate) const PAPER: Paper = Paper {
             title: "Resonance, driven",
             preface: "The paper does not give the drive voltage of the measured resonance frequencies.\n\
                       Each row gives the computed resonance frequencies at the lowest and at the highest drive voltage of the paper.\n\
-                      The verdict uses the frequency in the range between these two frequencies that is nearest to the published frequency.\n\
+                      The verdict compares the published frequency with the nearest frequency in the range from the lowest to the highest voltage.\n\
                       The computed frequency responses of this section have steps of 0.1 Hz.",
             quick: false,
             claims: resonance::driven,

@@ -19,12 +19,12 @@ pub(crate) const PAPER: Paper = Paper {
               - Jimbo, Ozaki, Ohta and Hamaguchi (arXiv 2407.06500)\n\
               - Fuller (RA-L 2019)\n\
               \n\
-              Only the abstracts and first pages of these papers were available.\n\
+              Only the abstracts and first pages of the papers on vehicles were available.\n\
               No available page describes the wings, the actuators and the voltages of a robot completely, and few pages give torques.\n\
               You can therefore compare mostly signs, trends and ratios of the torques.\n\
               \n\
               If a section does not describe another vehicle, the vehicle has two wings of the preset `jafferis2016` at 200 V and 120 Hz.\n\
-              [Forces and torques of vehicles](../how-to/vehicle.md) describes how to simulate such a vehicle.\n\
+              [Forces and torques of vehicles](../how-to/vehicle.md) describes how to simulate a vehicle with several wings.\n\
               The shoulders of the two wings are 1.5 mm left and right of the middle of the vehicle.\n\
               Torques act about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
               A positive roll torque lifts the left side of the vehicle.\n\

@@ -19,7 +19,7 @@ pub(super) fn claims() -> Vec<Claim> {
             said("II-C", statement, "2800").is(
                 &assumed(2800.0, 50.0),
                 reynolds,
-                format!("{:.0} at the largest stroke rate", 10.0 * (reynolds / 10.0).round()),
+                format!("Reynolds number {:.0} at the largest stroke rate", 10.0 * (reynolds / 10.0).round()),
             )
         })
         .into()

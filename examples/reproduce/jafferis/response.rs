@@ -118,7 +118,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
         claims.push(
             said(
                 "III-A",
-                format!("frequency of the largest stroke at 160 V, {name} divided by T₁, if the frequency is proportional to 1/T"),
+                format!("frequency of the largest stroke at 160 V, design {name} divided by design T₁, if the frequency is proportional to 1/T"),
                 format!("{:.2}", 1.0 / ratio),
             )
             .is(
@@ -133,7 +133,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
             claims.push(
                 said(
                     "III-A",
-                    format!("largest mean lift at {voltage} V, {name} divided by T₁, if the lift is proportional to 1/T^1.47"),
+                    format!("largest mean lift at {voltage} V, design {name} divided by design T₁, if the lift is proportional to 1/T^1.47"),
                     format!("{expected:.2}"),
                 )
                 .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
@@ -144,7 +144,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
             |response: &Response| response.peak("vehicle_lift_mgf").1.get("efficiency_capacitive_gf_per_w");
         let gain = efficiency(&scaled[V_160]) / efficiency(&t_1[V_160]);
         claims.push(
-            said("III-A", format!("lift per power at the largest lift with 160 V, {name} divided by T₁, if lift per power is proportional to 1/T^0.47"), format!("{expected:.2}"))
+            said("III-A", format!("lift per power at the largest lift with 160 V, design {name} divided by design T₁, if lift per power is proportional to 1/T^0.47"), format!("{expected:.2}"))
                 .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
         );
     }
@@ -153,7 +153,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
     claims.push(
         said(
             "IV",
-            "lift of the vehicle with T₂, which the paper scales from 140 mg (the agreement is chance)",
+            "lift of the vehicle with T₂; the paper scales this lift from 140 mg (the agreement with flap is chance)",
             "~290 mg",
         )
         .is(&about(290.0, 5.0), predicted, format!("{predicted:.1} mg at 200 V, {at:.0} Hz")),

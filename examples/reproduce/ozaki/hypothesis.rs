@@ -83,6 +83,6 @@ fn efficiencies(hypothesis: &str, small: &Type, large: &Type) -> Vec<Claim> {
             format!("the small type is more efficient than the large type{hypothesis}"),
             "10.8 > 7.31 gf/W",
         )
-        .holds(s > l, format!("small type {s:.2} gf/W, large type {l:.2} gf/W")),
+        .holds(s > l, format!("efficiency {s:.2} gf/W (small type) and {l:.2} gf/W (large type)")),
     ]
 }

@@ -29,7 +29,10 @@ pub(super) fn claims() -> Vec<Claim> {
             format!("{l_50:.2} gf/W"),
         ),
         said("4.3, Fig. 17", "the small type is more efficient than the large type", "10.8 > 7.31 gf/W")
-            .holds(s_30 > l_50, format!("small type {s_30:.2} gf/W, large type {l_50:.2} gf/W")),
+            .holds(
+                s_30 > l_50,
+                format!("efficiency {s_30:.2} gf/W (small type) and {l_50:.2} gf/W (large type)"),
+            ),
         said("4.3, Fig. 17", "the efficiency of the small type falls as the voltage rises", "falls")
             .holds(s_30 < s_15, format!("{s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V")),
         said("4.3, Fig. 17", "the efficiency of the large type falls as the voltage rises", "falls")
