@@ -70,7 +70,7 @@ pub(super) fn claims() -> Vec<Claim> {
         )
         .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
         said("2407.00217, 2604.22121", "sizes of the roll and pitch torques in µN·m", "drawn").cannot_be_checked(
-            "the available text gives neither sizes of torques nor voltages",
+            "the available text of the papers gives neither sizes of torques nor voltages",
             {
                 let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
                 format!("range {roll:.2} µN·m of the roll torque and range {pitch:.2} µN·m of the pitch torque")

@@ -39,7 +39,7 @@ pub(super) fn claims() -> Vec<Claim> {
             format!("{} with a second harmonic of {SHARE} times the amplitude that leads by {phase:.0}°", shown(yaw)),
         ),
         said("Ma and others", "sizes of the roll, pitch and yaw torques", "drawn")
-            .cannot_be_checked("the available text gives neither sizes of torques nor voltages", ""),
+            .cannot_be_checked("the available text of the papers gives neither sizes of torques nor voltages", ""),
         said("Ma and others, abstract", "peak lift of the robot of Ma and others with a mass of 70 mg", "1.3 mN").cannot_be_checked(
             "the available text gives no voltage, and the robot has other wings and actuators than the simulated vehicle",
             format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
