@@ -14,7 +14,7 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Arabagi, Hines and Sitti (2013)",
-    preface: "The model for this paper is `four-bar`.\n\
+    preface: "The model for the paper of Arabagi, Hines and Sitti is `four-bar`.\n\
               The 75 Hz system of the paper is the preset `arabagi2013-75hz`, and the 30 Hz system is the preset `arabagi2013-30hz`.\n\
               The paper describes neither the wings nor the [actuators](../glossary.md#actuator), and gives no numbers for lifts or amplitudes.\n\
               The presets contain assumed wings and actuators, so you can compare only frequencies, trends and ratios.\n\
@@ -41,7 +41,7 @@ pub(crate) const PAPER: Paper = Paper {
         Group { title: "Reynolds number", preface: "", quick: true, claims: reynolds::claims },
         Group {
             title: "Rotation alone",
-            preface: "The rows of this section compute the pitch for a prescribed stroke, which is a sinusoid of the measured amplitude.\n\
+            preface: "The rows about rotation alone compute the pitch for a prescribed stroke, which is a sinusoid of the measured amplitude.\n\
                       The paper does not give the measured stroke amplitude as a number, so each row states an assumed amplitude.\n\
                       The paper measures the lever arms of the air forces from the leading edge instead of the axis of rotation.\n\
                       The preset also measures the lever arms from the leading edge; this choice was made when the trends of the paper were known.\n\

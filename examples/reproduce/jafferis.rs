@@ -13,12 +13,12 @@ use crate::table::{Group, Paper};
 
 pub(crate) const PAPER: Paper = Paper {
     title: "Jafferis, Graule and Wood (2016)",
-    preface: "The [model](../glossary.md#model) for this paper is `bimorph`.\n\
+    preface: "The [model](../glossary.md#model) for the paper of Jafferis, Graule and Wood is `bimorph`.\n\
               The symbol T is the [transmission ratio](../glossary.md#transmission-ratio).\n\
               The design T₁ has the parameters of Table I in the paper (preset `jafferis2016`).\n\
               The designs T₂ and T₃ have 0.8 times and 0.6 times the transmission ratio of T₁, as in Fig. 5 of the paper.\n\
               The redesigned vehicle of the paper is the preset `jafferis2016-improved`.\n\
-              The paper fitted many parameters of Table I to the same vehicle.\n\
+              The paper fitted many parameters of Table I to the vehicle of the paper.\n\
               Agreement therefore tests the transcription of the paper and the corrected equations rather than the physics of the model.",
     groups: &[
         Group { title: "From Table I, without a motion", preface: "", quick: true, claims: design::claims },

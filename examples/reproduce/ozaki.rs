@@ -12,7 +12,7 @@ use crate::table::{Group, Paper};
 pub(crate) const PAPER: Paper = Paper {
     title: "Ozaki and Hamaguchi (2018)",
     preface: "The paper describes a small and a large type of one actuator with a wing.\n\
-              The model for this paper is `direct-drive` with the presets `ozaki2018-small` and `ozaki2018-large`.\n\
+              The model for the paper of Ozaki and Hamaguchi is `direct-drive` with the presets `ozaki2018-small` and `ozaki2018-large`.\n\
               The two presets have the parameters of Table A1 in the paper as printed, except for the sign of y_g.\n\
               The drive voltage is V₀ sin ωt + V₀, and the rows give V₀.",
     groups: &[

@@ -47,7 +47,7 @@ pub(crate) const PAPER: Paper = Paper {
             preface: "The robot of Weber, Dhingra and Fuller is the UW RoboFly with a mass of 180 mg.\n\
                       The roll command is a difference of the drive voltages (left minus right) from -40 V to 40 V.\n\
                       The pitch command is a bias voltage of both wings from -20 V to 20 V.\n\
-                      Five values of each command give 25 combinations.\n\
+                      Five values of the roll command and five values of the pitch command give 25 combinations.\n\
                       The ranges of both commands are assumed.",
             quick: true,
             claims: coupling::claims,
@@ -66,7 +66,7 @@ pub(crate) const PAPER: Paper = Paper {
                       Each wing is 10 mm in front of or behind the middle of the vehicle, and 10 mm left or right of the middle.\n\
                       The front wings are tilted backward by 10°, and the rear wings are tilted forward by 10°.\n\
                       The robot of Fuller has a mass of 143 mg and is represented by four wings of the preset `jafferis2016`.\n\
-                      The arrangements of the wings in both vehicles are assumed.",
+                      The arrangements of the wings in both four-wing vehicles are assumed.",
             quick: true,
             claims: tilted::claims,
         },

@@ -54,10 +54,10 @@ fn hinge() -> Vec<Claim> {
     vec![
         said("VI, Fig. 14", "the lift falls as the hinge stiffness grows from 30 to 120 mN·mm", "falls").holds(
             lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
-            format!("{l_30:.2} mN at 30 mN·mm, {l_50:.2} mN at 50 mN·mm, {l_80:.2} mN at 80 mN·mm, {l_120:.2} mN at 120 mN·mm. The lift is largest at {best:.0} mN·mm"),
+            format!("lift {l_30:.2} mN at 30 mN·mm, {l_50:.2} mN at 50 mN·mm, {l_80:.2} mN at 80 mN·mm, {l_120:.2} mN at 120 mN·mm. The lift is largest at {best:.0} mN·mm"),
         ),
         said("VI, Fig. 14", "the stroke grows as the hinge stiffness grows", "grows")
-            .holds(s_120 > s_30, format!("{s_30:.1}° at 30 mN·mm, {s_120:.1}° at 120 mN·mm, peak to peak")),
+            .holds(s_120 > s_30, format!("stroke {s_30:.1}° at 30 mN·mm, {s_120:.1}° at 120 mN·mm, peak to peak")),
     ]
 }
 
@@ -106,7 +106,7 @@ fn series(system: fn() -> System) -> Claim {
     .holds(
         soft.0 < base.0 && base.0 < stiff.0 && soft.1 < base.1 && base.1 < stiff.1,
         format!(
-            "first peak at {:.1} Hz and largest lift {:.2} mN with 300 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with 1400 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with 1650 N/m",
+            "first peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 300 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 1400 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 1650 N/m",
             soft.0, soft.1, base.0, base.1, stiff.0, stiff.1
         ),
     )

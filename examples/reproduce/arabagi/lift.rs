@@ -43,7 +43,7 @@ fn largest(system: &System, response: &Response, resonance: f64) -> Claim {
     .is(
         &between(10.0, 20.0),
         frequency - resonance,
-        format!("{:.1} Hz (largest lift at {frequency:.1} Hz)", frequency - resonance),
+        format!("difference of {:.1} Hz (largest lift at {frequency:.1} Hz)", frequency - resonance),
     )
 }
 

@@ -33,7 +33,7 @@ pub(super) fn claims() -> Vec<Claim> {
         )
         .holds(
             peak(&humps_75, 1) < second_75,
-            format!("{second_75:.0} Hz at 20 V, {:.0} Hz at 150 V", peak(&humps_75, 1)),
+            format!("second peak at {second_75:.0} Hz with 20 V, at {:.0} Hz with 150 V", peak(&humps_75, 1)),
         ),
         frequency(
             "V-A, Fig. 9",
@@ -60,7 +60,7 @@ pub(super) fn claims() -> Vec<Claim> {
         claims.push(said("V-A", format!("quality factor of the stroke response of the {name}"), "≈ 2").is(
             &assumed(2.0, 0.05),
             quality,
-            format!("{quality:.2} (half-power band from {low:.1} to {high:.1} Hz)"),
+            format!("quality factor {quality:.2} (half-power band from {low:.1} to {high:.1} Hz)"),
         ));
     }
     claims
@@ -83,7 +83,7 @@ pub(super) fn small_motions() -> Vec<Claim> {
             &closely(published, 0.5),
             computed,
             format!(
-                "{computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the undamped mode",
+                "peak at {computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the undamped mode",
                 peak(&pitch, index),
                 modes[index].frequency
             ),

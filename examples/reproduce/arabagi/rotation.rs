@@ -51,7 +51,7 @@ fn lags() -> Vec<Claim> {
         said("V-B, Fig. 10", "measured phase lag of the pitch behind the stroke at 95 Hz", "138°").is(
             &assumed(138.0, 0.5),
             large,
-            format!("{small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke amplitude of 12.5°"),
+            format!("phase lag {small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke amplitude of 12.5°"),
         ),
     ]
 }
@@ -68,7 +68,7 @@ fn parts() -> Vec<Claim> {
         for amplitude in amplitudes {
             let [translation, added_mass] = split(&alone(&system_75(), frequency, *amplitude, Arms::Printed));
             holds &= added_mass > translation;
-            shown.push(format!("Added mass {added_mass:.3} mN and translation {translation:.3} mN at a stroke amplitude of {amplitude}°"));
+            shown.push(format!("Lift of added mass {added_mass:.3} mN and lift of translation {translation:.3} mN at a stroke amplitude of {amplitude}°"));
             let ratio = translation / added_mass;
             half.push(
                 said(
@@ -109,7 +109,7 @@ fn growth() -> Claim {
     .is(
         &assumed(8.0, 0.5),
         growth,
-        format!("{growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke amplitude of 10°, the lift grows {over_10:.1} times"),
+        format!("translational lift {growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke amplitude of 10°, the lift grows {over_10:.1} times"),
     )
 }
 

@@ -74,7 +74,7 @@ fn lift_and_drag() -> Vec<Claim> {
         said("II-A, Fig. 3", "pitch at which the ratio of lift to drag is largest", "~70°").is(
             &about(70.0, 0.5),
             angle,
-            format!("{angle:.1}° with the drag coefficients of Fig. 3, {angle_fitted:.1}° with the fitted coefficients of Table I"),
+            format!("pitch {angle:.1}° with the drag coefficients of Fig. 3, {angle_fitted:.1}° with the fitted coefficients of Table I"),
         ),
         said("III-A, Fig. 3", "ratio of lift to drag at a pitch of 70° divided by the ratio at a pitch of 45° to 50°", "about 1.5").is(
             &about(1.5, 0.05),
@@ -125,7 +125,7 @@ fn strains() -> Vec<Claim> {
         .is(
             &closely(0.079, 0.0005),
             strain,
-            format!("{strain:.4} % at the outer faces of the piezoelectric plates"),
+            format!("strain {strain:.4} % at the outer faces of the piezoelectric plates"),
         ),
         said("IV", "stroke of the previous vehicle, peak to peak, at the actuator strain that the redesigned vehicle has at a stroke of 92°", "115°").is(
             &closely(115.0, 0.5),

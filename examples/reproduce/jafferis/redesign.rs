@@ -12,15 +12,20 @@ pub(super) fn claims() -> Vec<Claim> {
     let (frequency, best) = response.peak("vehicle_lift_mgf");
     let theirs = bench().point(design.to_values());
     // The number at the largest lift, shown with that at 155 Hz.
-    let both = |column: &str, decimals: usize, unit: &str| {
+    let both = |name: &str, column: &str, decimals: usize, unit: &str| {
         let [here, at_155] = [best.get(column), theirs.get(column)];
-        (here, format!("{here:.decimals$}{unit} at {frequency:.0} Hz; {at_155:.decimals$}{unit} at 155 Hz"))
+        (
+            here,
+            format!(
+                "{name} {here:.decimals$}{unit} at {frequency:.0} Hz; {at_155:.decimals$}{unit} at 155 Hz"
+            ),
+        )
     };
-    let (stroke, strokes) = both("stroke_pp_deg", 1, "°");
-    let (angle, angles) = both("pitch_peak_deg", 1, "°");
-    let (lift, lifts) = both("vehicle_lift_mgf", 0, " mg");
-    let (ratio, ratios) = both("efficiency_capacitive_gf_per_w", 1, " mg/mW");
-    let (payload, payloads) = both("payload_mg", 0, " mg");
+    let (stroke, strokes) = both("stroke", "stroke_pp_deg", 1, "°");
+    let (angle, angles) = both("peak pitch", "pitch_peak_deg", 1, "°");
+    let (lift, lifts) = both("mean lift", "vehicle_lift_mgf", 0, " mg");
+    let (ratio, ratios) = both("lift per power", "efficiency_capacitive_gf_per_w", 1, " mg/mW");
+    let (payload, payloads) = both("payload", "payload_mg", 0, " mg");
     let power = 2.0 * theirs.get("power_capacitive_mw");
     vec![
         said("IV", "resonance frequency of the redesigned vehicle", "around 160 Hz").is(

@@ -44,9 +44,9 @@ fn regimes() -> Vec<Claim> {
         said("II-A (c), Fig. 4a", "at a medium drive force, the frequency response of the stroke has a broad peak, then a sharp peak", "two peaks")
             .holds(humps.len() == 2, format!("peaks at {} Hz with a voltage of 140 V", list(&humps))),
         said("II-A (c)", "the frequency of the sharp stroke peak falls as the drive force grows", "falls")
-            .holds(f_high < f_sharp, format!("{f_sharp:.0} Hz at 160 V, {f_high:.0} Hz at 200 V")),
+            .holds(f_high < f_sharp, format!("sharp peak at {f_sharp:.0} Hz for 160 V, at {f_high:.0} Hz for 200 V")),
         said("II-A (c)", "the stroke per volt at the sharp peak rises as the drive force grows", "rises")
-            .holds(r_high > r_sharp && r_sharp > r_low, format!("{r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V")),
+            .holds(r_high > r_sharp && r_sharp > r_low, format!("stroke per volt {r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V")),
     ]
 }
 
@@ -65,7 +65,7 @@ fn steep_rise(families: &Families) -> Claim {
         .is(
             &about(50.0, 0.5),
             farther_from(50.0, low, high),
-            format!("{low:.1}° to {high:.1}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
+            format!("peak pitch {low:.1}° to {high:.1}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
         )
 }
 
@@ -84,7 +84,7 @@ fn phase(families: &Families) -> Claim {
     .is(
         &about(90.0, 0.5),
         farther_from(90.0, low, high),
-        format!("{low:.0}° to {high:.0}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
+        format!("phase difference {low:.0}° to {high:.0}° for the designs T₁, T₂ and T₃ at 160 to 240 V"),
     )
 }
 
@@ -156,7 +156,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
             "lift of the vehicle with T₂; the paper scales this lift from 140 mg (the agreement with flap is chance)",
             "~290 mg",
         )
-        .is(&about(290.0, 5.0), predicted, format!("{predicted:.1} mg at 200 V, {at:.0} Hz")),
+        .is(&about(290.0, 5.0), predicted, format!("lift {predicted:.1} mg at 200 V and {at:.0} Hz")),
     );
     claims
 }

@@ -34,9 +34,9 @@ pub(super) fn claims() -> Vec<Claim> {
                 format!("efficiency {s_30:.2} gf/W (small type) and {l_50:.2} gf/W (large type)"),
             ),
         said("4.3, Fig. 17", "the efficiency of the small type falls as the voltage rises", "falls")
-            .holds(s_30 < s_15, format!("{s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V")),
+            .holds(s_30 < s_15, format!("efficiency {s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V")),
         said("4.3, Fig. 17", "the efficiency of the large type falls as the voltage rises", "falls")
-            .holds(l_50 < l_20, format!("{l_20:.2} gf/W at 20 V, {l_50:.2} gf/W at 50 V")),
+            .holds(l_50 < l_20, format!("efficiency {l_20:.2} gf/W at 20 V, {l_50:.2} gf/W at 50 V")),
         said(
             "4.3",
             "errors of the calculated stroke, pitch, lift and power in the paper",

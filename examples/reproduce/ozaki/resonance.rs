@@ -33,7 +33,7 @@ pub(super) fn calculated() -> Vec<Claim> {
         &about(2.0, 0.05),
         ratios[MIDDLE],
         format!(
-            "{:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, {:.2} for small motions",
+            "ratio {:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, {:.2} for small motions",
             ratios[MIDDLE],
             ratios[0],
             ratios[2],
@@ -56,7 +56,7 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "{:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
+                "resonance frequency {:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms
@@ -78,7 +78,7 @@ pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Pu
         &closely(published.frequency, 0.5),
         middle,
         format!(
-            "{middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
+            "resonance frequency {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
             mode(actuator)
         ),
     )
@@ -128,6 +128,6 @@ fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published:
     .is(
         &closely(published.frequency, 0.5),
         published.frequency.clamp(low.min(high), low.max(high)),
-        format!("{low:.1} Hz at {v_low:.0} V, {high:.1} Hz at {v_high:.0} V"),
+        format!("largest stroke at {low:.1} Hz with {v_low:.0} V, at {high:.1} Hz with {v_high:.0} V"),
     )
 }

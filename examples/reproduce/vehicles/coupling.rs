@@ -40,12 +40,12 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2604.22121, abstract", "R² of a straight line through pitch torque against pitch command", "0.95").is(
             &assumed(0.95, 0.005),
             of_pitch,
-            format!("{of_pitch:.3}, which is {:.2} times the published R²", of_pitch / 0.95),
+            format!("R² = {of_pitch:.3}, which is {:.2} times the published R²", of_pitch / 0.95),
         ),
         said("2604.22121, abstract", "R² of a straight line through roll torque against roll command", "0.98").is(
             &assumed(0.98, 0.005),
             of_roll,
-            format!("{of_roll:.3}, which is {:.2} times the published R²", of_roll / 0.98),
+            format!("R² = {of_roll:.3}, which is {:.2} times the published R²", of_roll / 0.98),
         ),
         said("2604.22121, abstract", "correlations of the roll torque with the pitch command and of the pitch torque with the roll command", "-0.001, -0.085")
             .holds(

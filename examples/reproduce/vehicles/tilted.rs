@@ -52,7 +52,7 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2407.06500", "torques of the vehicle and tilt of the wings", "drawn")
             .cannot_be_checked("the available text gives neither torques nor tilt", ""),
         said("Fuller, abstract", "payload of the robot of Fuller with four wings", "> 260 mg")
-            .holds(payload > 260.0, format!("{payload:.0} mg at 200 V and 120 Hz")),
+            .holds(payload > 260.0, format!("payload {payload:.0} mg at 200 V and 120 Hz")),
     ]
 }
 
