@@ -64,11 +64,17 @@ fn response(p: &Params, drive_voltage_pp: f64, [from, to]: [f64; 2]) -> Response
 
 fn unchecked() -> Vec<Claim> {
     vec![
-        said("Figs. 4, 7", "measured strokes, pitches and lifts", "drawn")
-            .cannot_be_checked("the text of the paper gives neither the measured numbers nor the voltages", ""),
+        said("Figs. 4, 7", "measured strokes, pitches and lifts", "drawn").cannot_be_checked(
+            "the text of the paper gives neither the measured numbers nor the voltages",
+            "",
+        ),
         said("II-C", "peak-to-peak deflection of the actuator at a constant voltage (DC)", "about 480 µm")
             .cannot_be_checked("the text of the paper gives no voltage", ""),
         said("Table II", "lift and lift per power of the previous vehicle", "140 mg, 7 mg/mW")
-            .cannot_be_checked("the actuators of the previous vehicle differ from Table I, and the paper does not describe them", ""),
+            .cannot_be_checked(
+                "the actuators of the previous vehicle differ from Table I, and the paper does not \
+                 describe them",
+                "",
+            ),
     ]
 }

@@ -50,7 +50,7 @@ A fixed rule computes each verdict from the published number and the computed nu
 | a number that the paper measured | 20 % |
 | any other number of a robot whose wing and actuator are assumed | 25 % |
 
-These limits were chosen after the computed numbers were known.
+The limits in this table were chosen after the computed numbers were known.
 Judge the agreement by X and by the computed number rather than by the verdict.
 
 The pages on the models list all assumptions and all corrections to the equations of the papers: [direct drive](../models/direct-drive.md), [bimorph](../models/bimorph.md) and [four-bar](../models/four-bar.md).

@@ -35,7 +35,10 @@ fn voltage() -> Claim {
     said("VI, Fig. 13", "the lift of the 75 Hz system is linear in the drive voltage", "linear").is(
         &about(1.0, 0.01),
         all,
-        format!("R² of a straight line is {all:.3} from 20 to 200 V and {upper:.3} from 100 to 200 V. Near 150 V, the lift is proportional to V^{exponent:.1}"),
+        format!(
+            "R² of a straight line is {all:.3} from 20 to 200 V and {upper:.3} from 100 to 200 \
+             V. Near 150 V, the lift is proportional to V^{exponent:.1}"
+        ),
     )
 }
 
@@ -52,12 +55,18 @@ fn hinge() -> Vec<Claim> {
     let [s_30, s_120] = [30.0, 120.0].map(|stiffness| at(&strokes, stiffness));
     let (best, _) = response.peak(LIFT);
     vec![
-        said("VI, Fig. 14", "the lift falls as the hinge stiffness grows from 30 to 120 mN·mm", "falls").holds(
-            lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
-            format!("lift {l_30:.2} mN at 30 mN·mm, {l_50:.2} mN at 50 mN·mm, {l_80:.2} mN at 80 mN·mm, {l_120:.2} mN at 120 mN·mm. The lift is largest at {best:.0} mN·mm"),
+        said("VI, Fig. 14", "the lift falls as the hinge stiffness grows from 30 to 120 mN·mm", "falls")
+            .holds(
+                lifts.windows(2).filter(|pair| pair[0].0 >= 30.0).all(|pair| pair[1].1 < pair[0].1),
+                format!(
+                    "lift {l_30:.2} mN at 30 mN·mm, {l_50:.2} mN at 50 mN·mm, {l_80:.2} mN at 80 mN·mm, \
+                     {l_120:.2} mN at 120 mN·mm. The lift is largest at {best:.0} mN·mm"
+                ),
+            ),
+        said("VI, Fig. 14", "the stroke grows as the hinge stiffness grows", "grows").holds(
+            s_120 > s_30,
+            format!("stroke {s_30:.1}° at 30 mN·mm, {s_120:.1}° at 120 mN·mm, peak to peak"),
         ),
-        said("VI, Fig. 14", "the stroke grows as the hinge stiffness grows", "grows")
-            .holds(s_120 > s_30, format!("stroke {s_30:.1}° at 30 mN·mm, {s_120:.1}° at 120 mN·mm, peak to peak")),
     ]
 }
 
@@ -100,13 +109,19 @@ fn series(system: fn() -> System) -> Claim {
     });
     said(
         "V, Figs. 9 and 11",
-        format!("the first stroke peak and the lift of the {} are sensitive to the slider-crank stiffness k_sc from 300 to 1650 N/m", system().name),
+        format!(
+            "the first stroke peak and the lift of the {} are sensitive to the slider-crank \
+             stiffness k_sc from 300 to 1650 N/m",
+            system().name
+        ),
         "sensitive",
     )
     .holds(
         soft.0 < base.0 && base.0 < stiff.0 && soft.1 < base.1 && base.1 < stiff.1,
         format!(
-            "first peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 300 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 1400 N/m. First peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 1650 N/m",
+            "first peak at {:.1} Hz and largest lift {:.2} mN with k_sc = 300 N/m. First peak at \
+             {:.1} Hz and largest lift {:.2} mN with k_sc = 1400 N/m. First peak at {:.1} Hz and \
+             largest lift {:.2} mN with k_sc = 1650 N/m",
             soft.0, soft.1, base.0, base.1, stiff.0, stiff.1
         ),
     )

@@ -23,10 +23,21 @@ fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
     let mut rising = response.column(LIFT);
     rising.retain(|(frequency, _)| (0.7 * resonance..=resonance).contains(frequency));
     let straightness = straightness(&rising);
-    said("VI", format!("the lift of the {} rises linearly with the frequency up to the first resonance", system.name), "linearly").is(
+    said(
+        "VI",
+        format!(
+            "the lift of the {} rises linearly with the frequency up to the first resonance",
+            system.name
+        ),
+        "linearly",
+    )
+    .is(
         &about(1.0, 0.01),
         straightness,
-        format!("a straight line from 0.7 times the resonance frequency to the resonance has R² = {straightness:.3}"),
+        format!(
+            "a straight line from 0.7 times the resonance frequency to the resonance has R² = \
+             {straightness:.3}"
+        ),
     )
 }
 
@@ -60,7 +71,8 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
     said(
         "V-C",
         format!(
-            "(S) above the frequency of the largest lift, the lift of the {} falls sharply as the phase lag of the pitch grows",
+            "(S) above the frequency of the largest lift, the lift of the {} falls sharply as \
+             the phase lag of the pitch grows",
             system.name
         ),
         "lag grows to 180°",

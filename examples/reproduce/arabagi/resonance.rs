@@ -83,7 +83,8 @@ pub(super) fn small_motions() -> Vec<Claim> {
             &closely(published, 0.5),
             computed,
             format!(
-                "peak at {computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the undamped mode",
+                "peak at {computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the \
+                 undamped mode",
                 peak(&pitch, index),
                 modes[index].frequency
             ),

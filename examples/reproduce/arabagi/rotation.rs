@@ -51,7 +51,10 @@ fn lags() -> Vec<Claim> {
         said("V-B, Fig. 10", "measured phase lag of the pitch behind the stroke at 95 Hz", "138°").is(
             &assumed(138.0, 0.5),
             large,
-            format!("phase lag {small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke amplitude of 12.5°"),
+            format!(
+                "phase lag {small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke \
+                 amplitude of 12.5°"
+            ),
         ),
     ]
 }
@@ -68,12 +71,18 @@ fn parts() -> Vec<Claim> {
         for amplitude in amplitudes {
             let [translation, added_mass] = split(&alone(&system_75(), frequency, *amplitude, Arms::Printed));
             holds &= added_mass > translation;
-            shown.push(format!("Lift of added mass {added_mass:.3} mN and lift of translation {translation:.3} mN at a stroke amplitude of {amplitude}°"));
+            shown.push(format!(
+                "Lift of added mass {added_mass:.3} mN and lift of translation {translation:.3} mN \
+                 at a stroke amplitude of {amplitude}°"
+            ));
             let ratio = translation / added_mass;
             half.push(
                 said(
                     PLACE,
-                    format!("lift of translation divided by lift of added mass in the 75 Hz system at {frequency} Hz and a stroke amplitude of {amplitude}°"),
+                    format!(
+                        "lift of translation divided by lift of added mass in the 75 Hz system at \
+                         {frequency} Hz and a stroke amplitude of {amplitude}°"
+                    ),
                     "0.5",
                 )
                 .is(&assumed(0.5, 0.05), ratio, format!("{ratio:.2}")),
@@ -103,13 +112,18 @@ fn growth() -> Claim {
     let [growth, over_10] = [over(amplitude), over(10.0)];
     said(
         "V-B, Figs. 10b, 11",
-        "growth of the translational lift of the 75 Hz system in the full simulation, where the stroke is ≈20° larger, peak to peak",
+        "growth of the translational lift of the 75 Hz system in the full simulation, where \
+         the stroke is ≈20° larger, peak to peak",
         "eightfold",
     )
     .is(
         &assumed(8.0, 0.5),
         growth,
-        format!("translational lift {growth:.1} times the lift at a stroke amplitude of {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke amplitude of 10°, the lift grows {over_10:.1} times"),
+        format!(
+            "translational lift {growth:.1} times the lift at a stroke amplitude of \
+             {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke \
+             amplitude of 10°, the lift grows {over_10:.1} times"
+        ),
     )
 }
 

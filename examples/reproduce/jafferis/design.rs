@@ -43,16 +43,29 @@ fn transmissions() -> Vec<Claim> {
     vec![
         said(
             "II-C",
-            "stiffness of the transmission at a deflection of 480 µm peak to peak, equal to the stiffness of the actuator",
+            "stiffness of the transmission at a deflection of 480 µm peak to peak, equal to the \
+             stiffness of the actuator",
             "197.7 N/m",
         )
         .is(&closely(197.7, 0.05), stiffness, format!("{stiffness:.1} N/m")),
-        said("III-A", "undamped natural frequency of T₂ divided by the natural frequency of T₁, if the resonance is proportional to 1/T", "1.25").is(
+        said(
+            "III-A",
+            "undamped natural frequency of T₂ divided by the natural frequency of T₁, if the \
+             resonance is proportional to 1/T",
+            "1.25",
+        )
+        .is(
             &about(1.25, 0.005),
             t_2 / t_1,
             format!("{:.2} (T₁: {t_1:.1} Hz, T₂: {t_2:.1} Hz)", t_2 / t_1),
         ),
-        said("III-A", "undamped natural frequency of T₃ divided by the natural frequency of T₁, if the resonance is proportional to 1/T", "1.67").is(
+        said(
+            "III-A",
+            "undamped natural frequency of T₃ divided by the natural frequency of T₁, if the \
+             resonance is proportional to 1/T",
+            "1.67",
+        )
+        .is(
             &about(1.0 / 0.6, 0.005),
             t_3 / t_1,
             format!("{:.2} (T₁: {t_1:.1} Hz, T₃: {t_3:.1} Hz)", t_3 / t_1),
@@ -74,18 +87,25 @@ fn lift_and_drag() -> Vec<Claim> {
         said("II-A, Fig. 3", "pitch at which the ratio of lift to drag is largest", "~70°").is(
             &about(70.0, 0.5),
             angle,
-            format!("pitch {angle:.1}° with the drag coefficients of Fig. 3, {angle_fitted:.1}° with the fitted coefficients of Table I"),
+            format!(
+                "pitch {angle:.1}° with the drag coefficients of Fig. 3, {angle_fitted:.1}° with the \
+                 fitted coefficients of Table I"
+            ),
         ),
-        said("III-A, Fig. 3", "ratio of lift to drag at a pitch of 70° divided by the ratio at a pitch of 45° to 50°", "about 1.5").is(
-            &about(1.5, 0.05),
-            gain,
-            format!("{gain:.2}"),
-        ),
-        said("II-A", "peak pitch that gives the largest mean lift if stroke and pitch have a phase difference of 90°", "51°").is(
-            &closely(51.0, 0.5),
-            angle_lift,
-            format!("{angle_lift:.1}°"),
-        ),
+        said(
+            "III-A, Fig. 3",
+            "ratio of lift to drag at a pitch of 70° divided by the ratio at a pitch of 45° to \
+             50°",
+            "about 1.5",
+        )
+        .is(&about(1.5, 0.05), gain, format!("{gain:.2}")),
+        said(
+            "II-A",
+            "peak pitch that gives the largest mean lift if stroke and pitch have a phase \
+             difference of 90°",
+            "51°",
+        )
+        .is(&closely(51.0, 0.5), angle_lift, format!("{angle_lift:.1}°")),
     ]
 }
 
@@ -119,7 +139,8 @@ fn strains() -> Vec<Claim> {
     vec![
         said(
             "Table II, IV",
-            "largest strain of the actuator at a stroke of 92° peak to peak, with a transmission ratio of 2666 rad/m",
+            "largest strain of the actuator at a stroke of 92° peak to peak, with a transmission \
+             ratio of 2666 rad/m",
             "0.079 %",
         )
         .is(
@@ -127,12 +148,20 @@ fn strains() -> Vec<Claim> {
             strain,
             format!("strain {strain:.4} % at the outer faces of the piezoelectric plates"),
         ),
-        said("IV", "stroke of the previous vehicle, peak to peak, at the actuator strain that the redesigned vehicle has at a stroke of 92°", "115°").is(
-            &closely(115.0, 0.5),
-            equal,
-            format!("{equal:.1}°"),
-        ),
-        said("Table II, IV", "excess of the stroke of 115° over the typical stroke of the previous vehicle (at an actuator strain of 0.066 %)", "15 to 25 %").is(
+        said(
+            "IV",
+            "stroke of the previous vehicle, peak to peak, at the actuator strain that the \
+             redesigned vehicle has at a stroke of 92°",
+            "115°",
+        )
+        .is(&closely(115.0, 0.5), equal, format!("{equal:.1}°")),
+        said(
+            "Table II, IV",
+            "excess of the stroke of 115° over the typical stroke of the previous vehicle (at an \
+             actuator strain of 0.066 %)",
+            "15 to 25 %",
+        )
+        .is(
             &between(15.0, 25.0),
             100.0 * (equal / typical - 1.0),
             format!("{:.1} % (typical stroke {typical:.1}°)", 100.0 * (equal / typical - 1.0)),

@@ -37,16 +37,32 @@ fn regimes() -> Vec<Claim> {
     let [(f_low, r_low), (f_sharp, r_sharp), (f_high, r_high)] = [&low, &sharp, &high].map(peak);
     let humps = middle.humps(PER_VOLT);
     vec![
-        said("II-A (a)", "at a low drive force, the frequency response of the stroke has one broad peak", "one peak").holds(
+        said(
+            "II-A (a)",
+            "at a low drive force, the frequency response of the stroke has one broad peak",
+            "one peak",
+        )
+        .holds(
             low.humps(PER_VOLT).len() == 1,
             format!("one peak at 80 V: {r_low:.3}° of stroke per volt at {f_low:.0} Hz"),
         ),
-        said("II-A (c), Fig. 4a", "at a medium drive force, the frequency response of the stroke has a broad peak, then a sharp peak", "two peaks")
-            .holds(humps.len() == 2, format!("peaks at {} Hz with a voltage of 140 V", list(&humps))),
+        said(
+            "II-A (c), Fig. 4a",
+            "at a medium drive force, the frequency response of the stroke has a broad peak, \
+             then a sharp peak",
+            "two peaks",
+        )
+        .holds(humps.len() == 2, format!("peaks at {} Hz with a voltage of 140 V", list(&humps))),
         said("II-A (c)", "the frequency of the sharp stroke peak falls as the drive force grows", "falls")
-            .holds(f_high < f_sharp, format!("sharp peak at {f_sharp:.0} Hz for 160 V, at {f_high:.0} Hz for 200 V")),
+            .holds(
+                f_high < f_sharp,
+                format!("sharp peak at {f_sharp:.0} Hz for 160 V, at {f_high:.0} Hz for 200 V"),
+            ),
         said("II-A (c)", "the stroke per volt at the sharp peak rises as the drive force grows", "rises")
-            .holds(r_high > r_sharp && r_sharp > r_low, format!("stroke per volt {r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V")),
+            .holds(
+                r_high > r_sharp && r_sharp > r_low,
+                format!("stroke per volt {r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V"),
+            ),
     ]
 }
 
@@ -118,7 +134,10 @@ fn scaling(families: &Families) -> Vec<Claim> {
         claims.push(
             said(
                 "III-A",
-                format!("frequency of the largest stroke at 160 V, design {name} divided by design T₁, if the frequency is proportional to 1/T"),
+                format!(
+                    "frequency of the largest stroke at 160 V, design {name} divided by design T₁, if \
+                     the frequency is proportional to 1/T"
+                ),
                 format!("{:.2}", 1.0 / ratio),
             )
             .is(
@@ -133,7 +152,10 @@ fn scaling(families: &Families) -> Vec<Claim> {
             claims.push(
                 said(
                     "III-A",
-                    format!("largest mean lift at {voltage} V, design {name} divided by design T₁, if the lift is proportional to 1/T^1.47"),
+                    format!(
+                        "largest mean lift at {voltage} V, design {name} divided by design T₁, if the lift \
+                         is proportional to 1/T^1.47"
+                    ),
                     format!("{expected:.2}"),
                 )
                 .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
@@ -144,8 +166,15 @@ fn scaling(families: &Families) -> Vec<Claim> {
             |response: &Response| response.peak("vehicle_lift_mgf").1.get("efficiency_capacitive_gf_per_w");
         let gain = efficiency(&scaled[V_160]) / efficiency(&t_1[V_160]);
         claims.push(
-            said("III-A", format!("lift per power at the largest lift with 160 V, design {name} divided by design T₁, if lift per power is proportional to 1/T^0.47"), format!("{expected:.2}"))
-                .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
+            said(
+                "III-A",
+                format!(
+                    "lift per power at the largest lift with 160 V, design {name} divided by design T₁, \
+                     if lift per power is proportional to 1/T^0.47"
+                ),
+                format!("{expected:.2}"),
+            )
+            .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
         );
     }
     let (at, best) = t_2[V_200].peak("vehicle_lift_mgf");
@@ -153,7 +182,8 @@ fn scaling(families: &Families) -> Vec<Claim> {
     claims.push(
         said(
             "IV",
-            "lift of the vehicle with T₂; the paper scales this lift from 140 mg (the agreement with flap is chance)",
+            "lift of the vehicle with T₂; the paper scales this lift from 140 mg (the agreement \
+             with flap is chance)",
             "~290 mg",
         )
         .is(&about(290.0, 5.0), predicted, format!("lift {predicted:.1} mg at 200 V and {at:.0} Hz")),

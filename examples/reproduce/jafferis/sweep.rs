@@ -42,11 +42,19 @@ fn as_settled() -> Claim {
     let (frequency, point) = settled.peak("stroke_pp_deg");
     let stroke = point.get("stroke_pp_deg");
     let farther = if (up - stroke).abs() > (down - stroke).abs() { up } else { down };
-    said("Eq. (7)", "the paper measures the largest stroke in a frequency sweep of 15 Hz/s instead of settled motions (computed for T₁ at 160 V)", "a sweep").is(
+    said(
+        "Eq. (7)",
+        "the paper measures the largest stroke in a frequency sweep of 15 Hz/s instead of \
+         settled motions (computed for T₁ at 160 V)",
+        "a sweep",
+    )
+    .is(
         &closely(stroke, 0.0),
         farther,
         format!(
-            "largest stroke {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at {f_down:.0} Hz with falling frequency, {stroke:.1}° at {frequency:.0} Hz with settled motions"
+            "largest stroke {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at \
+             {f_down:.0} Hz with falling frequency, {stroke:.1}° at {frequency:.0} Hz with \
+             settled motions"
         ),
     )
 }
@@ -66,7 +74,8 @@ fn soft_hinge() -> Claim {
     };
     let [up, down] = apart(&soft);
     let [up_1, down_1] = apart(&table_1);
-    said("III-A", "scaling of the transmission ratio fails as the natural frequencies of pitch and stroke approach each other", "not sustainable")
+    said("III-A", "scaling of the transmission ratio fails as the natural frequencies of pitch and \
+                   stroke approach each other", "not sustainable")
         .holds(
             (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
             format!(

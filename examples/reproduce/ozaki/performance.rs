@@ -62,7 +62,8 @@ fn drawn(actuator: &Type, v_0: f64, point: &Settled) -> Claim {
         point.get("power_mean_mw"),
     );
     let statement = format!(
-        "amplitudes of stroke and pitch, mean lift and mean power of the {name} type at {v_0:.0} V and {frequency:.0} Hz"
+        "amplitudes of stroke and pitch, mean lift and mean power of the {name} type at \
+         {v_0:.0} V and {frequency:.0} Hz"
     );
     said("Figs. 13 to 16", statement, "drawn")
         .cannot_be_checked("the paper shows the calculated curves only in figures", computed)

@@ -29,17 +29,26 @@ pub(super) fn calculated() -> Vec<Claim> {
     let mut claims = by_size(&small, &SMALL);
     claims.extend(by_size(&large, &LARGE));
     let ratios = IMPULSES.map(|impulse| fitted(&small, impulse, WINDOW) / fitted(&large, impulse, WINDOW));
-    claims.push(said("4.2", "resonance frequency of the small type divided by the resonance frequency of the large type", "roughly 2").is(
-        &about(2.0, 0.05),
-        ratios[MIDDLE],
-        format!(
-            "ratio {:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, {:.2} for small motions",
+    claims.push(
+        said(
+            "4.2",
+            "resonance frequency of the small type divided by the resonance frequency of the \
+             large type",
+            "roughly 2",
+        )
+        .is(
+            &about(2.0, 0.05),
             ratios[MIDDLE],
-            ratios[0],
-            ratios[2],
-            mode(&small) / mode(&large)
+            format!(
+                "ratio {:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, \
+                 {:.2} for small motions",
+                ratios[MIDDLE],
+                ratios[0],
+                ratios[2],
+                mode(&small) / mode(&large)
+            ),
         ),
-    ));
+    );
     claims
 }
 
@@ -56,7 +65,8 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "resonance frequency {:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
+                "resonance frequency {:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} \
+                 %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms
@@ -71,14 +81,19 @@ pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Pu
     let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
     said(
         "4.2, Fig. 10",
-        format!("calculated resonance frequency of the {} type after an impulse of 0.5 rad{hypothesis}", actuator.name),
+        format!(
+            "calculated resonance frequency of the {} type after an impulse of 0.5 \
+             rad{hypothesis}",
+            actuator.name
+        ),
         published.shown,
     )
     .is(
         &closely(published.frequency, 0.5),
         middle,
         format!(
-            "resonance frequency {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
+            "resonance frequency {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with \
+             0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
             mode(actuator)
         ),
     )

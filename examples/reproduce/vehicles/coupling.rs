@@ -37,21 +37,36 @@ pub(super) fn claims() -> Vec<Claim> {
     let roll_moved = coupled(&rolls, |a, b| a.difference == b.difference);
     let pitch_moved = coupled(&pitches, |a, b| a.bias == b.bias);
     vec![
-        said("2604.22121, abstract", "R² of a straight line through pitch torque against pitch command", "0.95").is(
+        said(
+            "2604.22121, abstract",
+            "R² of a straight line through pitch torque against pitch command",
+            "0.95",
+        )
+        .is(
             &assumed(0.95, 0.005),
             of_pitch,
             format!("R² = {of_pitch:.3}, which is {:.2} times the published R²", of_pitch / 0.95),
         ),
-        said("2604.22121, abstract", "R² of a straight line through roll torque against roll command", "0.98").is(
+        said(
+            "2604.22121, abstract",
+            "R² of a straight line through roll torque against roll command",
+            "0.98",
+        )
+        .is(
             &assumed(0.98, 0.005),
             of_roll,
             format!("R² = {of_roll:.3}, which is {:.2} times the published R²", of_roll / 0.98),
         ),
-        said("2604.22121, abstract", "correlations of the roll torque with the pitch command and of the pitch torque with the roll command", "-0.001, -0.085")
-            .holds(
-                cross.iter().all(|one| one.abs() < 0.0855),
-                format!("correlations with magnitudes {:.3} and {:.3}", cross[0].abs(), cross[1].abs()),
-            ),
+        said(
+            "2604.22121, abstract",
+            "correlations of the roll torque with the pitch command and of the pitch torque with \
+             the roll command",
+            "-0.001, -0.085",
+        )
+        .holds(
+            cross.iter().all(|one| one.abs() < 0.0855),
+            format!("correlations with magnitudes {:.3} and {:.3}", cross[0].abs(), cross[1].abs()),
+        ),
         said("2604.22121, abstract", "largest deviation of the thrust from the mean thrust", "5.8 %").is(
             &between(0.0, 5.8),
             deviation,
@@ -59,23 +74,29 @@ pub(super) fn claims() -> Vec<Claim> {
         ),
         said(
             "2407.00217, abstract",
-            "largest change of the roll torque with the pitch command, relative to the range of the roll torque",
+            "largest change of the roll torque with the pitch command, relative to the range of \
+             the roll torque",
             "8.58 %",
         )
         .is(&between(0.0, 8.58), roll_moved, format!("{roll_moved:.1} %")),
         said(
             "2407.00217, abstract",
-            "largest change of the pitch torque with the roll command, relative to the range of the pitch torque",
+            "largest change of the pitch torque with the roll command, relative to the range of \
+             the pitch torque",
             "17.24 %",
         )
         .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
-        said("2407.00217, 2604.22121", "sizes of the roll and pitch torques in µN·m", "drawn").cannot_be_checked(
-            "the available text of the papers gives neither sizes of torques nor voltages",
-            {
-                let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
-                format!("range {roll:.2} µN·m of the roll torque and range {pitch:.2} µN·m of the pitch torque")
-            },
-        ),
+        said("2407.00217, 2604.22121", "sizes of the roll and pitch torques in µN·m", "drawn")
+            .cannot_be_checked(
+                "the available text of the papers gives neither sizes of torques nor voltages",
+                {
+                    let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
+                    format!(
+                        "range {roll:.2} µN·m of the roll torque and range {pitch:.2} µN·m of the pitch \
+                         torque"
+                    )
+                },
+            ),
     ]
 }
 

@@ -23,25 +23,51 @@ pub(super) fn claims() -> Vec<Claim> {
     let (phase, yaw) = split_cycle();
     let largest = |torques: [f64; 3], of: usize| (0..3).all(|i| torques[i].abs() <= torques[of].abs());
     vec![
-        said("Ma and others, abstract", "two wings with independent drives can make a roll torque", "roll torque").holds(
+        said(
+            "Ma and others, abstract",
+            "two wings with independent drives can make a roll torque",
+            "roll torque",
+        )
+        .holds(
             largest(roll, 0) && roll[0] > 0.0,
             format!("{} with {difference:.0} V more on the left wing", shown(roll)),
         ),
-        said("Ma and others, abstract", "two wings with independent drives can make a pitch torque", "pitch torque").holds(
+        said(
+            "Ma and others, abstract",
+            "two wings with independent drives can make a pitch torque",
+            "pitch torque",
+        )
+        .holds(
             largest(pitch, 1) && pitch[1] < 0.0,
             format!(
                 "{} with a bias voltage of {bias:.0} V. Both strokes move forward and the nose rises",
                 shown(pitch)
             ),
         ),
-        said("Ma and others, abstract", "two wings with independent drives can make a yaw torque by split cycles", "yaw torque").holds(
+        said(
+            "Ma and others, abstract",
+            "two wings with independent drives can make a yaw torque by split cycles",
+            "yaw torque",
+        )
+        .holds(
             largest(yaw, 2),
-            format!("{} with a second harmonic of {SHARE} times the amplitude that leads by {phase:.0}°", shown(yaw)),
+            format!(
+                "{} with a second harmonic of {SHARE} times the amplitude that leads by {phase:.0}°",
+                shown(yaw)
+            ),
         ),
-        said("Ma and others", "sizes of the roll, pitch and yaw torques", "drawn")
-            .cannot_be_checked("the available text of the papers gives neither sizes of torques nor voltages", ""),
-        said("Ma and others, abstract", "peak lift of the robot of Ma and others with a mass of 70 mg", "1.3 mN").cannot_be_checked(
-            "the available text gives no voltage, and the robot has other wings and actuators than the simulated vehicle",
+        said("Ma and others", "sizes of the roll, pitch and yaw torques", "drawn").cannot_be_checked(
+            "the available text of the papers gives neither sizes of torques nor voltages",
+            "",
+        ),
+        said(
+            "Ma and others, abstract",
+            "peak lift of the robot of Ma and others with a mass of 70 mg",
+            "1.3 mN",
+        )
+        .cannot_be_checked(
+            "the available text gives no voltage, and the robot has other wings and actuators \
+             than the simulated vehicle",
             format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
         ),
         of_size("roll", roll[0], &with_less(&rolling, difference)),

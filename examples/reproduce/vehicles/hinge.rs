@@ -39,7 +39,12 @@ pub(super) fn claims() -> Vec<Claim> {
     vec![
         said("abstract", "the yaw torque depends strongly on the stiffness of the wing hinge", "strongly")
             .holds(largest > 2.0 * smallest, shown),
-        said("abstract", "the relation between yaw torque and split cycle changes at a critical stiffness of the wing hinge", "one critical stiffness")
-            .holds(turned.len() == 1, place),
+        said(
+            "abstract",
+            "the relation between yaw torque and split cycle changes at a critical stiffness of \
+             the wing hinge",
+            "one critical stiffness",
+        )
+        .holds(turned.len() == 1, place),
     ]
 }

@@ -29,10 +29,16 @@ pub(super) fn claims() -> Vec<Claim> {
     let share = values.min() / values.max();
     let payload = payload();
     vec![
-        said("2407.06500, abstract", "in a vehicle with tilted wings, the drive amplitudes alone can make a yaw torque", "yaw torque").holds(
+        said(
+            "2407.06500, abstract",
+            "in a vehicle with tilted wings, the drive amplitudes alone can make a yaw torque",
+            "yaw torque",
+        )
+        .holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{}, lift {} mN. One diagonal pair of wings has 1 V more, and the other pair has 1 V less. Without tilt, the yaw torque is {} µN·m",
+                "{}, lift {} mN. One diagonal pair of wings has 1 V more, and the other pair has 1 V \
+                 less. Without tilt, the yaw torque is {} µN·m",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
                 rounded(of_tilted[0]),
                 rounded(of_flat[3])
@@ -46,7 +52,8 @@ pub(super) fn claims() -> Vec<Claim> {
         .holds(
             share > 1e-3,
             format!(
-                "smallest singular value of the control matrix divided by the largest: {share:.3}, where 1 mN counts as 1 µN·m"
+                "smallest singular value of the control matrix divided by the largest: {share:.3}, \
+                 where 1 mN counts as 1 µN·m"
             ),
         ),
         said("2407.06500", "torques of the vehicle and tilt of the wings", "drawn")
