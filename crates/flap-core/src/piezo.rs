@@ -62,8 +62,8 @@ crate::parameters! {
         /// on such actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
         /// Share of the power returned by the actuator that the power supply recovers, between 0 and 1. The share
-        /// affects only the column power_supply_mw. Ozaki and Ohta (2020) measured a share of 0.58 on a capacitive
-        /// load.
+        /// affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power fell to
+        /// 58 %, a share of 0.42 for a capacitive load.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }
