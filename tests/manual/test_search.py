@@ -20,6 +20,8 @@ SEARCHES = {
     "parquet": ["reference/results", "how-to/questions"],
     "slurm": ["how-to/several-machines"],
     "dask": ["how-to/several-machines"],
+    "submitit": ["how-to/several-machines"],
+    "lustre": ["how-to/several-machines"],
     "outline": ["how-to/wings", "learn/1-wing"],
     "tolerance": ["how-to/studies", "learn/5-tolerance"],
     "units": ["reference/grid"],

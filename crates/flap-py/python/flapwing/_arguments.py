@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 from . import _flapwing
 from ._mistakes import reading, refused
 from ._table import Table
-from ._types import Design
+from ._types import Design, Executor
 
 #: The forms that a set of columns may have, for messages.
 COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, polars) or an Arrow table"
@@ -212,8 +213,23 @@ def flag(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def cluster(client: Any) -> Any:
-    """Return the client of a Dask cluster; raise TypeError for a value of another type."""
-    if not hasattr(client, "submit") or not hasattr(client, "nthreads"):
-        raise refused("client", client, "it must be a distributed.Client, the client of a Dask cluster")
-    return client
+def executor(client: Any) -> Executor:
+    """Return an executor, such as the client of a Dask cluster; raise TypeError for another type."""
+    if not callable(getattr(client, "submit", None)) or isinstance(client, type):
+        raise refused(
+            "client",
+            client,
+            "it must be an executor, such as concurrent.futures.ProcessPoolExecutor(), or the client of a Dask cluster",
+        )
+    checked: Executor = client
+    return checked
+
+
+def count(name: str, value: Any) -> int:
+    """Return a whole number; raise TypeError for another type, and ValueError for a number less than 1."""
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise TypeError(f"`{name}` must be a whole number, not {type(value).__name__}")
+    number = operator.index(value)
+    if number < 1:
+        raise ValueError(f"`{name}` must be 1 or more, not {number}")
+    return number

@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
-from . import _arguments, _dask, _flapwing, _mistakes
+from . import _arguments, _flapwing, _mistakes, _workers
 from ._progress import Progress, shown
 from ._table import Table
-from ._types import Design, Measures, Value
+from ._types import Design, Executor, Measures, Value
 
 if TYPE_CHECKING:
     import pandas
     import polars
     import pyarrow
-    from distributed import Client
 
 __all__ = ["evaluate"]
 
@@ -28,7 +27,8 @@ def evaluate(
     *,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
+    points_per_task: SupportsIndex | None = None,
     measures: Measures | None = None,
     gradient: Sequence[str] | None = None,
     initial_state: Mapping[str, Any] | Table | pandas.DataFrame | polars.DataFrame | pyarrow.Table | None = None,
@@ -55,11 +55,12 @@ def evaluate(
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
         of threads does not change the rows.
     progress : bool or function, optional
-        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
-        the points that are done, and all points.
-    client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. The cluster does
-        not change the rows.
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
+        points in all.
+    client : executor, optional
+        Run the points on the workers of an executor, as for `sweep`. Rows are the same.
+    points_per_task : int, optional
+        Number of points in a task of `client`, as for `sweep`.
     measures : list of str, optional
         The measures of the rows. Default: the grid's ``[output]``, else all measures.
     gradient : list of str, optional
@@ -127,7 +128,8 @@ def evaluate(
         if client is None:
             native = _flapwing.evaluate(design, given, threads=threads, progress=show, **options)
         else:
-            native = _dask.evaluate(_arguments.cluster(client), design, options, given, threads, show)
+            there = _arguments.executor(client)
+            native = _workers.evaluate(there, design, options, given, threads, points_per_task, show)
     # Without axes, the table has no grid.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, keywords=keywords)
 

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import Any, SupportsIndex
 
-from . import _dask, _flapwing, _mistakes
+from . import _flapwing, _mistakes, _workers
 from ._native import NativeOptimum
 from ._progress import Progress, one_step, shown
 from ._results import ActiveBound, ConditionValue, LocalOptimum, Optimum, Row
-from ._types import Design, Value
-
-if TYPE_CHECKING:
-    from distributed import Client
+from ._types import Design, Executor, Value
 
 __all__ = ["optimise"]
 
@@ -28,7 +25,7 @@ def optimise(
     sample: SupportsIndex = 4096,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
     **keywords: Value,
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
@@ -56,10 +53,10 @@ def optimise(
     threads : int, optional
         Number of threads, 1 or more. Default: one per core. The number of threads does not change the result.
     progress : bool or function, optional
-        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
-        the points and starts that are done, and all points and starts. With `client`, there is only one step.
-    client : distributed.Client, optional
-        Search on a worker of a Dask cluster, which must have the same build of flapwing.
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points and starts done
+        and in all. With `client`, there is one step.
+    client : executor, optional
+        Search on a worker of an executor, as for `sweep`.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -111,7 +108,7 @@ def optimise(
             found = _flapwing.optimise(design, dict(keywords), progress=show, **options)
     else:
         with one_step(progress):
-            found = _dask.call(client, _flapwing.optimise, design, dict(keywords), **options)
+            found = _workers.call(client, _flapwing.optimise, design, dict(keywords), **options)
     return Optimum(
         status=found["status"],
         goal=goal,

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex
+from typing import SupportsFloat, SupportsIndex
 
-from . import _arguments, _dask, _flapwing
+from . import _arguments, _flapwing, _workers
 from ._native import NativeResonances, NativeRow, NativeTable
 from ._progress import Progress, one_step
 from ._results import DampedSine, DrivenPeak, FrequencyGap, Resonances, Row
 from ._table import Table
-from ._types import Design, InitialState, Record, Value
-
-if TYPE_CHECKING:
-    from distributed import Client
+from ._types import Design, Executor, InitialState, Record, Value
 
 __all__ = ["resonance", "run", "trajectory"]
 
@@ -26,7 +23,7 @@ def run(
     waveform: Record | None = None,
     stroke: Record | None = None,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
     rtol: SupportsFloat | None = None,
     atol: SupportsFloat | None = None,
     settle_tol: SupportsFloat | None = None,
@@ -69,10 +66,9 @@ def run(
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
         pair of arrays (s, rad). The model must have the parameter `stroke_mode`.
     progress : bool or function, optional
-        As for `sweep`; one point is one step of the progress.
-    client : distributed.Client, optional
-        Run the point on a worker of a Dask cluster, which must have the same build of flapwing. The cluster does not
-        change the result.
+        As for `sweep`; a point is one step.
+    client : executor, optional
+        Run the point on a worker of an executor, as for `sweep`. The result is the same.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -129,7 +125,7 @@ def run(
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     search = {"newton": newton, "progressive": progressive, "symmetry": symmetry}
     with one_step(progress):
-        row: NativeRow = _dask.call(
+        row: NativeRow = _workers.call(
             client,
             _flapwing.run,
             design,
@@ -154,7 +150,7 @@ def trajectory(
     stroke: Record | None = None,
     once: bool = False,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
     **keywords: Value,
 ) -> Table:
     """Return the motion of one design point over time, at equally spaced times.
@@ -204,7 +200,7 @@ def trajectory(
     >>> on = flapwing.trajectory("ozaki2018-large", initial_state=motion[-1:], drive_voltage_pp="80 V")
     """
     with one_step(progress):
-        native: NativeTable = _dask.call(
+        native: NativeTable = _workers.call(
             client,
             _flapwing.trajectory,
             design,
@@ -232,7 +228,7 @@ def resonance(
     fit_cycles: SupportsIndex = 4,
     spectrum_window: Value = 1.0,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
     **keywords: Value,
 ) -> Resonances:
     """Compute the resonances of one design point: of small motions, of the free motion after an impulse, and of the
@@ -278,7 +274,7 @@ def resonance(
     110.7
     """
     with one_step(progress):
-        found: NativeResonances = _dask.call(
+        found: NativeResonances = _workers.call(
             client,
             _flapwing.resonance,
             design,

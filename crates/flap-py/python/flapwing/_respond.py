@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import Any, SupportsIndex
 
-from . import _arguments, _dask, _flapwing, _mistakes
+from . import _arguments, _flapwing, _mistakes, _workers
 from ._progress import Progress, shown
 from ._results import BistableBand, Verdict
 from ._table import Table
-from ._types import Design, Value
-
-if TYPE_CHECKING:
-    from distributed import Client
+from ._types import Design, Executor, Value
 
 __all__ = ["respond"]
 
@@ -29,7 +26,7 @@ def respond(
     return_states: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
     **keywords: Value,
 ) -> Table:
     """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
@@ -61,11 +58,10 @@ def respond(
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
         of threads does not change the rows.
     progress : bool or function, optional
-        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
-        the designs that are done, and all designs.
-    client : distributed.Client, optional
-        Follow the designs on the workers of a Dask cluster, which must have the same build of flapwing. The cluster
-        does not change the rows.
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
+        designs in all.
+    client : executor, optional
+        Follow the designs on the workers of an executor, as for `sweep`; a task is one design. Rows are the same.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -111,7 +107,7 @@ def respond(
         if client is None:
             native = _flapwing.respond(design, parameter, threads=threads, progress=show, **options)
         else:
-            native = _dask.responses(_arguments.cluster(client), design, parameter, options, threads, show)
+            native = _workers.responses(_arguments.executor(client), design, parameter, options, threads, show)
     verdicts = native["meta"]["verdicts"]
     native["meta"]["verdicts"] = [
         Verdict(verdict["text"], [BistableBand(**band) for band in verdict["bands"]]) for verdict in verdicts

@@ -6,16 +6,13 @@ import os
 import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from typing import Any, SupportsIndex
 
-from . import _arguments, _dask, _flapwing, _mistakes
+from . import _arguments, _flapwing, _mistakes, _workers
 from ._flapwing import Grid
 from ._progress import Progress, shown
 from ._table import Table
-from ._types import Design, Measures, Value
-
-if TYPE_CHECKING:
-    from distributed import Client
+from ._types import Design, Executor, Measures, Value
 
 __all__ = ["read", "sweep"]
 
@@ -28,7 +25,8 @@ def sweep(
     restart: bool = False,
     threads: SupportsIndex | None = None,
     progress: Progress = False,
-    client: Client | None = None,
+    client: Executor | None = None,
+    points_per_task: SupportsIndex | None = None,
     measures: Measures | None = None,
     **keywords: Value,
 ) -> Table:
@@ -51,12 +49,18 @@ def sweep(
         Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
         of threads does not change the rows.
     progress : bool or function, optional
-        If True, a progress bar is shown (with tqdm, in consoles and notebooks). A function is called with two numbers:
-        the points that are done, and all points.
-    client : distributed.Client, optional
-        Run the points on the workers of a Dask cluster, which must have the same build of flapwing. Rows have the same
-        order and the same bytes as on one machine. If a worker dies, other workers run its points again. If the
-        processor of a worker has another arithmetic, an error is raised, because the rows of this worker could differ.
+        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
+        points in all.
+    client : executor, optional
+        Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
+        with the method `result`. Examples are the executors of `concurrent.futures`, submitit and mpi4py, and the
+        client of a Dask cluster. The workers must have the same build of flapwing. Rows have the same order and the
+        same bytes as without `client`. If a worker dies, other workers of a Dask cluster run its points again; with
+        other executors, an error is raised. A worker whose processor has another arithmetic is an error, because its
+        rows could differ.
+    points_per_task : int, optional
+        Number of points in a task of `client`, 1 or more. Default: at most 2,048 for each thread of a task, some
+        seconds of work. If each task is a job of a queue, set a larger number.
     measures : list of str, optional
         The measures of the rows. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
@@ -107,7 +111,7 @@ def sweep(
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
         else:
-            with _dask.Chunks(checked, _arguments.cluster(client), threads) as chunks:
+            with _workers.Chunks(checked, _arguments.executor(client), threads, points_per_task) as chunks:
                 native = _flapwing.sweep(checked, progress=show, chunks=chunks.next, **given)
     return Table._of(native, None if out is None else os.path.abspath(out), keywords)
 

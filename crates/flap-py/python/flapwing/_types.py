@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, SupportsFloat, Union
 
 import numpy as np
@@ -34,6 +34,13 @@ class FrameRow(Protocol):
     """A row of a pandas DataFrame."""
 
     def to_dict(self) -> Any: ...
+
+
+class Executor(Protocol):
+    """An object that runs functions on workers: an executor, or the client of a Dask cluster."""
+
+    def submit(self, function: Callable[..., Any], /, *arguments: Any, **keywords: Any) -> Any:
+        """Return a future, whose method `result` returns the result of the function."""
 
 
 #: A state at the start of a drive period: components by name, or a row with them, also as a table of one row.

@@ -1,44 +1,88 @@
-"""Functions that run single calls, sweeps, batches and responses on the workers of a Dask cluster."""
+"""Calls, sweeps, batches and responses on the workers of an executor, such as a process pool or a Dask cluster."""
 
 from __future__ import annotations
 
 import os
 from collections import Counter, deque
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, SupportsIndex
+from collections.abc import Callable, Generator, Iterable, Mapping
+from concurrent.futures import BrokenExecutor
+from contextlib import closing
+from typing import Any, SupportsIndex
 
 import numpy as np
 
 from . import _arguments, _flapwing
 from ._flapwing import Grid
 from ._native import NativeColumn, NativeIdentity, NativeSummary, NativeTable
+from ._types import Executor
 
-if TYPE_CHECKING:
-    from distributed import Client, Future
-
-#: Points of a task: some seconds of work. A lost worker loses little, and sending rows takes a small share of the time.
+#: Points of a task per thread: some seconds of work. A lost worker loses little, and sending rows takes a small share
+#: of the time.
 _TASK_POINTS = 2048
-#: Running and waiting tasks per thread of the cluster: no worker is idle, and memory stays bounded.
-_TASKS_PER_THREAD = 4
-#: Number of times that a task is repeated on other workers after its worker died.
+#: Running and waiting tasks per worker: no worker is idle, and memory stays bounded.
+_TASKS_PER_WORKER = 4
+#: Number of workers of an executor that does not report the number, such as submitit's.
+_UNKNOWN_WORKERS = 16
+#: Number of times that Dask repeats a task on other workers after its worker died.
 _RETRIES = 5
 #: Number of invalid points whose reasons are kept, as for a batch on one machine.
 _MOST_REASONS = 5
 
 
-def call(client: Client | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
-    """Return the result of a native function for a design. Without a client, this process calls the function; with a
-    client, a worker does.
+def _number_of_workers(client: Any) -> int:
+    """Return the number of tasks that run at the same time."""
+    if hasattr(client, "nthreads"):
+        return max(1, sum(client.nthreads().values()))
+    # `num_workers` is mpi4py's; process pools and thread pools have only the private attribute.
+    number = getattr(client, "num_workers", None) or getattr(client, "_max_workers", None)
+    return number if isinstance(number, int) and number > 0 else _UNKNOWN_WORKERS
+
+
+def _results(
+    client: Executor, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]
+) -> Generator[Any, None, None]:
+    """Yield the results of tasks, in the order of the tasks. A task is the arguments of the function.
+
+    A bounded number of tasks is submitted ahead. If the iterator is closed or an exception is raised, tasks that
+    have not started are cancelled.
     """
+    ahead = _TASKS_PER_WORKER * _number_of_workers(client)
+    # A Dask client makes an executor, with tasks that are not cached.
+    executor: Any = client.get_executor(pure=False, retries=_RETRIES) if hasattr(client, "get_executor") else client
+    submitted: deque[Any] = deque()
+    remaining = iter(tasks)
+    try:
+        while True:
+            while len(submitted) < ahead and (task := next(remaining, None)) is not None:
+                submitted.append(executor.submit(function, *task))
+            if not submitted:
+                return
+            result = submitted[0].result()
+            submitted.popleft()
+            yield result
+    except BrokenExecutor as error:
+        raise RuntimeError(
+            f"a worker of `client` died: {error}\n"
+            "check that its workers can import flapwing and have enough memory; in a script, begin with "
+            'if __name__ == "__main__":\n'
+            "then call again with a new executor; a sweep with `out` continues"
+        ) from error
+    except Exception as error:
+        error.add_note("raised by a task of `client`; a sweep with `out` continues if you call it again")
+        raise
+    finally:
+        for future in submitted:
+            future.cancel()
+
+
+def call(client: Executor | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
+    """Return the result of a native function for a design, called here or, with a client, by a worker."""
     if client is None:
         return function(design, *arguments, **keywords)
-    client = _arguments.cluster(client)
     keywords = {name: _found(value) if name in ("waveform", "stroke") else value for name, value in keywords.items()}
-    future = client.submit(_call_task, function.__name__, _sent(design), arguments, keywords, pure=False)
-    try:
-        identity, result = future.result()
-    finally:
-        client.cancel([future], force=True)
+    task = (function.__name__, _sent(design), arguments, keywords)
+    with closing(_results(_arguments.executor(client), _call_task, [task])) as results:
+        identity, result = next(results)
     _check(_flapwing.identity(), identity)
     return result
 
@@ -94,49 +138,42 @@ def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsInde
 
 
 class Chunks:
-    """Ranges of the points of a grid, which a cluster computes. The rows are returned in the order of the points."""
+    """Ranges of a grid's points, computed by workers; their rows are returned in the order of the points."""
 
-    def __init__(self, grid: Grid, client: Client, threads: SupportsIndex | None) -> None:
+    def __init__(
+        self, grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
+    ) -> None:
         self._client = client
         # Workers resolve the files of the grid to the same absolute paths as this process.
         self._grid = (os.path.abspath(grid.name), grid.text)
         self._points = len(grid)
         self._threads = 1 if threads is None else threads
-        self._under_way: deque[tuple[int, Future[Any]]] = deque()
-        self._submitted: int | None = None
-        # Every worker gets points, even of a small grid.
-        workers = max(1, sum(client.nthreads().values()))
-        self._size = max(1, min(_TASK_POINTS, -(-self._points // (_TASKS_PER_THREAD * workers))))
-        self._ahead = _TASKS_PER_THREAD * workers
+        self._size = _task_size(client, self._points, self._threads, points_per_task)
+        self._results: Generator[bytes, None, None] | None = None
 
     def __enter__(self) -> Chunks:
         return self
 
     def __exit__(self, *_: object) -> None:
-        # The results of these tasks are not needed.
-        self._client.cancel([future for _, future in self._under_way], force=True)
-        self._under_way.clear()
+        # The results of the submitted tasks are not needed.
+        if self._results is not None:
+            self._results.close()
 
     def next(self, done: int) -> bytes | None:
-        """Return the next chunk of rows, which begins after the points that are already done."""
-        if self._submitted is None:
-            self._submitted = done
-        while self._submitted < self._points and len(self._under_way) < self._ahead:
-            end = min(self._points, self._submitted + self._size)
-            future = self._client.submit(
-                _part_task, *self._grid, self._submitted, end, self._threads, pure=False, retries=_RETRIES
-            )
-            self._under_way.append((self._submitted, future))
-            self._submitted = end
-        if not self._under_way:
-            return None
-        begin, future = self._under_way.popleft()
-        assert begin == done, "chunks are requested in order"
-        try:
-            chunk: bytes = future.result()
-        finally:
-            future.release()
-        return chunk
+        """Return the next chunk; the first chunk begins after the points that are done."""
+        if self._results is None:
+            begins = range(done, self._points, self._size)
+            tasks = ((*self._grid, begin, min(self._points, begin + self._size), self._threads) for begin in begins)
+            self._results = _results(self._client, _part_task, tasks)
+        return next(self._results, None)
+
+
+def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
+    """Return the number of points of a task; by default so small that every worker gets points, even of few points."""
+    if points_per_task is not None:
+        return _arguments.count("points_per_task", points_per_task)
+    most = _TASK_POINTS * _arguments.count("threads", threads)
+    return max(1, min(most, -(-points // (_TASKS_PER_WORKER * _number_of_workers(client)))))
 
 
 def _evaluate_task(
@@ -153,14 +190,15 @@ def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
 
 
 def evaluate(
-    client: Client,
+    client: Executor,
     design: Any,
     options: dict[str, Any],
     given: dict[str, Any],
     threads: SupportsIndex | None,
+    points_per_task: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the rows of a batch, which the workers of a cluster compute; `given` has the columns of its points."""
+    """Return the rows of the columns `given`, computed by workers."""
     # This call reports mistakes. An empty selection has the same columns and axes as all rows.
     nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
@@ -169,34 +207,26 @@ def evaluate(
     states = options["initial_state"]
     if len(set(lengths.values())) > 1 or (states is not None and len(states) != length * each):
         return _evaluate_task(design, options, given, 1)
-    workers = max(1, sum(client.nthreads().values()))
-    most = max(1, _TASK_POINTS // max(1, each))
-    size = max(1, min(most, -(-length // (_TASKS_PER_THREAD * workers))))
-    design = _sent(design)
     count = 1 if threads is None else threads
+    size = max(1, _task_size(client, length * each, count, points_per_task) // max(1, each))
+    design = _sent(design)
     begins = range(0, length, size)
-    futures = [
-        client.submit(
-            _evaluate_task,
+    tasks = (
+        (
             design,
             _stretch(options, begin * each, (begin + size) * each),
             {name: values[begin : begin + size] for name, values in given.items()},
             count,
-            pure=False,
-            retries=_RETRIES,
         )
         for begin in begins
-    ]
+    )
     parts = [nothing]
-    try:
-        for begin, future in zip(begins, futures):
-            part = future.result()
+    with closing(_results(client, _evaluate_task, tasks)) as results:
+        for begin, part in zip(begins, results):
             _check(nothing["meta"], part["meta"])
             parts.append(_moved(part, begin * each))
             if show is not None:
                 show(min(length, begin + size) * each, length * each)
-    finally:
-        client.cancel(futures, force=True)
     return _joined(parts)
 
 
@@ -267,32 +297,26 @@ def _respond_task(
 
 
 def responses(
-    client: Client,
+    client: Executor,
     design: Any,
     parameter: str,
     options: dict[str, Any],
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the responses of designs. Workers of a cluster compute one design each."""
+    """Return the responses of designs, each computed by a worker."""
     # This call reports mistakes. It returns no rows.
     nothing = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
     designs = nothing["designs"]
     design = _sent(design)
     count = 1 if threads is None else threads
-    futures = [
-        client.submit(_respond_task, design, parameter, options, curve, count, pure=False, retries=_RETRIES)
-        for curve in range(designs)
-    ]
+    tasks = ((design, parameter, options, curve, count) for curve in range(designs))
     parts = [nothing]
-    try:
-        for done, future in enumerate(futures, 1):
-            part = future.result()
+    with closing(_results(client, _respond_task, tasks)) as results:
+        for done, part in enumerate(results, 1):
             _check(nothing["meta"], part["meta"])
             parts.append(part)
             if show is not None:
                 show(done, designs)
-    finally:
-        client.cancel(futures, force=True)
     verdicts = [verdict for part in parts for verdict in part["meta"]["verdicts"]]
     return {"columns": _columns(parts), "meta": {**nothing["meta"], "verdicts": verdicts}}
