@@ -90,6 +90,15 @@ def trajectory() -> Figure:
     return plot.trajectory(flapwing.trajectory("jafferis2016"), ["stroke_deg", "pitch_deg", "lift_mn"])
 
 
+def designs() -> Figure:
+    """Two cycles of the bimorph with two hinges."""
+    motions = {
+        "published hinge": flapwing.trajectory("jafferis2016"),
+        "stiffer hinge": flapwing.trajectory("jafferis2016", hinge_stiffness="2 uN*m/rad"),
+    }
+    return plot.trajectory(motions, ["stroke_deg", "pitch_deg", "lift_mn"])
+
+
 def wing_path() -> plot.WingPath:
     """One cycle of it, seen from the wing's tip."""
     return plot.wing_path(flapwing.trajectory("jafferis2016"), frames=36)
@@ -165,6 +174,7 @@ def main() -> None:
         "histogram": histogram(builds),
         "correlations": correlations(builds),
         "trajectory": trajectory(),
+        "designs": designs(),
         "hysteresis": hysteresis(),
         "tornado": tornado(),
         "fit": fit(),

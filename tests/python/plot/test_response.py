@@ -175,3 +175,16 @@ def test_panels_need_a_measure(sweep):
 def test_what_is_not_a_table_is_a_type_error():
     assert "data frame" in message(TypeError, plot.response, 5)
     assert "number in SI units" in message(TypeError, plot.response, grid(drive_frequency=HERTZ), drive_frequency=[95])
+
+
+def test_several_designs_have_a_line_each(sweep):
+    weak, strong = sweep[sweep["drive_voltage_pp"] == 60], sweep[sweep["drive_voltage_pp"] == 100]
+    ax = drawn(plot.response({"weak": weak, "strong": strong[1:]}, "lift_mean_mn"))
+    assert legend(ax) == ["weak", "strong"]
+    for line, rows in zip(lines(ax), (weak, strong[1:])):
+        assert_array_equal(line.get_xdata(), rows["drive_frequency"])
+        assert_array_equal(line.get_ydata(), rows["lift_mean_mn"])
+    figure = drawn(plot.response_panels([weak, strong], ["lift_mean_mn", "stroke_pp_deg"], label=["weak", "strong"]))
+    assert [len(ax.lines) for ax in figure.axes] == [2, 2] and legend(figure.axes[0]) == ["weak", "strong"]
+    assert "`by` is for one result" in message(ValueError, plot.response, [weak, strong], by="drive_voltage_pp")
+    assert "one result" in message(ValueError, plot.response, weak, label=["weak"])

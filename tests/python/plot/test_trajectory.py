@@ -96,6 +96,53 @@ def test_lines_of_the_user_stay(motion):
     assert legend(ax)[0] == "measured" and ax.get_ylim()[0] == -200.0
 
 
+def test_each_design_has_one_colour_in_all_axes(motion):
+    designs = {"80 V": motion, "60 V": larger(motion, 0.5)}
+    for arguments, options in ((designs, {}), (list(designs.values()), {"label": ["80 V", "60 V"]})):
+        figure = drawn(plot.trajectory(arguments, ["stroke_deg", "pitch_deg", "lift_mn"], **options))
+        *over_time, stroke, pitch = figure.axes
+        assert [ax.get_ylabel() for ax in over_time] == ["Stroke (°)", "Pitch (°)", "Lift (mN)"]
+        assert [legend(ax) if ax.get_legend() else None for ax in over_time] == [["80 V", "60 V"], None, None]
+        colours = [line.get_color() for line in over_time[0].lines]
+        assert len(set(colours)) == 2
+        assert all([line.get_color() for line in ax.lines] == colours for ax in over_time)
+        for ax, name in ((stroke, "stroke_deg"), (pitch, "pitch_deg")):
+            curves = [line for line in ax.lines if len(line.get_xdata()) > 1]
+            assert [line.get_color() for line in curves] == colours
+            assert_array_equal(curves[1].get_xdata(), 0.5 * motion[name])
+
+
+def test_designs_share_the_units_of_their_axes(motion):
+    slow = {**{name: motion[name] for name in motion}, "time_s": 1e3 * motion["time_s"]}
+    weak = {**slow, "lift_mn": 1e-4 * motion["lift_mn"]}
+    ax = plot.trajectory({"fast": motion, "slow": weak}, "lift_mn").axes[0]
+    factor = 1.0 if ax.get_xlabel() == "Time (s)" else 1e3
+    assert ax.get_ylabel() == "Lift (mN)"
+    assert_allclose(ax.lines[0].get_xdata(), factor * motion["time_s"])
+    assert_allclose(ax.lines[1].get_xdata(), factor * slow["time_s"])
+    assert_allclose(ax.lines[1].get_ydata(), weak["lift_mn"])
+
+
+def test_several_designs_in_given_axes(motion):
+    _, ax = plt.subplots()
+    plot.trajectory({"80 V": motion, "60 V": larger(motion, 0.5)}, "stroke_deg", ax=ax)
+    assert legend(ax) == ["80 V", "60 V"]
+    with pytest.raises(ValueError, match="`ax` is for one signal of several trajectories"):
+        plot.trajectory([motion, motion], ["stroke_deg", "pitch_deg"], ax=ax)
+
+
+def test_mistakes_in_several_trajectories(motion):
+    assert "`table` has 2 results, but `label` has 1 names" in message(
+        ValueError, plot.trajectory, [motion, motion], label="80 V"
+    )
+    assert "a name twice" in message(ValueError, plot.trajectory, [motion, motion], label=["a", "a"])
+    assert "its keys" in message(ValueError, plot.trajectory, {"a": motion}, label=["a"])
+    assert "`table` is empty" in message(ValueError, plot.trajectory, [])
+    assert "one trajectory" in message(ValueError, plot.trajectory, motion, label=["a"])
+    without = {name: motion[name] for name in motion if name != "lift_mn"}
+    assert "there is no column `lift_mn`" in message(ValueError, plot.trajectory, [motion, without], "lift_mn")
+
+
 def test_trajectory_mistakes(motion):
     assert "did you mean `lift_mn`?" in message(ValueError, plot.trajectory, motion, "lift_m")
     assert "`signals` is empty" in message(ValueError, plot.trajectory, motion, [])

@@ -264,6 +264,55 @@ class Data:
         return Shown(self, name)
 
 
+#: The column with the names of several results that are drawn together.
+DESIGN = "design"
+
+
+def several(table: Any, label: str | Sequence[str] | None) -> dict[str, Data] | None:
+    """Return the results of several designs by their names, or None if `table` has the results of one call."""
+    if isinstance(table, (list, tuple)):
+        names = [str(place) for place in range(1, len(table) + 1)] if label is None else label
+        if isinstance(names, str) or len(names) != len(table):
+            count = 1 if isinstance(names, str) else len(names)
+            raise ValueError(f"`table` has {len(table)} results, but `label` has {count} names\ngive one name for each")
+        found: Mapping[Any, Any] = dict(zip(names, table))
+        if len(found) < len(table):
+            raise ValueError("`label` has a name twice\ngive each result its own name")
+    elif isinstance(table, Mapping) and table and all(_is_table(each) for each in table.values()):
+        found = table
+        if label is not None:
+            raise ValueError("`label` is for a list of results; the names of a mapping are its keys")
+    else:
+        return None
+    if not found:
+        raise ValueError("`table` is empty: give at least one result")
+    return {str(name): Data.of(each) for name, each in found.items()}
+
+
+def _is_table(value: Any) -> bool:
+    """Return True for results of any kind, False for a column."""
+    return isinstance(value, (Data, Table, Mapping, str, os.PathLike)) or hasattr(value, "columns")
+
+
+def joined(runs: Mapping[str, Data]) -> Data:
+    """Return the rows of several results, with their common columns after a column of their names."""
+    first = next(iter(runs.values()))
+    names = [name for name in first.columns if all(name in run for run in runs.values())]
+    columns = {name: np.concatenate([_plain(run[name]) for run in runs.values()]) for name in names}
+    labels = np.repeat(np.array(list(runs)), [len(run) for run in runs.values()])
+    for name in names:
+        units = {run.unit(name) for run in runs.values()}
+        if len(units) > 1:
+            raise ValueError(f"`{name}` has the units {listed(sorted(units))} in these results: draw them separately")
+    units_of = {name: first.unit(name) for name in names}
+    return Data({DESIGN: labels, **columns}, units_of, [], first.meta)
+
+
+def _plain(column: np.ndarray) -> np.ndarray:
+    """Return words as text of NumPy, so that columns of different tables can be joined."""
+    return column.astype(str) if is_text(column) else column
+
+
 class Shown:
     """A column as a picture shows it: the factor to a readable unit, and the label."""
 

@@ -57,14 +57,12 @@ _WHOLE = _Kind(_is_whole, "it must be a whole number")
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "design": None,
-    **dict.fromkeys(
-        ["by", "color", "label", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME
-    ),
+    **dict.fromkeys(["by", "color", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME),
     "lift": _Kind(
         lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'
     ),
     **dict.fromkeys(["inputs", "measures", "portrait"], _NAMES),
-    **dict.fromkeys(["maximize", "minimize", "signals"], _ONE_OR_MORE),
+    **dict.fromkeys(["label", "maximize", "minimize", "signals"], _ONE_OR_MORE),
     **dict.fromkeys(["change", "frequency", "radius", "vmax", "vmin"], _NUMBER),
     **dict.fromkeys(["curve", "frames", "pitch_sign", "top"], _WHOLE),
     "cmap": _Kind(

@@ -12,7 +12,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from .._data import Data, Shown, distinct, edges, scattered
+from .._data import DESIGN, Data, Shown, distinct, edges, joined, scattered, several
 from .._mistakes import unknown
 from . import _scales, _style
 from ._checks import checked
@@ -29,6 +29,7 @@ def response(
     x: str | None = None,
     by: str | None = None,
     where: Mapping[str, Any] | None = None,
+    label: Sequence[str] | None = None,
     legend: bool | str = True,
     colorbar: bool | Axes = True,
     ax: Axes | None = None,
@@ -42,19 +43,22 @@ def response(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them. To compare designs, give several
+        results: a mapping of names to results, or a list. Each design then has one line.
     y : str, optional
         The measure. Default: the stroke, peak to peak.
     x : str, optional
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter for which each value has its own line. Default: the first of the other axes of the grid, if there
-        is one.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
+        Several results have one line for each.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
+    label : sequence of str, optional
+        The names of a list of results in the legend. Default: their numbers.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -86,7 +90,7 @@ def response(
     >>> [line.get_ydata().tolist() for line in ax.lines]
     [[20.0, 40.0], [35.0, 60.0]]
     """
-    whole = Data.of(table)
+    whole, by = _together(table, label, by)
     data = whole.slice(where, slices)
     measure = data.usual("response", "y") if y is None else y
     family = _family(whole, data, [measure], x, by)
@@ -108,6 +112,7 @@ def response_panels(
     x: str | None = None,
     by: str | None = None,
     where: Mapping[str, Any] | None = None,
+    label: Sequence[str] | None = None,
     legend: bool | str = True,
     colorbar: bool | Axes = True,
     **slices: Any,
@@ -117,19 +122,22 @@ def response_panels(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them. To compare designs, give several
+        results: a mapping of names to results, or a list. Each design then has one line.
     measures : sequence of str
         The measures, from top to bottom.
     x : str, optional
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter for which each value has its own line. Default: the first of the other axes of the grid, if there
-        is one.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
+        Several results have one line for each.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
+    label : sequence of str, optional
+        The names of a list of results in the legend. Default: their numbers.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -159,7 +167,7 @@ def response_panels(
     """
     if not measures:
         raise ValueError("`measures` is empty: give at least one measure")
-    whole = Data.of(table)
+    whole, by = _together(table, label, by)
     family = _family(whole, whole.slice(where, slices), measures, x, by)
     with _style.style():
         figure = _style.new_figure(6.4, 4.0 if len(measures) == 1 else 1.2 + 2.1 * len(measures))
@@ -171,6 +179,18 @@ def response_panels(
         family.explain(axes, False, legend, colorbar)
         figure.align_ylabels(axes)
     return figure
+
+
+def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
+    """Return the results as one table, and the column with a line for each value: for several results, their names."""
+    designs = several(table, label)
+    if designs is None:
+        if label is not None:
+            raise ValueError("`label` has names for a list of results, but `table` is one result")
+        return Data.of(table), by
+    if by is not None:
+        raise ValueError("`by` is for one result; several results have one line for each")
+    return joined(designs), DESIGN
 
 
 def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None) -> Family:

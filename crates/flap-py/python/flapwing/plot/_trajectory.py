@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from .. import _labels
-from .._data import Data, Shown
+from .._data import Data, Shown, joined, several
 from . import _style
 from ._checks import checked
 
@@ -24,7 +24,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
-    label: str | None = ...,
+    label: str | Sequence[str] | None = ...,
     legend: bool | str = ...,
     ax: None = ...,
 ) -> Figure: ...
@@ -35,7 +35,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = ...,
     time: str = ...,
-    label: str | None = ...,
+    label: str | Sequence[str] | None = ...,
     legend: bool | str = ...,
     ax: Axes,
 ) -> Axes: ...
@@ -46,7 +46,7 @@ def trajectory(
     *,
     portrait: Sequence[str] | None = None,
     time: str = "time_s",
-    label: str | None = None,
+    label: str | Sequence[str] | None = None,
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
@@ -55,23 +55,24 @@ def trajectory(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory from `flapwing.trajectory` or ``flap run --trajectory``.
+        A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
+        trajectories: a mapping of names to trajectories, or a list. Each design then has one colour.
     signals : str or sequence of str
-        The columns to draw over time. Columns with the same unit share axes. Default: stroke and pitch.
+        The columns over time; columns with the same unit share axes. With several trajectories, each column has its own
+        axes. Default: stroke and pitch.
     portrait : sequence of str, optional
         The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
         table has no column for a rate, the rate is computed from the samples.
     time : str
-        The column that contains the time.
-    label : str, optional
-        The name of the motion in the legend, with which you compare motions in the same axes. By default, later motions
-        get numbers.
+        The column of the time.
+    label : str or sequence of str, optional
+        The name of the motion in the legend, or of each motion of a list. Default: later motions are numbered.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is above new
         axes, but inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes for signals of one unit, without a portrait. If the axes already have motions, the new lines have other
-        colours, and the legend has all lines.
+        Axes to draw signals of one unit in, without a portrait; of several trajectories, one signal. If they already
+        have motions, the colours continue and the legend has all lines.
 
     Returns
     -------
@@ -81,7 +82,8 @@ def trajectory(
     Raises
     ------
     ValueError
-        A column is unknown. With `ax`, there are portraits, or signals of several units, or another unit than in `ax`.
+        An unknown column; a number of names that differs from the number of trajectories. With `ax`: signals of several
+        units, portraits, or another unit than the motions in it.
 
     Examples
     --------
@@ -91,58 +93,83 @@ def trajectory(
     >>> [each.get_xlabel() for each in trajectory(table).axes]
     ['Time (ms)', 'Stroke (°)', 'Pitch (°)']
 
-    Two motions in the same axes:
+    Two motions in one picture:
 
-    >>> import matplotlib.pyplot as plt
-    >>> ax = trajectory(table, "stroke_deg", label="80 V", ax=plt.subplots()[1])
-    >>> ax = trajectory({**table, "stroke_deg": 0.5 * table["stroke_deg"]}, "stroke_deg", label="60 V", ax=ax)
-    >>> [line.get_label() for line in ax.lines]
+    >>> smaller = {**table, "stroke_deg": 0.5 * table["stroke_deg"]}
+    >>> figure = trajectory({"80 V": table, "60 V": smaller}, "stroke_deg")
+    >>> [line.get_label() for line in figure.axes[0].lines]
     ['80 V', '60 V']
     """
-    data = Data.of(table)
     names = [signals] if isinstance(signals, str) else list(signals)
     if not names:
         raise ValueError("`signals` is empty: give at least one column")
-    t = data.numbers(time)
+    designs = several(table, label)
+    if designs is None and not isinstance(label, (str, type(None))):
+        raise ValueError("`label` has several names, but `table` is one trajectory\ngive one name")
+    runs = designs or {"": Data.of(table)}
+    portraits = [name for name in _ANGLES if name in names] if portrait is None else list(portrait)
+    for run in runs.values():
+        for name in (time, *names, *portraits):
+            run.numbers(name)
+    # One unit of each signal for all designs.
+    data = joined(runs)
     groups: dict[str, list[str]] = {}
     for name in names:
-        data.numbers(name)
-        groups.setdefault(data.shown(name).unit, []).append(name)
-    portraits = [name for name in _ANGLES if name in names] if portrait is None else list(portrait)
+        groups.setdefault(data.shown(name).unit if designs is None else name, []).append(name)
     if ax is not None:
         if len(groups) > 1 or portrait:
-            raise ValueError("`ax` is for signals of one unit; omit it for several units or portraits")
+            raise ValueError(
+                "`ax` is for signals of one unit; omit it for several units or portraits"
+                if designs is None
+                else "`ax` is for one signal of several trajectories; omit it for several signals or portraits"
+            )
         portraits = []
-    rates = {name: _rate(data, name, t) for name in portraits}
 
     with _style.style(ax):
         if ax is not None:
             over_time, beside = [ax], list[Axes]()
         else:
             over_time, beside = _layout(len(groups), len(portraits))
-        drawn = dict.fromkeys([*names, *portraits])
+        # Colours stand for signals, or for designs if there are several.
+        drawn = dict.fromkeys([*names, *portraits] if designs is None else designs)
         colours = dict(zip(drawn, _style.further_shades(ax, len(drawn))))
         x = data.shown(time)
-        for each, (unit, members) in zip(over_time, groups.items()):
+        for each, members in zip(over_time, groups.values()):
+            unit = data.shown(members[0]).unit
             earlier = _earlier(each, unit)
             factor = _factor(each, x)
-            for name in members:
-                shown = data.shown(name)
-                told = shown.words if label is None else label if len(members) == 1 else f"{shown.words}, {label}"
-                each.plot(factor * x.values, shown.values, color=colours[name], label=_numbered(told, each))
+            for design, run in runs.items():
+                for name in members:
+                    shown = data.shown(name)
+                    if designs is not None:
+                        told = design
+                    elif label is None:
+                        told = shown.words
+                    else:
+                        told = str(label) if len(members) == 1 else f"{shown.words}, {label}"
+                    each.plot(
+                        factor * x.factor * run.numbers(time),
+                        shown.factor * run.numbers(name),
+                        color=colours[name if designs is None else design],
+                        label=_numbered(told, each),
+                    )
             words = list(dict.fromkeys([*earlier, *(data.shown(name).words for name in members)]))
             each.set_ylabel(_labels.titled(words[0] if len(words) == 1 else _common(words, unit), unit))
             each.margins(x=0.0)
-            if len(each.lines) > 1 or label is not None:
+            # The first legend is sufficient for all axes if colours stand for designs.
+            if (len(each.lines) > 1 or label is not None) and (designs is None or each is over_time[0]):
                 _style.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
         if factor == 1.0:
             over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):
             shown = data.shown(name)
-            rate, unit = rates[name]
-            each.plot(shown.values, rate, color=colours[name])
-            each.plot(shown.values[:1], rate[:1], "o", color=colours[name], markersize=_style.size(0.7), label="start")
-            _direction(each, shown.values, rate, colours[name])
+            for design, run in runs.items():
+                colour = colours[name if designs is None else design]
+                angle = shown.factor * run.numbers(name)
+                rate, unit = _rate(run, name, run.numbers(time), shown)
+                each.plot(angle, rate, color=colour)
+                each.plot(angle[:1], rate[:1], "o", color=colour, markersize=_style.size(0.7), label="start")
+                _direction(each, angle, rate, colour)
             each.set_xlabel(shown.label)
             each.set_ylabel(_labels.titled(f"{shown.words} rate", unit))
     return _style.figure_of(over_time[0]) if ax is None else ax
@@ -189,10 +216,8 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
     return over_time, list(np.atleast_1d(right.subplots(portraits, 1)))
 
 
-def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return the rate of a signal, and the unit of the rate. If there is no column with the rate, compute it from the
-    samples.
-    """
+def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarray, str]:
+    """Return the rate of a signal and its unit: from the rate's column if there is one, else from the samples."""
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name
@@ -200,8 +225,7 @@ def _rate(data: Data, name: str, t: np.ndarray) -> tuple[np.ndarray, str]:
             if column in data:
                 return np.degrees(data.numbers(column)) / 1000.0, "°/ms"
         return np.gradient(values, t) / 1000.0, "°/ms"
-    shown = data.shown(name)
-    return np.gradient(shown.values, t * 1000.0), f"{shown.unit}/ms" if shown.unit else "1/ms"
+    return np.gradient(shown.factor * values, t * 1000.0), f"{shown.unit}/ms" if shown.unit else "1/ms"
 
 
 def _common(words: list[str], unit: str) -> str:
