@@ -3,7 +3,7 @@
 import flapwing
 import numpy as np
 import pytest
-from figures import HERTZ, drawn, fails, grid, message
+from figures import HERTZ, VOLTS, drawn, fails, grid, legend, message
 from flapwing import analysis, plot
 from numpy.testing import assert_allclose, assert_array_equal
 
@@ -60,10 +60,61 @@ def test_a_histogram_marks_percentiles(sample):
     assert sum(heights) == 40
     edges = [bar.get_x() for bar in ax.patches] + [ax.patches[-1].get_x() + ax.patches[-1].get_width()]
     assert_allclose(heights, np.histogram(lift, edges)[0])
-    assert_allclose([line.get_xdata()[0] for line in ax.lines], np.percentile(lift, [5, 50, 95]), rtol=1e-12)
+    percentiles = [line.get_xdata()[0] for line in ax.lines[:3]]
+    assert_allclose(percentiles, np.percentile(lift, [5, 50, 95]), rtol=1e-12)
+    assert legend(ax) == [f"mean ± standard deviation: {lift.mean():.4g} ± {lift.std(ddof=1):.2g} mN"]
+    ends = ax.containers[1].lines[2][0].get_segments()[0][:, 0]
+    assert_allclose(ends, lift.mean() + lift.std(ddof=1) * np.array([-1, 1]), rtol=1e-12)
     assert [text.get_text().split(":")[0] for text in ax.texts] == ["5 %", "50 %", "95 %"]
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("Lift, mean (mN)", "Number of designs")
     assert drawn(plot.histogram(sample, "power_mean_mw")).get_xlabel() == "Power, mean (mW)"
+
+
+def test_a_histogram_has_the_chosen_percentiles(sample):
+    ax = drawn(plot.histogram(sample, percentiles=[90, 10, 2.5], legend=False))
+    assert_allclose(
+        [line.get_xdata()[0] for line in ax.lines[:3]], np.percentile(sample["lift_mean_mn"], [2.5, 10, 90])
+    )
+    assert [text.get_text().split(":")[0] for text in ax.texts] == ["2.5 %", "10 %", "90 %"]
+    assert ax.get_legend() is None
+    assert not drawn(plot.histogram(sample, percentiles=[])).texts
+    assert "`percentiles` has 101" in message(ValueError, plot.histogram, sample, percentiles=[50, 101])
+    assert "list of percentages" in message(TypeError, plot.histogram, sample, percentiles="half")
+
+
+def test_statistics_of_a_sample(sample):
+    found = analysis.describe(sample, percentiles=[10, 50])
+    assert list(found) == [name for name in sample.columns[4:] if np.isfinite(sample[name]).any()]
+    values = sample["lift_mean_mn"]
+    one = found["lift_mean_mn"]
+    assert (one.measure, one.unit, one.designs) == ("lift_mean_mn", "mN", 40)
+    assert one.mean == pytest.approx(sum(values) / 40, rel=1e-14)
+    assert one.standard_deviation == pytest.approx(np.sqrt(sum((values - one.mean) ** 2) / 39), rel=1e-12)
+    assert one.standard_error == pytest.approx(one.standard_deviation / np.sqrt(40), rel=1e-14)
+    assert (one.smallest, one.largest) == (values.min(), values.max())
+    ordered = np.sort(values)
+    assert one.percentiles == pytest.approx(
+        {10: ordered[3] + 0.9 * (ordered[4] - ordered[3]), 50: 0.5 * (ordered[19] + ordered[20])}, rel=1e-12
+    )
+    assert str(one).startswith(f"lift_mean_mn: {one.mean:.4g} ± {one.standard_deviation:.2g} mN (40 designs; 10 %: ")
+
+
+def test_statistics_leave_out_designs_without_a_measure():
+    table = fails(grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ), [0, 14])
+    one = analysis.describe(table, "lift_mean_mn", percentiles=[])["lift_mean_mn"]
+    assert one.designs == 13 and one.mean == pytest.approx(8.0) and one.percentiles == {}
+    (slice_,) = analysis.describe(table, ["lift_mean_mn"], drive_voltage_pp=80).values()
+    assert (slice_.smallest, slice_.largest, slice_.mean) == (6.0, 10.0, 8.0)
+    single = analysis.describe(table, "lift_mean_mn", drive_voltage_pp=80, drive_frequency=95)["lift_mean_mn"]
+    assert single.designs == 1 and np.isnan(single.standard_error)
+
+
+def test_mistakes_in_statistics(sample):
+    assert "did you mean `lift_mean_mn`?" in message(ValueError, analysis.describe, sample, "lift_mean_m")
+    failed = fails(grid(drive_frequency=HERTZ), slice(None))
+    assert "no row has a number for `lift_mean_mn`" in message(ValueError, analysis.describe, failed, "lift_mean_mn")
+    assert analysis.describe(failed) == {}
+    assert "percentages are from 0 to 100" in message(ValueError, analysis.describe, sample, percentiles=[-1])
 
 
 def ranked(values):

@@ -1,4 +1,4 @@
-"""Sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of these results.
+"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws them.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,13 +18,21 @@ import numpy as np
 
 from ._data import Data, is_text
 from ._evaluate import evaluate
-from ._flapwing import correlations
+from ._flapwing import correlations, printed
 from ._listing import measures, params
-from ._mistakes import unknown
+from ._mistakes import reading, unknown
 from ._results import Parameter
-from ._types import Mask
+from ._types import Array, Mask
 
-__all__ = ["RankCorrelation", "Sensitivity", "non_dominated", "rank_correlations", "sensitivities"]
+__all__ = [
+    "RankCorrelation",
+    "Sensitivity",
+    "Statistics",
+    "describe",
+    "non_dominated",
+    "rank_correlations",
+    "sensitivities",
+]
 
 
 @dataclass(frozen=True)
@@ -260,6 +268,132 @@ def _parameters(data: Data) -> list[str]:
     """Return the parameters that are numbers, with sampled parameters first."""
     names = [name for name in data.parameters() if not is_text(data[name])]
     return sorted(names, key=data.on_a_grid)
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """The statistics of a measure over designs. Its text is ``str(statistics)``.
+
+    Attributes
+    ----------
+    measure : str
+        The measure's name.
+    unit : str
+        The unit of all values; ``""`` for a pure number.
+    designs : int
+        The number of designs that have the measure.
+    mean : float
+        The mean.
+    standard_deviation : float
+        The standard deviation of a sample (divisor ``designs - 1``); nan for one design.
+    standard_error : float
+        The standard error of the mean, for designs that are drawn independently of each other: the standard deviation
+        divided by the square root of `designs`. For a Latin hypercube or a Sobol' sequence it is an upper estimate. For
+        a grid it has no meaning.
+    smallest, largest : float
+        The smallest and the largest value.
+    percentiles : dict of float to float
+        The chosen percentiles, by percentage.
+    """
+
+    measure: str
+    unit: str
+    designs: int
+    mean: float
+    standard_deviation: float
+    standard_error: float
+    smallest: float
+    largest: float
+    percentiles: dict[float, float]
+
+    def __str__(self) -> str:
+        unit = f" {printed(self.unit)}" if self.unit else ""
+        shown = ", ".join(f"{percent:g} %: {value:.4g}" for percent, value in self.percentiles.items())
+        told = f"; {shown}" if shown else ""
+        return f"{self.measure}: {self.mean:.4g} ± {self.standard_deviation:.2g}{unit} ({self.designs} designs{told})"
+
+
+def percentages(given: Any) -> list[float]:
+    """Return percentages in rising order; raise ValueError if one is not from 0 to 100."""
+    with reading("percentiles", given, "it must be a list of percentages, such as [5, 50, 95]"):
+        chosen = sorted(dict.fromkeys(given))
+        outside = [percent for percent in chosen if not 0 <= percent <= 100]
+    if outside:
+        raise ValueError(f"`percentiles` has {outside[0]:g}\npercentages are from 0 to 100")
+    return chosen
+
+
+def statistics(measure: str, unit: str, values: Array, percentiles: Sequence[float]) -> Statistics:
+    """Return the statistics of finite values of a measure, of which there is at least one."""
+    deviation = float(values.std(ddof=1)) if len(values) > 1 else math.nan
+    return Statistics(
+        measure=measure,
+        unit=unit,
+        designs=len(values),
+        mean=float(values.mean()),
+        standard_deviation=deviation,
+        standard_error=deviation / math.sqrt(len(values)),
+        smallest=float(values.min()),
+        largest=float(values.max()),
+        percentiles={percent: float(np.percentile(values, percent)) for percent in percentiles},
+    )
+
+
+def describe(
+    table: Any,
+    measures: str | Iterable[str] | None = None,
+    *,
+    percentiles: Iterable[float] = (5.0, 50.0, 95.0),
+    where: Mapping[str, Any] | None = None,
+    **slices: Any,
+) -> dict[str, Statistics]:
+    """Compute mean, standard deviation, standard error and percentiles of measures over designs.
+
+    Designs without a periodic motion are left out, and so are values that are not finite.
+
+    Parameters
+    ----------
+    table : Table, data frame, mapping of columns, or path
+        Results of a sample, or of a grid.
+    measures : str or iterable of str, optional
+        Columns of numbers. Default: all measures of the table.
+    percentiles : iterable of float, optional
+        Percentages from 0 to 100. Between two designs, a percentile is interpolated linearly, as by ``flap describe``.
+    where, **slices
+        The selection of rows, as for `flapwing.plot.histogram`.
+
+    Returns
+    -------
+    dict of str to Statistics
+        The statistics of each measure, in the order of `measures`. A measure without a finite value is left out if
+        `measures` is not given.
+
+    Raises
+    ------
+    ValueError
+        An unknown column or value; no design with one of the measures; a percentage outside of 0 to 100.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> found = describe({"lift_mean_mn": np.array([1.0, 2.0, 3.0, 4.0])}, percentiles=[50])
+    >>> found["lift_mean_mn"].mean, found["lift_mean_mn"].percentiles
+    (2.5, {50: 2.5})
+    >>> print(found["lift_mean_mn"])
+    lift_mean_mn: 2.5 ± 1.3 mN (4 designs; 50 %: 2.5)
+    """
+    data = Data.of(table).slice(where, slices).one_sample()
+    chosen = percentages(percentiles)
+    names = data.measures() if measures is None else [measures] if isinstance(measures, str) else list(measures)
+    found = {}
+    for name in names:
+        values = np.where(data.measured(), data.numbers(name), np.nan)
+        values = values[np.isfinite(values)]
+        if len(values):
+            found[name] = statistics(name, data.unit(name), values, chosen)
+        elif measures is not None:
+            raise ValueError(f"no row has a number for `{name}`")
+    return found
 
 
 def non_dominated(costs: Any) -> Mask:

@@ -57,6 +57,7 @@ _WHOLE = _Kind(_is_whole, "it must be a whole number")
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "design": None,
+    "percentiles": None,
     **dict.fromkeys(["by", "color", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME),
     "lift": _Kind(
         lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'

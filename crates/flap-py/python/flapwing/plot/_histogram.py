@@ -1,8 +1,8 @@
-"""A histogram of a measure: the number of designs in each range of the measure, with percentiles."""
+"""The number of designs over a measure, with mean, standard deviation and percentiles."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from .. import _labels
 from .._data import Data
 from .._flapwing import bars
+from ..analysis import percentages, statistics
 from . import _style
 from ._checks import checked
 
-# The share of the axes' height above the bars, for the percentiles.
-_ROOM = 0.28
+# The share of the axes' height above the bars for each percentile, and the largest share for all.
+_LINE, _ROOM = 0.28 / 3.0, 0.5
 
 
 @checked
@@ -23,13 +24,16 @@ def histogram(
     table: Any,
     measure: str | None = None,
     *,
+    percentiles: Iterable[float] = (5, 50, 95),
     where: Mapping[str, Any] | None = None,
+    legend: bool | str = True,
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a histogram: the number of designs in each range of a measure, with the 5th, 50th and 95th percentile.
+    """Draw a histogram: the number of designs over a measure, with mean, standard deviation and percentiles.
 
     Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
+    `flapwing.analysis.describe` returns the numbers.
 
     Parameters
     ----------
@@ -37,12 +41,17 @@ def histogram(
         Results of any kind.
     measure : str, optional
         A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
+    percentiles : iterable of float, optional
+        Percentages from 0 to 100, each with a line. Default: 5, 50 and 95.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected is fixed at its middle value, and a warning shows this value.
+    legend : bool or str
+        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
+        axes that you give. The legend has the mean and the standard deviation.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
+        Axes to draw in, in the style of their figure. Only their labels are drawn outside of them.
         Default: axes of a new figure.
 
     Returns
@@ -52,7 +61,7 @@ def histogram(
     Raises
     ------
     ValueError
-        A column or value is unknown, or no design has the measure.
+        An unknown column or value; no design with the measure; a percentage outside of 0 to 100.
 
     Examples
     --------
@@ -60,29 +69,36 @@ def histogram(
     >>> ax = histogram({"lift_mean_mn": np.linspace(1.0, 2.0, 101)})
     >>> [text.get_text() for text in ax.texts]
     ['5 %: 1.05 mN', '50 %: 1.5 mN', '95 %: 1.95 mN']
+    >>> ax.get_legend().get_texts()[0].get_text()
+    'mean ± standard deviation: 1.5 ± 0.29 mN'
     """
     data = Data.of(table).slice(where, slices).one_sample()
+    chosen = percentages(percentiles)
     measure = data.usual("benefit", "measure") if measure is None else measure
     data.numbers(measure)
     shown = data.shown(measure)
-    found = bars(np.ascontiguousarray(np.where(data.measured(), shown.values, np.nan)))
+    values = np.ascontiguousarray(np.where(data.measured(), shown.values, np.nan))
+    found = bars(values)
     if found is None:
         raise ValueError(f"no row has a number for `{measure}`")
-    edges, counts, percentiles = found["edges"], found["counts"], found["percentiles"]
+    edges, counts = found["edges"], found["counts"]
+    told = statistics(measure, shown.unit, values[np.isfinite(values)], chosen)
 
+    given = ax is not None
     with _style.style(ax):
         ax = _style.axes_of(ax)
         look: Any = {"color": _style.PLAIN, "edgecolor": ax.get_facecolor(), "linewidth": 0.4}
         ax.bar(edges[:-1], counts, np.diff(edges), align="edge", **look)
-        ax.set_ylim(0.0, counts.max() / (1.0 - _ROOM))
+        room = min(_ROOM, _LINE * max(1, len(chosen)))
+        ax.set_ylim(0.0, counts.max() / (1.0 - room))
         ax.margins(x=0.03)
         middle = 0.5 * (edges[0] + edges[-1])
-        for line, (percent, value) in enumerate(percentiles):
+        for line, (percent, value) in enumerate(told.percentiles.items()):
             # Each percentile has its own line of text, so that close percentiles do not overlap.
-            top = 1.0 - _ROOM * line / len(percentiles)
+            top = 1.0 - room * line / len(chosen)
             ax.axvline(value, ymax=top, color=_style.ink(ax), linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
             ax.annotate(
-                f"{percent} %: {_labels.number(value)} {shown.unit}".rstrip(),
+                f"{percent:g} %: {_labels.number(value)} {shown.unit}".rstrip(),
                 (value, top),
                 xycoords=("data", "axes fraction"),
                 xytext=(3 if value < middle else -3, -1),
@@ -94,6 +110,23 @@ def histogram(
                 # The text covers the lines of other percentiles.
                 bbox={"facecolor": ax.get_facecolor(), "edgecolor": "none", "pad": 0.6},
             )
+        # A bar of errors below the highest bars: from one standard deviation below the mean to one above.
+        text = f"mean ± standard deviation: {_labels.number(told.mean)}"
+        if np.isfinite(told.standard_deviation):
+            text = f"{text} ± {told.standard_deviation:.2g}"
+        spread = np.nan_to_num(told.standard_deviation)
+        bar = ax.errorbar(
+            told.mean,
+            0.06 * counts.max(),
+            xerr=spread,
+            fmt="o",
+            color=_style.VERMILLION,
+            markersize=_style.size(0.8),
+            capsize=_style.size(0.5),
+            linewidth=_style.width(0.9),
+            label=f"{text} {shown.unit}".rstrip(),
+        )
+        _style.legend(ax, legend, given, handles=[bar], borderaxespad=0.1)
         ax.set_xlabel(shown.label)
         ax.set_ylabel("Number of designs")
     return ax
