@@ -26,7 +26,7 @@ from matplotlib.figure import Figure
 REPOSITORY = Path(__file__).parents[2]
 
 # Maps keep all of their colours: with few, their colour bars have steps.
-MAPS = ("control-matrix", "gaps", "heatmap")
+MAPS = ("best", "control-matrix", "gaps", "heatmap")
 
 
 def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
@@ -56,6 +56,25 @@ def measures() -> Figure:
 def heatmap(large: flapwing.Table) -> Axes:
     """Efficiency of the large direct drive over frequency and hinge stiffness, at one of the sweep's voltages."""
     return plot.heatmap(large, "efficiency_gf_per_w", drive_voltage_pp=100)
+
+
+def best(large: flapwing.Table) -> Axes:
+    """The largest efficiency over the voltages of the same sweep."""
+    return plot.heatmap(large, "efficiency_gf_per_w", y="hinge_stiffness", reduce="max", annotate=True)
+
+
+def points() -> Axes:
+    """Lift of the bimorph with a softened hinge at the points of a sample."""
+    sampled = {
+        "drive_voltage_pp": {"from": "160 V", "to": "280 V"},
+        "drive_frequency": {"from": "80 Hz", "to": "150 Hz"},
+    }
+    grid = {
+        "preset": "jafferis2016",
+        "params": {"hinge_stiffness": "0.7486 uN*m/rad"},
+        "sample": {"method": "sobol", "n": 200, "parameters": sampled},
+    }
+    return plot.heatmap(flapwing.sweep(grid), "vehicle_lift_mgf")
 
 
 def gaps() -> Axes:
@@ -168,6 +187,8 @@ def main() -> None:
         "response": response(),
         "measures": measures(),
         "heatmap": heatmap(large),
+        "best": best(large),
+        "points": points(),
         "gaps": gaps(),
         "pareto": pareto(large),
         "scatter": scatter(builds),

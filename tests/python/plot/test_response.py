@@ -101,7 +101,6 @@ def test_samples_have_axes_only_where_they_are_crossed_with_some():
     assert_array_equal(ax.lines[0].get_xdata(), HERTZ)
     text = message(ValueError, plot.response, rows, "lift_mean_mn", x="hinge_stiffness")
     assert "`hinge_stiffness` is sampled" in text and "plot.scatter" in text
-    assert "is sampled" in message(ValueError, plot.heatmap, rows, "lift_mean_mn")
 
 
 def test_si_parameters_are_shown_with_prefixes():

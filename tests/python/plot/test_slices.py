@@ -31,7 +31,10 @@ def test_values_may_have_units():
 
 def test_what_is_left_is_at_its_middle_as_in_the_command(flap, tmp_path):
     table = grid(hinge_stiffness=HINGE, drive_voltage_pp=[60.0, 80.0, 100.0, 120.0], drive_frequency=HERTZ)
-    said = "drawn: drive_voltage_pp = 100 V, the middle of 4 values; drive_voltage_pp=60 as a keyword chooses another"
+    said = (
+        "drawn: drive_voltage_pp = 100 V, the middle of 4 values; drive_voltage_pp=60 as a keyword chooses another, "
+        'and reduce="max" draws the largest of all'
+    )
     with pytest.warns(UserWarning) as told:
         ax = plot.heatmap(table)
     assert [str(each.message) for each in told] == [said]

@@ -131,19 +131,19 @@ class Data:
             return self
         return self._at_the_middle([name for name in left if name not in shown])
 
-    def for_picture(self, names: Sequence[str]) -> Data:
-        """Return one row for each combination of values in these columns. Of other axes, only the middle value is kept,
-        as in `flap plot`.
+    def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
+        """Return one row for each combination of these columns. Other axes are fixed at their middle values, as by
+        `flap plot`; a warning ends with `remedy`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
         shown = [self.axis(name) for name in names]
-        data = self._at_the_middle([name for name in self.axes() if name not in shown and self.on_a_grid(name)])
+        data = self._at_the_middle([name for name in self.axes() if name not in shown and self.on_a_grid(name)], remedy)
         data.one_row_for(names)
         return data
 
-    def _at_the_middle(self, axes: Sequence[str]) -> Data:
-        """Return the rows at the middle value of each of these axes. A warning lists the middle values."""
+    def _at_the_middle(self, axes: Sequence[str], remedy: str = "") -> Data:
+        """Return the rows at the middle value of each of these axes; a warning lists the values."""
         data = self
         for name in axes:
             values = distinct(data[name])
@@ -155,7 +155,7 @@ class Data:
             value = f"{told} {unit}" if unit else told
             warnings.warn(
                 f"drawn: {name} = {value}, the middle of {len(values)} values; "
-                f"{name}={other} as a keyword chooses another",
+                f"{name}={other} as a keyword chooses another{remedy}",
                 stacklevel=_callers_level(),
             )
             data = data.rows(data[name].astype(values.dtype) == middle)

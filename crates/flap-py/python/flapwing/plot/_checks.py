@@ -58,7 +58,9 @@ _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "design": None,
     "percentiles": None,
-    **dict.fromkeys(["by", "color", "measure", "parameter", "time", "value", "x", "xscale", "y", "yscale"], _NAME),
+    **dict.fromkeys(
+        ["by", "color", "measure", "parameter", "reduce", "time", "value", "x", "xscale", "y", "yscale"], _NAME
+    ),
     "lift": _Kind(
         lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'
     ),
@@ -73,6 +75,7 @@ _KINDS: dict[str, _Kind | None] = {
         lambda value: isinstance(value, Mapping), 'it must be a mapping of columns, such as {"drive_voltage_pp": 100}'
     ),
     "parameters": _Kind(_are_parameters, "it must be names of parameters, or a mapping of names to changes"),
+    "annotate": _Kind(lambda value: isinstance(value, bool), "it must be True or False"),
     "ax": _Kind(lambda value: isinstance(value, Axes), "it must be matplotlib Axes, such as from plt.subplots()"),
     "colorbar": _Kind(
         lambda value: isinstance(value, (bool, Axes)), "it must be True, False or matplotlib Axes to draw it in"

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Colormap, to_rgba
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from .._data import Data, Shown, distinct, edges, scattered
+from .. import _labels
+from .._data import Data, Shown, distinct, edges, is_text
+from .._labels import better
 from . import _scales, _style
 from ._checks import checked
+from ._triangles import Points, form_no_grid
 
 # Statuses without measures, and the greys of their cells.
 _GREYS = {
@@ -38,6 +42,8 @@ def heatmap(
     cmap: str | Colormap | None = None,
     vmin: float | None = None,
     vmax: float | None = None,
+    reduce: str | None = None,
+    annotate: bool = False,
     where: Mapping[str, Any] | None = None,
     legend: bool | str = True,
     colorbar: bool | Axes = True,
@@ -51,27 +57,38 @@ def heatmap(
     have, are hatched. A legend explains grey and hatched cells. In a table of `respond`, curves were refined at
     different points. In this case, a cell without a row shows the nearest row of the same curve.
 
+    Points that form no grid, such as a sample, are drawn as dots. The colours between them are interpolated linearly on
+    triangles. A triangle is left out if one of its points has no value. Crosses are points without a periodic motion.
+
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of a sweep over a grid.
+        Results of a sweep over a grid or of a sample.
     value : str, optional
         The measure. Default: the mean lift.
     x, y : str, optional
-        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
-        if ``drive_frequency`` does not vary. Default for y: the first of the other axes.
+        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, else the last axis of the
+        grid. Default for y: the first of the other axes. If the grid has fewer than two axes, sampled parameters are
+        used.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. By default, a scale is logarithmic if neighbouring values have a constant ratio.
+        Default: logarithmic if the values have a constant ratio. For points that form no grid: linear.
     cmap : str, optional
         A colour map of matplotlib. Default: viridis. For values of both signs, a map that is white at zero, with a line
         at zero.
     vmin, vmax : float, optional
         The ends of the colours, in the unit of the colour bar. Default: the smallest and the largest value. An arrow at
-        an end of the colour bar marks values beyond this end.
+        an end of the colour bar marks values beyond it.
+    reduce : {"max", "min", "mean"}, optional
+        Combine the rows that have the same x and y: the largest value, the smallest value, or the mean over the axes
+        that are not drawn. Rows without a value are left out.
+    annotate : bool
+        Mark the best cell with a star. The legend has its value, its place, and the values of the axes that `reduce`
+        combined. The best is the largest value with ``reduce="max"``, and the smallest with ``reduce="min"``.
+        Otherwise it is the smallest for costs such as power, and the largest for other measures.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
+        drawn nor selected nor reduced is fixed at its middle value, and a warning shows this value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -89,7 +106,8 @@ def heatmap(
     Raises
     ------
     ValueError
-        A column or value is unknown, or several rows are in one cell.
+        An unknown column or value; several rows in one cell, without `reduce`; points that form no grid and are on one
+        line.
 
     Examples
     --------
@@ -104,50 +122,159 @@ def heatmap(
     >>> [float(end) for end in ax.get_xlim()]
     [85.0, 105.0]
     """
+    if reduce not in (None, "max", "min", "mean"):
+        raise ValueError(f'`reduce` is {reduce!r}\nit must be "max", "min" or "mean"')
     whole = Data.of(table)
     data = whole.slice(where, slices)
     value = data.usual("benefit", "value") if value is None else value
     data.numbers(value)
     x, y = _two_axes(data, x, y)
-    for name in (x, y):
-        if not data.on_a_grid(name):
-            raise scattered(name)
-    data = data.for_picture([x, y])
-
-    shown, across, up = data.shown(value), _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
-    rows = np.full((up.count, across.count), -1)
-    rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
-    followed = data.followed()
-    if followed == x:
-        rows = _along_curves(rows, across)
-    elif followed == y:
-        rows = _along_curves(rows.T, up).T
-    measured = data.measured()
-    values = np.where((rows >= 0) & measured[rows], shown.values[rows], np.nan)
-
-    colours = _scales.colours(values, cmap, vmin, vmax)
+    every = data
+    if reduce is None:
+        try:
+            data = data.for_picture([x, y], ', and reduce="max" draws the largest of all')
+        except ValueError as error:
+            raise ValueError(f'{error}\nor combine these rows with reduce="max", "min" or "mean"') from None
+    else:
+        data = _reduced(data, [x, y], value, reduce)
+    picture: _Cells | _Points
+    if form_no_grid(data, x, y):
+        picture = _Points(data, value, x, y, xscale, yscale)
+    else:
+        picture = _Cells(data, whole, value, x, y, xscale, yscale)
+    colours = _scales.colours(picture.values, cmap, vmin, vmax)
 
     given = ax is not None
     with _style.style(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
         ax.grid(False)
-        masked = np.ma.masked_invalid(values)
-        mesh = ax.pcolormesh(across.edges, up.edges, masked, cmap=colours.cmap, norm=colours.norm, rasterized=True)
-        if colours.signed and min(values.shape) > 1:
-            look: Any = {"colors": _style.DARK, "linewidths": _style.width(0.6)}
-            ax.contour(across.centres, up.centres, masked, [0.0], **look)
-        colours.bar(ax, mesh, colorbar, shown.label)
-        missing = []
-        for name, mask in _missing(data, rows, values).items():
-            # Several cells along a curve may show the same row.
-            count = int(mask.sum()) if name == _NO_ROW else len(np.unique(rows[mask]))
-            missing.append(_fill(ax, across.edges, up.edges, mask, name, count))
-        across.finish(ax, "x")
-        up.finish(ax, "y")
-        if missing:
-            look = {"handles": missing, "handlelength": 1.6, "handleheight": 1.1}
+        colours.bar(ax, picture.draw(ax, colours), colorbar, data.shown(value).label)
+        entries = picture.mark_missing(ax)
+        if annotate and np.isfinite(picture.values).any():
+            smallest = reduce == "min" or (reduce != "max" and better(value) < 0)
+            row, place = picture.best(smallest)
+            names = [x, y, *(_combined(every, x, y) if reduce in ("max", "min") else [])]
+            entries.append(_star(ax, place, _best_text(data, row, value, names)))
+        picture.finish(ax)
+        if entries:
+            look: Any = {"handles": entries, "handlelength": 1.6, "handleheight": 1.1}
             _style.legend(ax, legend, given, inside="upper left", ncols=3, borderaxespad=0.2, **look)
     return ax
+
+
+def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
+    """Return one row for each combination of these columns: the row with the largest or smallest value, or one row with
+    the mean.
+    """
+    groups = data.groups(names)
+    values = np.where(data.measured(), data.numbers(value), np.nan)
+    there = np.isfinite(values)
+    # Rows without a value are last, so they are chosen only if their cell has no other rows.
+    order = np.lexsort((np.where(there, -values if how == "max" else values, np.inf), groups))
+    chosen = order[np.unique(groups[order], return_index=True)[1]]
+    reduced = data.rows(chosen)
+    if how == "mean":
+        count = np.bincount(groups[there], minlength=len(chosen))
+        total = np.bincount(groups[there], values[there], minlength=len(chosen))
+        mean = np.divide(total, count, out=np.full(len(chosen), np.nan), where=count > 0)
+        reduced.columns[value] = mean[groups[chosen]]
+    return reduced
+
+
+def _combined(data: Data, x: str, y: str) -> list[str]:
+    """Return the parameters with several values that are not drawn."""
+    drawn = {data.axis(x), data.axis(y)}
+    names = [name for name in data.parameters() if name not in (x, y) and len(distinct(data[name])) > 1]
+    return [name for name in names if data.axis(name) not in drawn or not data.on_a_grid(name)]
+
+
+def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
+    """Return the entry of the legend for the best row: its value, then the parameters."""
+    lines = []
+    for name in (value, *names):
+        shown = data.shown(name)
+        lines.append(f"{_labels.lowered(shown.words)}: {shown.value(data[name][row])} {shown.unit}".rstrip())
+    return "\n".join([f"best {lines[0]}", *(f"  {line}" for line in lines[1:])])
+
+
+def _star(ax: Axes, place: tuple[float, float], label: str) -> Line2D:
+    """Mark a place with a star and return the entry of the legend."""
+    look: Any = {"marker": "*", "linestyle": "none", "markersize": _style.size(2.0), "color": "white"}
+    (line,) = ax.plot(*place, label=label, markeredgecolor=_style.DARK, markeredgewidth=_style.width(0.5), **look)
+    return line
+
+
+class _Points:
+    """A map of points that form no grid."""
+
+    def __init__(self, data: Data, value: str, x: str, y: str, xscale: str | None, yscale: str | None) -> None:
+        self.data = data
+        self.values: np.ndarray = np.where(data.measured(), data.shown(value).values, np.nan)
+        self.points = Points(data, x, y, (xscale, yscale), self.values)
+
+    def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
+        return self.points.draw(ax, colours)
+
+    def mark_missing(self, ax: Axes) -> list[Any]:
+        """Mark the points without a value, and return the entries of the legend."""
+        rows = np.arange(len(self.data))
+        missing = _missing(self.data, rows, self.values)
+        return [self.points.mark(ax, rows[mask], name) for name, mask in missing.items()]
+
+    def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
+        """Return the row with the best value, and its place."""
+        row = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
+        return row, self.points.place(row)
+
+    def finish(self, ax: Axes) -> None:
+        self.points.finish(ax)
+
+
+class _Cells:
+    """A map of cells around the points of a grid."""
+
+    def __init__(
+        self, data: Data, whole: Data, value: str, x: str, y: str, xscale: str | None, yscale: str | None
+    ) -> None:
+        self.data = data
+        self.across, self.up = across, up = _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
+        rows = np.full((up.count, across.count), -1)
+        rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
+        followed = data.followed()
+        if followed == x:
+            rows = _along_curves(rows, across)
+        elif followed == y:
+            rows = _along_curves(rows.T, up).T
+        self.rows = rows
+        self.values: np.ndarray = np.where((rows >= 0) & data.measured()[rows], data.shown(value).values[rows], np.nan)
+
+    def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
+        masked = np.ma.masked_invalid(self.values)
+        look: Any = {"cmap": colours.cmap, "norm": colours.norm, "rasterized": True}
+        mesh = ax.pcolormesh(self.across.edges, self.up.edges, masked, **look)
+        if colours.signed and min(masked.shape) > 1:
+            look = {"colors": _style.DARK, "linewidths": _style.width(0.6)}
+            ax.contour(self.across.centres, self.up.centres, masked, [0.0], **look)
+        return mesh
+
+    def mark_missing(self, ax: Axes) -> list[Any]:
+        """Fill the cells without a value, and return the entries of the legend."""
+        entries = []
+        for name, mask in _missing(self.data, self.rows, self.values).items():
+            # Several cells along a curve may show the same row.
+            count = int(mask.sum()) if name == _NO_ROW else len(np.unique(self.rows[mask]))
+            entries.append(_fill(ax, self.across.edges, self.up.edges, mask, name, count))
+        return entries
+
+    def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
+        """Return the row with the best value, and the place of its cell."""
+        cell = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
+        line, column = np.unravel_index(cell, self.values.shape)
+        return int(self.rows[line, column]), (float(self.across.centres[column]), float(self.up.centres[line]))
+
+    def finish(self, ax: Axes) -> None:
+        self.across.finish(ax, "x")
+        self.up.finish(ax, "y")
 
 
 class _Axis:
@@ -214,6 +341,10 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
         return x, y
     named = [data.axis(name) for name in (x, y) if name is not None]
     left = [name for name in data.axes() if name not in named]
+    if len(left) < 2 - len(named):
+        numbers = [name for name in data.parameters() if not is_text(data[name]) and len(distinct(data[name])) > 1]
+        free = [name for name in numbers if not data.grid_axes or not data.on_a_grid(name)]
+        left += [name for name in free if name not in (*left, x, y)]
     if len(left) < 2 - len(named):
         there = ", ".join([*named, *left]) or "none"
         raise ValueError(f"a map requires two axes with more than one value each; the table has: {there}")

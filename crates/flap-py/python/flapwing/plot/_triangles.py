@@ -1,0 +1,107 @@
+"""A measure at points that form no grid, as colours of triangles between the points."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.tri import TriAnalyzer, Triangulation
+
+from .._data import Data, distinct, is_text
+from . import _scales, _style
+
+# Triangles at the outline with a smaller ratio of the radii of their circles are left out: they join distant points.
+_FLAT = 0.02
+
+# The share of the range of a parameter that is free beside the points.
+_ROOM = 0.03
+
+# The markers of points without a value, by status.
+_MARKERS = {"subharmonic": "+", "unsettled": "x", "diverged": "1", "step_limit": "2", "invalid": "3"}
+
+
+def form_no_grid(data: Data, x: str, y: str) -> bool:
+    """Return True if a map of these parameters would consist mostly of cells without a row."""
+    if is_text(data[x]) or is_text(data[y]) or data.followed() in (x, y):
+        return False
+    if not (data.on_a_grid(x) and data.on_a_grid(y)):
+        return True
+    axes = [name for axis in data.grid_axes for name in axis]
+    if x in axes and y in axes:
+        return False
+    return 2 * len(np.unique(data.groups([x, y]))) < len(distinct(data[x])) * len(distinct(data[y]))
+
+
+class Points:
+    """Points in the plane of two parameters, and the triangles between them."""
+
+    def __init__(self, data: Data, x: str, y: str, scales: tuple[str | None, str | None], values: np.ndarray) -> None:
+        self.x, self.y = data.shown(x), data.shown(y)
+        self.values = values
+        self.logs = tuple(scale == "log" for scale in scales)
+        places = []
+        for shown, scale, log in zip((self.x, self.y), scales, self.logs):
+            if scale not in (None, "linear", "log"):
+                raise ValueError(f'a scale is "linear" or "log", not {scale!r}')
+            if log and shown.values.min() <= 0:
+                raise ValueError(f"`{shown.name}` cannot have a logarithmic scale: its smallest value is not positive")
+            place = np.log(shown.values) if log else shown.values
+            places.append((place - place.min()) / (np.ptp(place) or 1.0))
+        try:
+            # The parameters have different units, so triangles are formed in shares of their ranges.
+            mesh = Triangulation(*places)
+        except (RuntimeError, ValueError):
+            raise ValueError(
+                f"the points form no triangle over `{x}` and `{y}`: they are fewer than three, or on one line\n"
+                "draw them with plot.scatter"
+            ) from None
+        # Between points of which one has no value, nothing is known.
+        unknown = ~np.isfinite(values)[mesh.triangles].all(axis=1)
+        flat = TriAnalyzer(mesh).get_flat_tri_mask(_FLAT)
+        self.mesh = Triangulation(self.x.values, self.y.values, mesh.triangles, flat | unknown)
+
+    def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
+        """Draw the triangles and the points, and return the coloured part."""
+        values = np.nan_to_num(self.values)
+        there = np.isfinite(self.values)
+        look: Any = {"cmap": colours.cmap, "norm": colours.norm}
+        if not self.mesh.mask.all():
+            ax.tripcolor(self.mesh, values, shading="gouraud", rasterized=True, **look)
+            if colours.signed:
+                ax.tricontour(self.mesh, values, [0.0], colors=_style.DARK, linewidths=_style.width(0.6))
+        # Dots have the colours of their values, so that points outside of all triangles are seen too.
+        size = _style.size(0.6 if len(values) < 300 else 0.3)
+        return ax.scatter(
+            self.x.values[there],
+            self.y.values[there],
+            s=size**2,
+            c=self.values[there],
+            edgecolors=_style.DARK,
+            linewidths=_style.width(0.25),
+            zorder=2.0,
+            **look,
+        )
+
+    def mark(self, ax: Axes, rows: np.ndarray, status: str) -> Line2D:
+        """Draw the points without a value in these rows, and return the entry of the legend."""
+        look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
+        label = f"{status} ({len(rows)})"
+        (line,) = ax.plot(self.x.values[rows], self.y.values[rows], label=label, markersize=_style.size(0.7), **look)
+        return line
+
+    def finish(self, ax: Axes) -> None:
+        """Label the axes, and leave room around the points."""
+        for shown, log, which in zip((self.x, self.y), self.logs, "xy"):
+            low, high = float(shown.values.min()), float(shown.values.max())
+            if log:
+                ax.set(**{f"{which}scale": "log"})
+                _scales.show_log_ticks(getattr(ax, f"{which}axis"), low, high)
+            room = (high / low) ** _ROOM if log else _ROOM * (high - low)
+            ends = (low / room, high * room) if log else (low - room, high + room)
+            ax.set(**{f"{which}label": shown.label, f"{which}lim": ends})
+
+    def place(self, row: int) -> tuple[float, float]:
+        """Return the place of a row."""
+        return float(self.x.values[row]), float(self.y.values[row])
