@@ -26,7 +26,7 @@ from matplotlib.figure import Figure
 REPOSITORY = Path(__file__).parents[2]
 
 # Maps keep all of their colours: with few, their colour bars have steps.
-MAPS = ("best", "control-matrix", "gaps", "heatmap")
+MAPS = ("best", "column", "control-matrix", "gaps", "heatmap")
 
 
 def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
@@ -61,6 +61,12 @@ def heatmap(large: flapwing.Table) -> Axes:
 def best(large: flapwing.Table) -> Axes:
     """The largest efficiency over the voltages of the same sweep."""
     return plot.heatmap(large, "efficiency_gf_per_w", y="hinge_stiffness", reduce="max", annotate=True)
+
+
+def column(large: flapwing.Table) -> Axes:
+    """The same map in the width of a column."""
+    with plot.style(width="3.3 in", font_size=8):
+        return plot.heatmap(large, "efficiency_gf_per_w", drive_voltage_pp=100)
 
 
 def points() -> Axes:
@@ -189,6 +195,7 @@ def main() -> None:
         "heatmap": heatmap(large),
         "best": best(large),
         "points": points(),
+        "column": column(large),
         "gaps": gaps(),
         "pareto": pareto(large),
         "scatter": scatter(builds),

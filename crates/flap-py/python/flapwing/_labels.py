@@ -78,11 +78,13 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """Yield a title in one line, then the same title in two lines, and so on."""
+    """Yield a title with its own lines, then with one more line, and so on."""
     told = [title]
     yield title
-    for width in range(len(title) - 1, 7, -1):
-        lines = "\n".join(textwrap.wrap(title, width, break_long_words=False, break_on_hyphens=False))
+    for width in range(max(map(len, title.split("\n"))) - 1, 7, -1):
+        lines = "\n".join(
+            textwrap.fill(line, width, break_long_words=False, break_on_hyphens=False) for line in title.split("\n")
+        )
         if lines.count("\n") != told[-1].count("\n"):
             told.append(lines)
             yield lines

@@ -1,8 +1,9 @@
 """Pictures of results with matplotlib, each by one function call.
 
-Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file with results. The
-result is matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes
-sensitivities, rank correlations and Pareto fronts. The functions do not change the settings of matplotlib.
+Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. It returns
+matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes sensitivities, rank
+correlations and Pareto fronts. `style` sets the size of figures and letters. The other functions do not change the
+settings of matplotlib.
 
     >>> import numpy as np
     >>> from flapwing import plot
@@ -32,6 +33,7 @@ from ._hysteresis import hysteresis
 from ._pareto import pareto
 from ._response import response, response_panels
 from ._scatter import scatter
+from ._style import style
 from ._tornado import tornado
 from ._trajectory import trajectory
 from ._wing_path import WingPath, wing_path
@@ -49,6 +51,7 @@ __all__ = [
     "response",
     "response_panels",
     "scatter",
+    "style",
     "tornado",
     "trajectory",
     "wing_path",

@@ -61,7 +61,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     has_pairs = len(result.estimates) > 1
     shown = [show] if show else ["data", *(["profiles"] if profiled else []), *(["correlations"] if has_pairs else [])]
     measures = list(dict.fromkeys(measure for one in result._sets for measure in one.measured))
-    with _style.style():
+    with _style.applied():
         heights = {"data": 2.9 * len(measures), "profiles": 2.6 * _rows(len(profiled)), "correlations": 3.2}
         figure = _style.new_figure(7.2, sum(heights[part] for part in shown))
         parts = figure.subfigures(len(shown), 1, height_ratios=[heights[part] for part in shown], squeeze=False)[:, 0]
@@ -76,8 +76,13 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     return figure
 
 
+def _columns() -> int:
+    """Return the number of profiles beside each other."""
+    return 2 if _style.is_narrow() else 3
+
+
 def _rows(count: int) -> int:
-    return -(-count // 3)
+    return -(-count // _columns())
 
 
 def _data(result: Fit, measure: str, ax: Axes) -> None:
@@ -120,7 +125,12 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
     ax.set_ylabel(_labels.label(measure, result._model.names.unit(measure)))
     handles, labels = ax.get_legend_handles_labels()
     shade = (Patch(color=_style.GREY, alpha=0.25, lw=0), Line2D([], [], color=_style.GREY, lw=1.2))
-    ax.legend([*handles, shade], [*labels, "model with its 95 % band"])
+    entries: Any = ([*handles, shade], [*labels, "model with its 95 % band"])
+    if _style.is_narrow():
+        # Inside, it would cover the curves.
+        ax.legend(*entries, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.1)
+    else:
+        ax.legend(*entries)
 
 
 def _label(name: str, others: dict[str, Any], result: Fit) -> str:
@@ -141,7 +151,7 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
     """Draw the profiles: the rise of the cost when one parameter is fixed at different values."""
     rows = _rows(len(profiled))
-    axes = part.subplots(rows, min(3, len(profiled)), squeeze=False).ravel()
+    axes = part.subplots(rows, min(_columns(), len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):
         profile = one.profile
         assert profile is not None
@@ -165,7 +175,8 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
         Line2D([], [], color=_style.VERMILLION, lw=0.8, ls="--", label="95 % limit"),
         Line2D([], [], color=_style.VERMILLION, lw=0.8, ls=":", label="ends of the interval"),
     ]
-    part.legend(handles=explained, loc="outside upper left", ncols=4)
+    look: Any = {"handles": explained, "loc": "outside upper left"}
+    _style.fitted(part, lambda columns: part.legend(ncols=columns, **look), 4)
 
 
 def _correlations(result: Fit, part: Any) -> None:

@@ -134,17 +134,22 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
         raise scattered(x)
     data.numbers(x)
     data = data.for_picture([x])
-    with _style.style():
-        figure = _style.new_figure(7.2, 3.9)
-        axes = figure.subplots(2, 3, sharex=True)
+    with _style.applied():
+        if _style.is_narrow():
+            # Forces are in the left column, torques in the right.
+            axes = _style.new_figure(7.2, 7.2).subplots(3, 2, sharex=True).T
+        else:
+            axes = _style.new_figure(7.2, 3.9).subplots(2, 3, sharex=True)
+        figure: Figure = _style.figure_of(axes[0, 0])
         family = Family(data, data, x, None)
         for each, name in zip(axes.flat, outputs):
             family.draw(each, name)
             each.axhline(0.0, color=_style.GREY, linewidth=_style.width(0.5), zorder=1)
-        family.mark(axes[0, 2])
-        for each in axes[1]:
+        lowest = axes[:, 2] if _style.is_narrow() else axes[1]
+        family.mark(axes[1, 0] if _style.is_narrow() else axes[0, 2])
+        for each in lowest:
             each.set_xlabel(family.x.label)
-        figure.align_ylabels(axes)
+        figure.align_ylabels()
     return figure
 
 
@@ -214,7 +219,8 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
     shares = values / np.where(largest > 0, largest, 1.0)
-    with _style.style(ax):
+    own = ax is None
+    with _style.applied(ax):
         ax = drawn = _style.axes_of(ax, 2.4 + 1.15 * len(effects.inputs), 3.6)
         ax.grid(False)
         mesh = ax.imshow(shares, cmap="RdBu_r", vmin=-1.0, vmax=1.0, aspect="auto")
@@ -223,12 +229,15 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
             colour = "white" if share > 0.6 else _style.DARK
             text = _cell(float(values[row, column]), share)
             ax.text(column, row, text, ha="center", va="center", color=colour, fontsize="small")
-        ax.set_xticks(range(len(effects.inputs)), labels=[_input(*each) for each in effects.inputs])
+        is_narrow = own and _style.is_narrow()
+        turned: Any = {"rotation": 90, "fontsize": "small"} if is_narrow else {}
+        ax.set_xticks(range(len(effects.inputs)), labels=[_input(*each) for each in effects.inputs], **turned)
         ax.set_yticks(range(len(effects.outputs)), labels=[_labels.label(name) for name in effects.outputs])
         for line in np.arange(0.5, len(effects.inputs) - 1):
             ax.axvline(line, color="white", linewidth=_style.width(1.0))
         ax.tick_params(length=0)
-        _style.colour_bar(ax, mesh, colorbar, label="Share of the input's largest change")
+        above: Any = {"location": "top"} if is_narrow and colorbar is True else {}
+        _style.colour_bar(ax, mesh, colorbar, label="Share of the input's largest change", **above)
     return drawn
 
 

@@ -79,8 +79,8 @@ def heatmap(
         The ends of the colours, in the unit of the colour bar. Default: the smallest and the largest value. An arrow at
         an end of the colour bar marks values beyond it.
     reduce : {"max", "min", "mean"}, optional
-        Combine the rows that have the same x and y: the largest value, the smallest value, or the mean over the axes
-        that are not drawn. Rows without a value are left out.
+        Combine the rows with the same x and y: their largest value, their smallest value or their mean. These rows
+        differ in the axes that are not drawn. Rows without a value are left out.
     annotate : bool
         Mark the best cell with a star. The legend has its value, its place, and the values of the axes that `reduce`
         combined. The best is the largest value with ``reduce="max"``, and the smallest with ``reduce="min"``.
@@ -145,7 +145,7 @@ def heatmap(
     colours = _scales.colours(picture.values, cmap, vmin, vmax)
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
         ax.grid(False)
         colours.bar(ax, picture.draw(ax, colours), colorbar, data.shown(value).label)

@@ -42,7 +42,7 @@ def histogram(
     measure : str, optional
         A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100, each with a line. Default: 5, 50 and 95.
+        Percentages from 0 to 100, each with a line. Default: 5, 50 and 95, as in ``flap plot``.
     where, **slices
         Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
         Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
@@ -85,7 +85,7 @@ def histogram(
     told = statistics(measure, shown.unit, values[np.isfinite(values)], chosen)
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax)
         look: Any = {"color": _style.PLAIN, "edgecolor": ax.get_facecolor(), "linewidth": 0.4}
         ax.bar(edges[:-1], counts, np.diff(edges), align="edge", **look)
@@ -126,7 +126,7 @@ def histogram(
             linewidth=_style.width(0.9),
             label=f"{text} {shown.unit}".rstrip(),
         )
-        _style.legend(ax, legend, given, handles=[bar], borderaxespad=0.1)
         ax.set_xlabel(shown.label)
         ax.set_ylabel("Number of designs")
+        _style.legend(ax, legend, given, handles=[bar], borderaxespad=0.1)
     return ax

@@ -85,7 +85,7 @@ def hysteresis(
     bands, up.jumps, down.jumps = compared["bands"], compared["up"], compared["down"]
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax)
         for i, (low, high) in enumerate(bands):
             text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 and not given else "bistable"

@@ -100,7 +100,7 @@ def pareto(
     x, y = data.shown(names[0]), data.shown(names[1])
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
         size = points(ax, data, x.values, y.values, color, cmap, colorbar)
         order = np.flatnonzero(front)

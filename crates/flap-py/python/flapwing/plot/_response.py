@@ -95,7 +95,7 @@ def response(
     measure = data.usual("response", "y") if y is None else y
     family = _family(whole, data, [measure], x, by)
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         drawn = _style.axes_of(ax)
         family.draw(drawn, measure)
         (family.mark_inside if given else family.mark)(drawn)
@@ -169,7 +169,7 @@ def response_panels(
         raise ValueError("`measures` is empty: give at least one measure")
     whole, by = _together(table, label, by)
     family = _family(whole, whole.slice(where, slices), measures, x, by)
-    with _style.style():
+    with _style.applied():
         figure = _style.new_figure(6.4, 4.0 if len(measures) == 1 else 1.2 + 2.1 * len(measures))
         axes = list(np.atleast_1d(figure.subplots(len(measures), 1, sharex=True)))
         for each, name in zip(axes, measures):
@@ -270,8 +270,9 @@ class Family:
             self._strokes(ax, rows, 1.02 + place * step, colour, clip_on=False)
         statuses = self.data["status"].astype(str)[np.concatenate([rows for rows, _ in lines])]
         counts = ", ".join(f"{np.sum(statuses == status)} {status}" for status in distinct(statuses))
+        told = f"marks: no periodic motion ({counts})"
         ax.annotate(
-            f"marks: no periodic motion ({counts})",
+            told.replace(" (", "\n(") if _style.is_narrow() else told,
             (1.0, 1.02 + len(lines) * step),
             xycoords="axes fraction",
             xytext=(0, 2),

@@ -90,7 +90,7 @@ def scatter(
     across, up = data.shown(x), data.shown(y)
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax, 6.4, 4.4)
         points(ax, data, across.values, up.values, color, cmap, colorbar)
         ax.set_xlabel(across.label)

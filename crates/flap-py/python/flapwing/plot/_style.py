@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from numbers import Real
 from typing import TYPE_CHECKING, Any, cast
 
 import matplotlib as mpl
@@ -12,8 +14,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import same_color
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 
 from .. import _flapwing, _labels
+from .._mistakes import refused
 
 if TYPE_CHECKING:
 
@@ -61,21 +65,122 @@ _SETTINGS: Any = {
 }
 
 
+#: Lengths in inches.
+_INCHES = {"in": 1.0, "cm": 1.0 / 2.54, "mm": 1.0 / 25.4}
+
+#: The height of a picture with one axes (inches). Pictures with several axes are higher in proportion.
+_HEIGHT = 4.0
+
+#: Narrower figures (inches) have their axes below each other.
+NARROW = 5.0
+
+
 @contextmanager
-def style(ax: Axes | None = None) -> Iterator[None]:
-    """Apply the style of flap's pictures while a picture is drawn.
+def style(
+    *, width: float | str | None = None, height: float | str | None = None, font_size: float = 8.0
+) -> Iterator[None]:
+    """Set the size of pictures and of their letters, for a paper or for slides.
+
+    The settings apply to figures that are drawn and saved in the ``with`` block. They are settings of matplotlib, such
+    as ``figure.figsize`` and ``font.size``, so they apply to your own figures too.
+
+    Parameters
+    ----------
+    width, height : float or str, optional
+        Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
+        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 of the width. Figures with several axes
+        below each other are higher in proportion. If both are omitted, flap's sizes are kept.
+    font_size : float, optional
+        Size of the letters (points). Lines and markers are thinner for letters of less than 9.5 points. Default: 8.
+
+    Returns
+    -------
+    context manager
+        The settings are restored at the end of its ``with`` block.
+
+    Raises
+    ------
+    ValueError
+        A length or a size that is not more than zero, or that has another unit.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from flapwing import plot
+    >>> table = {"lift_mean_mn": np.linspace(1.0, 2.0, 101)}
+    >>> with plot.style(width="3.3 in", font_size=8):
+    ...     figure = plot.histogram(table).figure
+    >>> [float(round(side, 1)) for side in figure.get_size_inches()]
+    [3.3, 2.4]
+    """
+    if isinstance(font_size, bool) or not isinstance(font_size, Real):
+        raise refused("font_size", font_size, "it must be a number of points")
+    if not 0.0 < font_size < float("inf"):
+        raise ValueError(f"`font_size` must be more than 0 points, not {font_size}")
+    letters = float(font_size)
+    thin = min(1.0, letters / _SETTINGS["font.size"])
+    settings: dict[str, Any] = {
+        # A size that equals matplotlib's default would count as not set.
+        "font.size": letters + 1e-9,
+        "axes.linewidth": 0.8 * thin,
+        "grid.linewidth": 0.7 * thin,
+        "lines.linewidth": 1.6 * thin,
+        "lines.markersize": 6.0 * thin,
+        **{f"{each}tick.major.size": 3.5 * thin for each in "xy"},
+        **{f"{each}tick.major.width": 0.8 * thin for each in "xy"},
+        "savefig.dpi": 300,
+        # Journals require letters as outlines of TrueType, which can be searched.
+        "pdf.fonttype": 42,
+    }
+    if width is not None or height is not None:
+        across = 6.4 if width is None else _inches("width", width)
+        settings["figure.figsize"] = (across, 1.0 + 0.42 * across if height is None else _inches("height", height))
+    with mpl.rc_context(settings):
+        yield
+
+
+def _inches(name: str, length: Any) -> float:
+    """Return a length in inches."""
+    allowed = 'it must be a number of inches, or text such as "3.3 in", "84 mm" or "8.4 cm"'
+    if isinstance(length, str):
+        found = re.fullmatch(r"\s*([0-9.]+)\s*([a-z]+)\s*", length)
+        if found is None or found[2] not in _INCHES or found[1].count(".") > 1 or found[1] == ".":
+            raise ValueError(f"`{name}` is {length!r}\n{allowed}")
+        length = float(found[1]) * _INCHES[found[2]]
+    elif isinstance(length, bool) or not isinstance(length, Real):
+        raise refused(name, length, allowed)
+    if not 0.0 < length < float("inf"):
+        raise ValueError(f"`{name}` must be more than 0, not {length}")
+    return float(length)
+
+
+@contextmanager
+def applied(ax: Axes | None = None) -> Iterator[None]:
+    """Apply the style of flap's pictures while one is drawn.
 
     Settings of matplotlib that the user has changed stay. A setting counts as changed if it differs from the default of
     matplotlib. Axes that the user gives keep the style of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
+    before = plt.get_fignums()
     with mpl.rc_context(own):
         try:
             yield
+            if is_narrow():
+                for number in plt.get_fignums():
+                    if number not in before:
+                        _fit_labels(plt.figure(number))
         finally:
             interactive = mpl.is_interactive()
     # In a notebook, the first figure switches this on, and later figures are shown only with it.
     mpl.interactive(interactive)
+
+
+def is_narrow() -> bool:
+    """Return True if new figures are as narrow as a column of a paper."""
+    return not _is_default("figure.figsize") and bool(mpl.rcParams["figure.figsize"][0] < NARROW)
 
 
 def _is_default(name: str) -> bool:
@@ -101,12 +206,17 @@ def size(factor: float) -> float:
     return factor * float(mpl.rcParams["lines.markersize"])
 
 
-def new_figure(width: float = 6.4, height: float = 4.0) -> Figure:
-    """Return a new figure whose layout fits its labels."""
+def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
+    """Return a new figure whose layout fits its labels. A size of figures that the user has set is kept: its width, and
+    its height for one axes.
+    """
+    if not _is_default("figure.figsize"):
+        sides = mpl.rcParams["figure.figsize"]
+        width, height = sides[0], sides[1] * max(1.0, height / _HEIGHT)
     return plt.figure(figsize=(width, height), layout="constrained")
 
 
-def axes_of(ax: Axes | None, width: float = 6.4, height: float = 4.0) -> Drawn:
+def axes_of(ax: Axes | None, width: float = 6.4, height: float = _HEIGHT) -> Drawn:
     """Return the given axes, or axes of a new figure."""
     return cast("Drawn", new_figure(width, height).add_subplot() if ax is None else ax)
 
@@ -138,7 +248,7 @@ def legend(
     if wanted is False:
         return
     if wanted is True and not given:
-        ax.legend(**{**outside, **options})
+        fitted(ax, lambda columns: ax.legend(**{**outside, **options, "ncols": columns}), options.get("ncols", 1))
         return
     for name in ("borderaxespad", "ncols"):
         options.pop(name, None)
@@ -162,20 +272,69 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """If the label of a colour bar is longer than the bar, break the label into lines or make its letters smaller."""
-    label = bar.ax.yaxis.label
-    text, letters = label.get_text(), label.get_fontsize()
-    if not text or bar.orientation != "vertical":
+    """If the label of a colour bar is longer than the bar, break it into lines or make its letters smaller."""
+    if not bar.ax.yaxis.label.get_text() or bar.orientation != "vertical":
         return
     figure_of(bar.ax).draw_without_rendering()
     # Labels of axes are added later and take a tenth of the height.
-    room = 0.9 * bar.ax.get_window_extent().height
+    _shorten(bar.ax.yaxis.label, "height", 0.9 * bar.ax.get_window_extent().height)
+
+
+def _shorten(label: Any, side: str, room: float) -> None:
+    """Break a text into lines, or make its letters smaller, until its width or its height has the `room` (pixels)."""
+    text, letters = label.get_text(), label.get_fontsize()
+    if getattr(label.get_window_extent(), side) <= room:
+        return
     for factor in (1.0, 0.85, 0.7, 0.6):
         label.set_fontsize(factor * letters)
         for lines in _labels.wrapped(text):
             label.set_text(lines)
-            if label.get_window_extent().height <= room:
+            if getattr(label.get_window_extent(), side) <= room:
                 return
+
+
+def _fit_labels(figure: Figure) -> None:
+    """Shorten the labels of axes that are longer than their part of the figure."""
+    figure.draw_without_rendering()
+    for ax in figure.axes:
+        place = ax.get_subplotspec()
+        if place is None:
+            continue
+        whole, inside, grid = ax.figure.bbox, ax.get_window_extent(), place.get_gridspec()
+        middle = 0.5 * (inside.x0 + inside.x1)
+        room = 2.0 * min(middle - whole.x0, whole.x1 - middle)
+        if grid.ncols > 1:
+            room = min(room, whole.width / grid.ncols)
+        elif ax.xaxis.label.get_window_extent().width > room:
+            # There is more room to the left, below the numbers of the vertical axis.
+            ax.set_xlabel(ax.get_xlabel(), loc="right")
+            room = inside.x1 - whole.x0
+        _shorten(ax.xaxis.label, "width", room)
+        _shorten(ax.yaxis.label, "height", min(1.2 * inside.height, whole.height / grid.nrows))
+
+
+def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
+    """Draw a legend above axes, or in a part of a figure, with so many columns that it is not much wider."""
+    part = ax.figure if isinstance(ax, Axes) else ax
+    legend = draw(columns)
+    if legend.get_window_extent().width <= 0.7 * part.bbox.width:
+        return legend
+    room = part.bbox.width
+    if isinstance(ax, Axes):
+        # The width of the axes without the legend.
+        legend.set_in_layout(False)
+        figure_of(ax).draw_without_rendering()
+        room = ax.get_window_extent().width
+    for count in range(columns, 0, -1):
+        legend.remove()
+        legend = draw(count)
+        if legend.get_window_extent().width <= room:
+            return legend
+    # One column is too wide: the letters become smaller.
+    factor = max(0.8, room / legend.get_window_extent().width)
+    for text in (*legend.get_texts(), legend.get_title()):
+        text.set_fontsize(factor * float(text.get_fontsize()))
+    return legend
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:

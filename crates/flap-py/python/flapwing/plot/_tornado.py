@@ -86,7 +86,7 @@ def tornado(
     places = np.arange(len(shown))
 
     given = ax is not None
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax, 6.8, 1.5 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         less, more = _names_of_changes(shown)
@@ -118,7 +118,11 @@ def tornado(
         rest = len(found) - len(shown)
         left = f"; {rest} smaller {'one' if rest == 1 else 'ones'} not shown" if rest else ""
         title = f"each parameter alone{left}"
-        _style.legend(ax, legend, given, ncols=2, borderaxespad=0.1, title=title, alignment="left")
+        look: Any = {"borderaxespad": 0.1, "title": title, "alignment": "left"}
+        if _style.is_narrow():
+            # There is more room to the left, above the names of the parameters.
+            look["outside"] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
+        _style.legend(ax, legend, given, ncols=2, **look)
     return ax
 
 
@@ -127,7 +131,7 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
     shown = found[:top]
     sizes = np.array([each.correlation for each in shown])
     places = np.arange(len(shown))
-    with _style.style(ax):
+    with _style.applied(ax):
         ax = _style.axes_of(ax, 6.8, 1.3 + 0.32 * len(shown))
         ax.grid(False, axis="y")
         ax.barh(places, sizes, height=0.62, color=np.where(sizes > 0, _style.VERMILLION, _style.BLUE).tolist())

@@ -125,7 +125,7 @@ def trajectory(
             )
         portraits = []
 
-    with _style.style(ax):
+    with _style.applied(ax):
         if ax is not None:
             over_time, beside = [ax], list[Axes]()
         else:
@@ -209,8 +209,16 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
     if not portraits:
         figure = _style.new_figure(6.4, height)
         return list(np.atleast_1d(figure.subplots(signals, 1, sharex=True))), []
+    if _style.is_narrow():
+        # The portraits are beside each other, below the axes over time.
+        figure = _style.new_figure(6.4, 3.0 + 1.9 * signals)
+        parts: Any = figure.subfigures(2, 1, height_ratios=[0.6 + 1.2 * signals, 1.6])
+        return (
+            list(np.atleast_1d(parts[0].subplots(signals, 1, sharex=True))),
+            list(np.atleast_1d(parts[1].subplots(1, portraits))),
+        )
     figure = _style.new_figure(8.6, max(height, 3.2))
-    parts: Any = figure.subfigures(1, 2, width_ratios=[1.7, 1.0])
+    parts = figure.subfigures(1, 2, width_ratios=[1.7, 1.0])
     left, right = parts
     over_time = list(np.atleast_1d(left.subplots(signals, 1, sharex=True)))
     return over_time, list(np.atleast_1d(right.subplots(portraits, 1)))

@@ -120,7 +120,7 @@ def wing_path(
     if radius is None:
         swept = float(np.radians(np.ptp(cycle.stroke)))
         radius = 2.5 / swept if 0.0 < swept < _SMALL else 3.0
-    with _style.style(ax):
+    with _style.applied(ax):
         return WingPath(_Scene(cycle, sign, radius, legend, ax))
 
 
