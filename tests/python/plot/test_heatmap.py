@@ -261,3 +261,27 @@ def test_a_sample_is_triangulated_and_a_grid_with_gaps_is_not(sweep):
     line = {**scattered(), "hinge_stiffness": scattered()["drive_frequency"] * 1e-6}
     text = message(ValueError, plot.heatmap, line, "lift_mean_mn", x="drive_frequency", y="hinge_stiffness")
     assert "on one line\ndraw them with plot.scatter" in text
+
+
+def test_a_refined_grid_is_triangulated():
+    fine = flapwing.sweep(
+        {
+            "preset": "ozaki2018-large",
+            "axes": {
+                "drive_voltage_pp": {"from": 60, "to": 100, "n": 5},
+                "drive_frequency": {"from": 95, "to": 115, "n": 9},
+            },
+        }
+    )
+    volts, hertz = fine["drive_voltage_pp"], fine["drive_frequency"]
+    coarse = np.isin(volts, [60, 80, 100]) & np.isin(hertz, [95, 100, 105, 110, 115])
+    refined = fine[coarse | ((volts >= 80) & (hertz <= 105))]
+    # As `[refine]` writes it: the axes have the values of the grid file.
+    refined.axes = [{"drive_voltage_pp": np.array([60.0, 80.0, 100.0])}, {"drive_frequency": np.array(HERTZ)}]
+    ax = drawn(plot.heatmap(refined, "lift_mean_mn"))
+    assert len(dots(ax).get_offsets()) == len(refined) and ax.get_legend() is None
+    # Lines are drawn for the values of the grid file, through all of their points.
+    lines = plot.response(refined, "lift_mean_mn").lines
+    assert [line.get_label() for line in lines] == ["60", "80", "100"]
+    assert [len(line.get_xdata()) for line in lines] == [5, 7, 7]
+    assert all(np.isfinite(line.get_ydata()).all() for line in lines)

@@ -27,13 +27,20 @@ class Data:
     """Columns of equal length with their units and the axes of their grid."""
 
     def __init__(
-        self, columns: Mapping[str, Any], units: Mapping[str, str], grid_axes: list[list[str]], meta: Mapping[str, Any]
+        self,
+        columns: Mapping[str, Any],
+        units: Mapping[str, str],
+        grid_axes: list[list[str]],
+        meta: Mapping[str, Any],
+        axis_values: Mapping[str, np.ndarray] | None = None,
     ) -> None:
         self.columns = dict(columns)
         self.units = units
         #: The names of the parameters along each axis of the grid; empty for rows without a grid.
         self.grid_axes = grid_axes
         self.meta = meta
+        #: The values of each parameter along an axis of the grid. A refined grid has rows at other values too.
+        self.axis_values = axis_values or {}
 
     @classmethod
     def of(cls, data: Any) -> Data:
@@ -57,6 +64,7 @@ class Data:
             units if isinstance(units, Mapping) else {},
             [list(axis) for axis in data.axes] if isinstance(data, Table) else [],
             meta if isinstance(meta, Mapping) else {},
+            {name: values for axis in data.axes for name, values in axis.items()} if isinstance(data, Table) else {},
         )
 
     def __len__(self) -> int:
@@ -79,9 +87,8 @@ class Data:
 
     def rows(self, mask: np.ndarray) -> Data:
         """Return the rows that the mask selects."""
-        return Data(
-            {name: column[mask] for name, column in self.columns.items()}, self.units, self.grid_axes, self.meta
-        )
+        columns = {name: column[mask] for name, column in self.columns.items()}
+        return Data(columns, self.units, self.grid_axes, self.meta, self.axis_values)
 
     def unit(self, name: str) -> str:
         """Return the unit of a column, as flap writes it."""
@@ -146,6 +153,7 @@ class Data:
         """Return the rows at the middle value of each of these axes; a warning lists the values."""
         data = self
         for name in axes:
+            data = data.rows(data.on_axis(name))
             values = distinct(data[name])
             if len(values) < 2:
                 continue
@@ -200,6 +208,16 @@ class Data:
     def on_a_grid(self, name: str) -> bool:
         """Return True if a parameter has an axis; parameters of a ``[sample]`` have none."""
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
+
+    def on_axis(self, name: str) -> np.ndarray:
+        """Return a mask, True for rows at a value of the parameter's axis; a refined grid has rows between them."""
+        values = np.asarray(self.axis_values.get(name, ()))
+        if len(values) < 2 or is_text(values) or is_text(self[name]):
+            return np.ones(len(self), dtype=bool)
+        known, column = np.sort(values.astype(float)), self[name].astype(float)
+        after = np.clip(np.searchsorted(known, column), 1, len(known) - 1)
+        distance = np.minimum(np.abs(column - known[after - 1]), np.abs(column - known[after]))
+        return np.asarray(distance <= 1e-9 * np.ptp(known))
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
         """Return one group number per row. Rows with the same values in all of these columns have the same number."""

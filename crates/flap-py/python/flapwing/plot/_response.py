@@ -209,7 +209,7 @@ def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by:
         raise scattered(x)
     data.numbers(x)
     if by is not None:
-        data[by]
+        data = data.rows(data.on_axis(by))
     data = data.for_picture([x] if by is None else [x, by])
     return Family(data, whole, x, by)
 
@@ -232,7 +232,7 @@ class Family:
         """
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
-        if [self.x.name] not in self.data.grid_axes:
+        if [self.x.name] not in self.data.grid_axes or not self.data.on_axis(self.x.name).all():
             return rows
         placed = np.full(len(self.every_x), -1)
         placed[np.searchsorted(self.every_x, xs[rows])] = rows

@@ -23,14 +23,14 @@ _MARKERS = {"subharmonic": "+", "unsettled": "x", "diverged": "1", "step_limit":
 
 
 def form_no_grid(data: Data, x: str, y: str) -> bool:
-    """Return True if a map of these parameters would consist mostly of cells without a row."""
+    """Return True if the values of these parameters are sampled or refined, or if most cells would have no row."""
     if is_text(data[x]) or is_text(data[y]) or data.followed() in (x, y):
         return False
     if not (data.on_a_grid(x) and data.on_a_grid(y)):
         return True
     axes = [name for axis in data.grid_axes for name in axis]
     if x in axes and y in axes:
-        return False
+        return not (data.on_axis(x).all() and data.on_axis(y).all())
     return 2 * len(np.unique(data.groups([x, y]))) < len(distinct(data[x])) * len(distinct(data[y]))
 
 
