@@ -67,7 +67,10 @@ fn parameters_without_a_default_are_told_as_such() {
     let slope = told("[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_thickness\"]\n");
     assert!(slope.contains(&format!("`hinge_thickness` is not set: {no_default}")), "{slope}");
     let bias = told("[where]\nhigh = \"drive_bias > 1\"\n");
-    assert!(bias.contains("it follows others (half of drive_voltage_pp): set `drive_bias`"), "{bias}");
+    assert!(
+        bias.contains("it follows other parameters (half of drive_voltage_pp): set `drive_bias`"),
+        "{bias}"
+    );
 }
 
 #[test]

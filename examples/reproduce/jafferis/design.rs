@@ -30,7 +30,7 @@ fn masses() -> Vec<Claim> {
         said("III-A", statement, format!("~{published} mg")).is(
             &about(published, 5.0),
             mass,
-            format!("{mass:.0} mg"),
+            format!("effective mass {mass:.0} mg"),
         )
     })
     .into()
@@ -47,28 +47,34 @@ fn transmissions() -> Vec<Claim> {
              stiffness of the actuator",
             "197.7 N/m",
         )
-        .is(&closely(197.7, 0.05), stiffness, format!("{stiffness:.1} N/m")),
+        .is(&closely(197.7, 0.05), stiffness, format!("stiffness {stiffness:.1} N/m")),
         said(
             "III-A",
-            "undamped natural frequency of T₂ divided by the natural frequency of T₁, if the \
-             resonance is proportional to 1/T",
+            "undamped natural frequency of design T₂ divided by the natural frequency of design T₁, if \
+             the resonance frequency is proportional to 1/T",
             "1.25",
         )
         .is(
             &about(1.25, 0.005),
             t_2 / t_1,
-            format!("{:.2} (T₁: {t_1:.1} Hz, T₂: {t_2:.1} Hz)", t_2 / t_1),
+            format!(
+                "ratio of the natural frequencies {:.2} (design T₁: {t_1:.1} Hz, design T₂: {t_2:.1} Hz)",
+                t_2 / t_1
+            ),
         ),
         said(
             "III-A",
-            "undamped natural frequency of T₃ divided by the natural frequency of T₁, if the \
-             resonance is proportional to 1/T",
+            "undamped natural frequency of design T₃ divided by the natural frequency of design T₁, if \
+             the resonance frequency is proportional to 1/T",
             "1.67",
         )
         .is(
             &about(1.0 / 0.6, 0.005),
             t_3 / t_1,
-            format!("{:.2} (T₁: {t_1:.1} Hz, T₃: {t_3:.1} Hz)", t_3 / t_1),
+            format!(
+                "ratio of the natural frequencies {:.2} (design T₁: {t_1:.1} Hz, design T₃: {t_3:.1} Hz)",
+                t_3 / t_1
+            ),
         ),
     ]
 }
@@ -98,14 +104,22 @@ fn lift_and_drag() -> Vec<Claim> {
              50°",
             "about 1.5",
         )
-        .is(&about(1.5, 0.05), gain, format!("{gain:.2}")),
+        .is(
+            &about(1.5, 0.05),
+            gain,
+            format!("lift-to-drag ratio at 70° is {gain:.2} times the ratio at 45° to 50°"),
+        ),
         said(
             "II-A",
             "peak pitch that gives the largest mean lift if stroke and pitch have a phase \
              difference of 90°",
             "51°",
         )
-        .is(&closely(51.0, 0.5), angle_lift, format!("{angle_lift:.1}°")),
+        .is(
+            &closely(51.0, 0.5),
+            angle_lift,
+            format!("peak pitch {angle_lift:.1}° for the largest mean lift"),
+        ),
     ]
 }
 
@@ -154,7 +168,11 @@ fn strains() -> Vec<Claim> {
              redesigned vehicle has at a stroke of 92°",
             "115°",
         )
-        .is(&closely(115.0, 0.5), equal, format!("{equal:.1}°")),
+        .is(
+            &closely(115.0, 0.5),
+            equal,
+            format!("stroke {equal:.1}° of the previous vehicle, peak to peak"),
+        ),
         said(
             "Table II, IV",
             "excess of the stroke of 115° over the typical stroke of the previous vehicle (at an \
@@ -164,7 +182,10 @@ fn strains() -> Vec<Claim> {
         .is(
             &between(15.0, 25.0),
             100.0 * (equal / typical - 1.0),
-            format!("{:.1} % (typical stroke {typical:.1}°)", 100.0 * (equal / typical - 1.0)),
+            format!(
+                "stroke of {equal:.1}° exceeds the typical stroke of {typical:.1}° by {:.1} %",
+                100.0 * (equal / typical - 1.0)
+            ),
         ),
     ]
 }

@@ -17,11 +17,12 @@ pub(super) fn claims() -> Vec<Claim> {
         (
             here,
             format!(
-                "{name} {here:.decimals$}{unit} at {frequency:.0} Hz; {at_155:.decimals$}{unit} at 155 Hz"
+                "{name} of the redesigned vehicle {here:.decimals$}{unit} at {frequency:.0} Hz, \
+                 {at_155:.decimals$}{unit} at 155 Hz"
             ),
         )
     };
-    let (stroke, strokes) = both("stroke", "stroke_pp_deg", 1, "°");
+    let (stroke, strokes) = both("stroke (peak to peak)", "stroke_pp_deg", 1, "°");
     let (angle, angles) = both("peak pitch", "pitch_peak_deg", 1, "°");
     let (lift, lifts) = both("mean lift", "vehicle_lift_mgf", 0, " mg");
     let (ratio, ratios) = both("lift per power", "efficiency_capacitive_gf_per_w", 1, " mg/mW");
@@ -31,12 +32,12 @@ pub(super) fn claims() -> Vec<Claim> {
         said("IV", "resonance frequency of the redesigned vehicle", "around 160 Hz").is(
             &about(160.0, 0.5),
             resonance,
-            format!("{resonance:.0} Hz"),
+            format!("largest stroke of the redesigned vehicle at {resonance:.0} Hz"),
         ),
         said("IV, Fig. 7b", "frequency of the largest lift of the redesigned vehicle", "155 Hz").is(
             &closely(155.0, 0.5),
             frequency,
-            format!("{frequency:.0} Hz"),
+            format!("largest lift of the redesigned vehicle at {frequency:.0} Hz"),
         ),
         said("IV", "stroke of the redesigned vehicle, peak to peak", "92°").is(
             &measured(92.0, 0.5),
@@ -59,7 +60,7 @@ pub(super) fn claims() -> Vec<Claim> {
             "power of both actuators of the redesigned vehicle at 155 Hz, computed as ½C V² f",
             "31 mW",
         )
-        .is(&closely(31.0, 0.5), power, format!("{power:.1} mW")),
+        .is(&closely(31.0, 0.5), power, format!("power of both actuators {power:.1} mW at 155 Hz")),
         said("Table II", "lift per power of the redesigned vehicle", "10.3 mg/mW").is(
             &measured(10.3, 0.05),
             ratio,

@@ -44,7 +44,7 @@ fn regimes() -> Vec<Claim> {
         )
         .holds(
             low.humps(PER_VOLT).len() == 1,
-            format!("one peak at 80 V: {r_low:.3}° of stroke per volt at {f_low:.0} Hz"),
+            format!("one stroke peak of design T₁ at 80 V: {r_low:.3}° of stroke per volt at {f_low:.0} Hz"),
         ),
         said(
             "II-A (c), Fig. 4a",
@@ -52,16 +52,21 @@ fn regimes() -> Vec<Claim> {
              then a sharp peak",
             "two peaks",
         )
-        .holds(humps.len() == 2, format!("peaks at {} Hz with a voltage of 140 V", list(&humps))),
+        .holds(
+            humps.len() == 2,
+            format!("stroke peaks of design T₁ at {} Hz with a voltage of 140 V", list(&humps)),
+        ),
         said("II-A (c)", "the frequency of the sharp stroke peak falls as the drive force grows", "falls")
             .holds(
                 f_high < f_sharp,
-                format!("sharp peak at {f_sharp:.0} Hz for 160 V, at {f_high:.0} Hz for 200 V"),
+                format!(
+                    "sharp stroke peak of design T₁ at {f_sharp:.0} Hz for 160 V, at {f_high:.0} Hz for 200 V"
+                ),
             ),
         said("II-A (c)", "the stroke per volt at the sharp peak rises as the drive force grows", "rises")
             .holds(
                 r_high > r_sharp && r_sharp > r_low,
-                format!("stroke per volt {r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V"),
+                format!("stroke per volt of design T₁ {r_sharp:.3} °/V at 160 V, {r_high:.3} °/V at 200 V"),
             ),
     ]
 }
@@ -119,7 +124,11 @@ fn small_peaks() -> Vec<Claim> {
                 format!("frequency of the {which} small peak of the pitch in the simulation of the paper"),
                 format!("about {published:.0} Hz"),
             )
-            .is(&about(published, 0.5), nearest, format!("{nearest:.1} Hz at 160 V"))
+            .is(
+                &about(published, 0.5),
+                nearest,
+                format!("pitch peak of design T₁ at {nearest:.1} Hz for 160 V"),
+            )
         })
         .into()
 }
@@ -143,7 +152,11 @@ fn scaling(families: &Families) -> Vec<Claim> {
             .is(
                 &about(1.0 / ratio, 0.005),
                 f_r / f_1,
-                format!("{:.2} (T₁: {f_1:.0} Hz, {name}: {f_r:.0} Hz)", f_r / f_1),
+                format!(
+                    "ratio of the frequencies {:.2} (largest stroke of design T₁ at {f_1:.0} Hz, of design \
+                     {name} at {f_r:.0} Hz)",
+                    f_r / f_1
+                ),
             ),
         );
         for (voltage, v) in [(160, V_160), (200, V_200)] {
@@ -158,7 +171,14 @@ fn scaling(families: &Families) -> Vec<Claim> {
                     ),
                     format!("{expected:.2}"),
                 )
-                .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
+                .is(
+                    &about(expected, 0.005),
+                    gain,
+                    format!(
+                        "largest mean lift of design {name} is {gain:.2} times the lift of design T₁ at \
+                         {voltage} V"
+                    ),
+                ),
             );
         }
         let expected = ratio.powf(-0.47);
@@ -174,7 +194,14 @@ fn scaling(families: &Families) -> Vec<Claim> {
                 ),
                 format!("{expected:.2}"),
             )
-            .is(&about(expected, 0.005), gain, format!("{gain:.2}")),
+            .is(
+                &about(expected, 0.005),
+                gain,
+                format!(
+                    "lift per power of design {name} is {gain:.2} times the lift per power of design T₁ \
+                     at 160 V"
+                ),
+            ),
         );
     }
     let (at, best) = t_2[V_200].peak("vehicle_lift_mgf");
@@ -182,11 +209,15 @@ fn scaling(families: &Families) -> Vec<Claim> {
     claims.push(
         said(
             "IV",
-            "lift of the vehicle with T₂; the paper scales this lift from 140 mg (the agreement \
+            "lift of the vehicle with design T₂, which the paper scales from 140 mg (the agreement \
              with flap is chance)",
             "~290 mg",
         )
-        .is(&about(290.0, 5.0), predicted, format!("lift {predicted:.1} mg at 200 V and {at:.0} Hz")),
+        .is(
+            &about(290.0, 5.0),
+            predicted,
+            format!("lift of the vehicle with design T₂ {predicted:.1} mg at 200 V and {at:.0} Hz"),
+        ),
     );
     claims
 }

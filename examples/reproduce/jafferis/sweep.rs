@@ -52,7 +52,7 @@ fn as_settled() -> Claim {
         &closely(stroke, 0.0),
         farther,
         format!(
-            "largest stroke {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at \
+            "largest stroke of design T₁ at 160 V is {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at \
              {f_down:.0} Hz with falling frequency, {stroke:.1}° at {frequency:.0} Hz with \
              settled motions"
         ),
@@ -79,9 +79,9 @@ fn soft_hinge() -> Claim {
         .holds(
             (up - down).abs() > 10.0 && (up_1 - down_1).abs() < 1.0,
             format!(
-                "with half of the hinge stiffness κ_wh, the natural frequencies are {hinge:.0} Hz (pitch) and {stroke:.0} Hz (stroke). \
-                 At 160 V and 126 Hz, the stroke is then {up:.0}° with rising frequency and {down:.0}° with falling frequency. \
-                 With κ_wh of Table I, the strokes are {up_1:.0}° and {down_1:.0}°"
+                "with half of the hinge stiffness κ_wh, the natural frequencies of design T₁ are {hinge:.0} Hz (pitch) and {stroke:.0} Hz (stroke). \
+                 With half of κ_wh at 160 V and 126 Hz, the stroke is {up:.0}° with rising frequency and {down:.0}° with falling frequency. \
+                 With κ_wh of Table I at 160 V and 126 Hz, the stroke is {up_1:.0}° with rising frequency and {down_1:.0}° with falling frequency"
             ),
         )
 }

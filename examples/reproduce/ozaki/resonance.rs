@@ -40,8 +40,8 @@ pub(super) fn calculated() -> Vec<Claim> {
             &about(2.0, 0.05),
             ratios[MIDDLE],
             format!(
-                "ratio {:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, {:.2} with 0.8 rad, \
-                 {:.2} for small motions",
+                "ratio of the resonance frequencies {:.2} with an impulse of 0.5 rad, {:.2} with 0.3 rad, \
+                 {:.2} with 0.8 rad, {:.2} for small motions",
                 ratios[MIDDLE],
                 ratios[0],
                 ratios[2],
@@ -65,8 +65,9 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
             &closely(published.frequency, 0.5),
             swing.fit.frequency,
             format!(
-                "resonance frequency {:.1} Hz (first stroke peak {:.1}°, residual of the fit {:.0} \
-                 %). Fits of 5 and 10 periods give {five:.1} and {ten:.1} Hz",
+                "resonance frequency of the {} type {:.1} Hz (first stroke peak {:.1}°, residual of the fit \
+                 {:.0} %). Fits of 5 and 10 periods give resonance frequencies of {five:.1} and {ten:.1} Hz",
+                actuator.name,
                 swing.fit.frequency,
                 swing.first_peak,
                 100.0 * swing.fit.relative_rms
@@ -92,8 +93,9 @@ pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Pu
         &closely(published.frequency, 0.5),
         middle,
         format!(
-            "resonance frequency {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz with \
-             0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
+            "resonance frequency of the {} type {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz \
+             with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
+            actuator.name,
             mode(actuator)
         ),
     )
@@ -137,12 +139,18 @@ fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published:
     let [v_low, v_high] = actuator.voltages;
     said(
         "4.2, Fig. 10",
-        format!("measured frequency of the largest stroke of the {} type{hypothesis}", actuator.name),
+        format!(
+            "measured drive frequency at which the stroke of the {} type is largest{hypothesis}",
+            actuator.name
+        ),
         published.shown,
     )
     .is(
         &closely(published.frequency, 0.5),
         published.frequency.clamp(low.min(high), low.max(high)),
-        format!("largest stroke at {low:.1} Hz with {v_low:.0} V, at {high:.1} Hz with {v_high:.0} V"),
+        format!(
+            "largest stroke of the {} type at {low:.1} Hz with {v_low:.0} V, at {high:.1} Hz with {v_high:.0} V",
+            actuator.name
+        ),
     )
 }

@@ -236,6 +236,31 @@ fn slices_are_told() {
     picture.has(&["Drive frequency 120 Hz"]);
 }
 
+/// Each cell has the largest number of the axis that is left out, and stderr names the best cell.
+#[test]
+fn the_best_row_over_an_axis_is_drawn() {
+    let folder = folder();
+    fs::write(
+        folder.path("cube.csv"),
+        "point,a,b,c,status,lift_mean_mn\n0,1,1,5,periodic,1\n1,1,1,6,periodic,7\n2,1,2,5,periodic,2\n\
+         3,1,2,6,unsettled,\n4,2,1,5,periodic,4\n5,2,1,6,periodic,3\n6,2,2,5,unsettled,\n7,2,2,6,unsettled,\n",
+    )
+    .unwrap();
+    drawn(&folder, "cube.csv --kind map --best-over c")
+        .says("best: lift_mean_mn = 7 mN at a = 1, b = 1, c = 6")
+        .has(&["best over c · 1 of 4 cells without a value"]);
+    drawn(&folder, "cube.csv --kind map --best-over a --where c=5")
+        .says("best: lift_mean_mn = 4 mN at a = 2, b = 1, c = 5");
+    drawn(&folder, "cube.csv --kind response --y lift_mean_mn --x b --by c --best-over a")
+        .says("best: lift_mean_mn = 7 mN at a = 1, b = 1, c = 6");
+    let refuses = |options: &str, says: &str| {
+        folder.ends(2, &format!("plot cube.csv --out none.svg {options}")).says(says);
+    };
+    refuses("--kind map --best-over c --x c", "--best-over c: not an axis that the picture leaves out");
+    refuses("--kind scatter --best-over c", "--best-over requires --kind map or response");
+    refuses("--kind map --best-over d", "there is no column `d`");
+}
+
 /// Comparisons leave rows out before anything is drawn.
 #[test]
 fn comparisons_choose_rows() {

@@ -53,6 +53,15 @@ pub(crate) struct PlotArgs {
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
+    /// Axis that the picture does not show: each cell of a map, or each point of a line, shows the best row over this axis. May
+    /// be repeated
+    ///
+    /// The best row has the largest measure. For power, current, strain, field, drag and force, the best row has the smallest
+    /// measure. With --where, flap chooses among the rows that satisfy the conditions. Without --best-over, flap draws the rows
+    /// at the middle value of the axis.
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) best_over: Vec<String>,
+
     /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field, drag and force,
     /// max for other columns]
     #[arg(long, value_enum)]
@@ -145,6 +154,7 @@ Examples:
   flap plot sweep.csv
   flap plot sweep.csv --y lift_mean_mn --by hinge_stiffness --where drive_voltage_pp=100 --out lift.svg
   flap plot sweep.csv --kind map --color efficiency_gf_per_w --out map.png
+  flap plot sweep.csv --kind map --best-over drive_frequency --where 'stroke_pp_deg < 100 deg'
   flap plot sweep.csv --kind pareto --x lift_mean_mn --y power_mean_mw --color drive_frequency
   flap plot sample.csv --kind histogram --x lift_mean_mn --out lift.png
   flap plot sample.csv --kind tornado --x efficiency_gf_per_w

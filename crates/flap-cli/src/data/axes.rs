@@ -6,6 +6,7 @@ use super::columns::{Cells, Table};
 use super::levels::{Levels, Values};
 
 /// The parameters that a file varies.
+#[derive(Clone)]
 pub(crate) struct Axes {
     /// Columns with more than one value, except columns that follow from an earlier one.
     pub(crate) columns: Vec<usize>,

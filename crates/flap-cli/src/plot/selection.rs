@@ -34,6 +34,8 @@ pub(super) struct Request<'a> {
     /// Columns that must have a value, with the value.
     pub(super) values: Vec<(String, String)>,
     pub(super) filters: Vec<usize>,
+    /// Axes over which the best rows are drawn.
+    pub(super) best_over: Vec<usize>,
     /// The end of the leading parameters: the index of `status`, or of `branch`.
     pub(super) end: usize,
     /// The measure over a parameter.
@@ -60,6 +62,7 @@ impl<'a> Request<'a> {
             Some(measures + found)
         });
         Ok(Request {
+            best_over: args.best_over.iter().map(|name| source.find(name)).collect::<Result<_, _>>()?,
             x: find(&args.x)?,
             y: find(&args.y)?,
             by: find(&args.by)?,
@@ -90,6 +93,7 @@ impl<'a> Request<'a> {
         let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
         // The column after `branch` is the followed parameter.
         some || self.filters.contains(&column)
+            || self.best_over.contains(&column)
             || column <= self.end + 1
             || self.matrix().is_some()
             || NEEDED.contains(&self.names[column].as_str())
@@ -356,6 +360,7 @@ fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
             "--color requires",
             "--kind map, scatter or pareto",
         ),
+        (!request.best_over.is_empty(), &[Map, Response], "--best-over requires", "--kind map or response"),
         (has_aims(request), &[Pareto], "--x-aim and --y-aim require", "--kind pareto"),
         (
             request.x.is_some(),
@@ -411,7 +416,9 @@ impl Selection {
 /// Chooses kind, columns and rows.
 pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<Selection, Failure> {
     let axes = Axes::of(table, request.end);
-    let columns = columns(request, &axes)?;
+    let mut free = axes.clone();
+    free.columns.retain(|axis| !request.best_over.contains(axis));
+    let columns = columns(request, &free)?;
     let mut values = request.values.clone();
     let mut filters = request.filters.clone();
     if let (PictureKind::Map, Some(branch)) = (columns.kind, request.branch())
@@ -431,7 +438,30 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     notes.extend(request.args.comparisons().into_iter().map(|filter| match filter {
         Filter::Comparison(text) | Filter::Equal(_, text) => quantity::printed(&text),
     }));
-    let slice = slices::sliced(table, &left(&columns, &axes), rows);
+    let mut hidden = left(&columns, &axes);
+    if let Some(&shown) = request.best_over.iter().find(|over| !hidden.contains(over)) {
+        let message = format!("--best-over {}: not an axis that the picture leaves out", request.name(shown));
+        let names: Vec<&str> = hidden.iter().map(|&axis| request.name(axis)).collect();
+        let help = match names.as_slice() {
+            [] => "the picture shows all axes".to_owned(),
+            names => format!("the picture leaves out {}", names.join(", ")),
+        };
+        return Err(Failure::usage(message).help(help));
+    }
+    hidden.retain(|axis| !request.best_over.contains(axis));
+    let mut slice = slices::sliced(table, &hidden, rows);
+    if !request.best_over.is_empty() {
+        let (measure, second) = match columns.color {
+            Some(color) => (color, Some(columns.y)),
+            None => (columns.y, columns.by),
+        };
+        let shown: Vec<usize> = [Some(columns.x), second].into_iter().flatten().collect();
+        let aim = Aim::of(request.name(measure));
+        slice.rows = slices::best(table, &shown, measure, aim, &slice.rows)?;
+        let names: Vec<&str> = request.best_over.iter().map(|&axis| request.name(axis)).collect();
+        notes.push(format!("best over {}", names.join(", ")));
+        tell_best(table, request, measure, aim, &slice.rows)?;
+    }
     for Taken { name, value, of, .. } in &slice.taken {
         console::say(&format!(
             "drawn: {name} = {value}, the middle of {of} values; --where chooses another value"
@@ -449,6 +479,27 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
         title,
         notes,
     })
+}
+
+/// Prints the place of the best of these rows.
+fn tell_best(
+    table: &Table,
+    request: &Request,
+    measure: usize,
+    aim: Aim,
+    rows: &[usize],
+) -> Result<(), Failure> {
+    let Some(&row) = slices::best(table, &[], measure, aim, rows)?.first() else { return Ok(()) };
+    let value = |column: usize| -> Result<String, Failure> {
+        let number = table.numbers(column)?[row];
+        Ok(format!("{} = {}", request.name(column), table.label(column).value(number)))
+    };
+    let axes = Axes::of(table, request.end);
+    let places =
+        axes.columns.iter().filter(|column| !axes.words.contains(column)).map(|&column| value(column));
+    let places = places.collect::<Result<Vec<String>, Failure>>()?.join(", ");
+    console::say(&format!("best: {} at {places}", value(measure)?));
+    Ok(())
 }
 
 /// Returns true if the file has rows of the branch up and of the branch down.

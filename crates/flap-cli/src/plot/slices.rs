@@ -1,5 +1,8 @@
 //! Choice of rows: filters, and slices along axes that a picture does not show.
 
+use std::collections::BTreeMap;
+
+use crate::args::Aim;
 use crate::data::columns::{Cells, Column, Table};
 use crate::data::filter;
 use crate::data::levels::Levels;
@@ -104,6 +107,38 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Sli
     Slice { rows, taken }
 }
 
+/// Returns, for each combination of values in the columns `shown`, the row with the best number in the column `measure`.
+///
+/// A combination without a number keeps its first row. The rows stay in the order of the file.
+pub(super) fn best(
+    table: &Table,
+    shown: &[usize],
+    measure: usize,
+    aim: Aim,
+    rows: &[usize],
+) -> Result<Vec<usize>, Failure> {
+    let numbers = table.numbers(measure)?;
+    let levels: Vec<Levels> = shown.iter().map(|&column| Levels::of(table, column, rows)).collect();
+    let is_better = |row: usize, than: usize| {
+        numbers[than].is_nan()
+            || match aim {
+                Aim::Max => numbers[row] > numbers[than],
+                Aim::Min => numbers[row] < numbers[than],
+            }
+    };
+    let mut found: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    for (place, &row) in rows.iter().enumerate() {
+        let key = levels.iter().map(|levels| levels.codes[place]).collect();
+        let best = found.entry(key).or_insert(row);
+        if is_better(row, *best) {
+            *best = row;
+        }
+    }
+    let mut rows: Vec<usize> = found.into_values().collect();
+    rows.sort_unstable();
+    Ok(rows)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +154,21 @@ mod tests {
         assert_eq!((name.as_str(), value.as_str(), *of), ("f", "20 Hz", 3));
         assert_eq!(slice.taken[0].shown, "F 20 Hz");
         assert!(sliced(&table, &[], (0..6).collect()).taken.is_empty());
+    }
+
+    #[test]
+    fn the_best_row_over_an_axis_that_is_not_shown() {
+        let table = crate::data::columns::tests::table(&[
+            ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0]),
+            ("f", &[10.0, 20.0, 30.0, 10.0, 20.0, 30.0, 10.0]),
+            ("lift", &[f64::NAN, 5.0, 4.0, 1.0, 1.0, 3.0, f64::NAN]),
+        ]);
+        let rows: Vec<usize> = (0..7).collect();
+        let best = |shown: &[usize], aim| best(&table, shown, 3, aim, &rows).unwrap();
+        assert_eq!(best(&[1], Aim::Max), [1, 5, 6]);
+        assert_eq!(best(&[1], Aim::Min), [2, 3, 6]);
+        assert_eq!(best(&[], Aim::Max), [1]);
+        assert_eq!(best(&[1, 2], Aim::Max), rows);
     }
 
     #[test]
