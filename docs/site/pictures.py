@@ -1,4 +1,4 @@
-"""Makes the pictures of docs/how-to/plots-python.md, in some ten seconds:
+"""Makes the pictures of docs/how-to/plots-python.md and docs/how-to/devices.md, in some ten seconds:
 
     pip install "./crates/flap-py[plot,fit]"
     python docs/site/pictures.py             # into docs/pictures
@@ -124,6 +124,60 @@ def designs() -> Figure:
     return plot.trajectory(motions, ["stroke_deg", "pitch_deg", "lift_mn"])
 
 
+def devices() -> Figure:
+    """Responses of the three wings of docs/how-to/devices.md, with the parameters from `flap device wing`."""
+    wings = {
+        "short": {
+            "hinge_stiffness": "0.95 uN*m/rad",
+            "wing_length": "14 mm",
+            "wing_area": "46.8 mm^2",
+            "wing_radius_2": 0.6056596838,
+            "wing_width": "4 mm",
+            "wing_width_2": 0.4837862599,
+            "added_inertia_stroke": "11.74282095 ng*m^2",
+            "pressure_radius": "10.36519258 mm",
+            "rotation_pressure_width": "2.67424111 mm",
+            "wing_inertia_stroke": "20.74608 ng*m^2",
+            "wing_inertia_hinge": "396.8376 pg*m^2",
+            "wing_inertia_product": "562.872 pg*m^2",
+        },
+        "middle": {
+            "hinge_stiffness": "0.71 uN*m/rad",
+            "wing_length": "16 mm",
+            "wing_area": "46.83 mm^2",
+            "wing_radius_2": 0.5982406786,
+            "wing_width": "3.4 mm",
+            "wing_width_2": 0.4753828557,
+            "added_inertia_stroke": "12.78351255 ng*m^2",
+            "pressure_radius": "11.82644957 mm",
+            "rotation_pressure_width": "2.255703407 mm",
+            "wing_inertia_stroke": "29.450218 ng*m^2",
+            "wing_inertia_hinge": "290.5143231 pg*m^2",
+            "wing_inertia_product": "287.480725 pg*m^2",
+        },
+        "long": {
+            "hinge_stiffness": "0.57 uN*m/rad",
+            "wing_length": "18 mm",
+            "wing_area": "46.8 mm^2",
+            "wing_radius_2": 0.5897068865,
+            "wing_width": "3 mm",
+            "wing_width_2": 0.4602895747,
+            "added_inertia_stroke": "13.57607347 ng*m^2",
+            "pressure_radius": "13.25485992 mm",
+            "rotation_pressure_width": "1.952589475 mm",
+            "wing_inertia_stroke": "40.19344 ng*m^2",
+            "wing_inertia_hinge": "225.80015 pg*m^2",
+            "wing_inertia_product": "-10.604 pg*m^2",
+        },
+    }
+    frequencies = {"drive_frequency": {"from": "70 Hz", "to": "160 Hz", "step": "1 Hz"}}
+    responses = {
+        name: flapwing.sweep({"preset": "jafferis2016", "params": wing, "axes": frequencies}, drive_voltage_pp="180 V")
+        for name, wing in wings.items()
+    }
+    return plot.response_panels(responses, ["stroke_pp_deg", "vehicle_lift_mgf", "efficiency_gf_per_w"])
+
+
 def wing_path() -> plot.WingPath:
     """One cycle of it, seen from the wing's tip."""
     return plot.wing_path(flapwing.trajectory("jafferis2016"), frames=36)
@@ -182,7 +236,7 @@ def force_panels() -> Figure:
 
 def main() -> None:
     """Writes all pictures to a folder."""
-    parser = argparse.ArgumentParser(description="Makes the pictures of docs/how-to/plots-python.md.")
+    parser = argparse.ArgumentParser(description="Makes the pictures of plots-python.md and devices.md in docs/how-to.")
     parser.add_argument("folder", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures")
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
@@ -203,6 +257,7 @@ def main() -> None:
         "correlations": correlations(builds),
         "trajectory": trajectory(),
         "designs": designs(),
+        "devices": devices(),
         "hysteresis": hysteresis(),
         "tornado": tornado(),
         "fit": fit(),
