@@ -218,7 +218,7 @@ class Fit(Solution):
     combinations : list of str
         The combinations of parameters that the data determine best and worst.
     indistinct : list of str
-        Changes of the parameters that affect no reading, at any values of the parameters: exact scalings of the model,
+        Combined changes of parameters that change none of the readings: exact scalings of the model,
         and parameters without effect.
     goodness : Goodness
         Chi-square, its probability, and the residuals by data set and measure.
