@@ -19,23 +19,25 @@ SECTION = re.compile(r"^(\S[^\n]*):$")
 ENTRY = re.compile(r"^ {2,6}(-\S.*?|\[?<?[A-Z][\w|<>\[\]./ -]*?\]?(?:\.\.\.)?)(?: {2,}(\S.*))?$")
 
 
-# The guide of each command: title and page.
+# The guides of each command: pages of the manual.
 GUIDES = {
-    "sweep": ("Your first sweep", "start/first-sweep"),
-    "run": ("Devices", "how-to/devices"),
-    "respond": ("Responses and hysteresis", "how-to/response"),
-    "vehicle": ("Vehicles", "how-to/vehicle"),
-    "live": ("The live page", "how-to/live"),
-    "check": ("Grid files", "reference/grid"),
-    "top": ("Results", "reference/results"),
-    "describe": ("Studies", "how-to/studies"),
-    "plot": ("Pictures", "how-to/plots"),
-    "results": ("Results", "reference/results"),
-    "test": ("Experiments", "how-to/experiments"),
-    "device": ("Devices", "how-to/devices"),
-    "models": ("The terminal", "how-to/terminal"),
-    "generate": ("The terminal", "how-to/terminal"),
+    "sweep": ["start/first-sweep"],
+    "run": ["how-to/devices", "how-to/experiments"],
+    "respond": ["how-to/response"],
+    "optimise": ["how-to/optimise"],
+    "vehicle": ["how-to/vehicle"],
+    "live": ["how-to/live"],
+    "check": ["reference/grid"],
+    "top": ["reference/results"],
+    "describe": ["how-to/studies"],
+    "plot": ["how-to/plots"],
+    "results": ["reference/results"],
+    "test": ["how-to/experiments"],
+    "device": ["how-to/devices"],
+    "models": ["how-to/terminal"],
+    "generate": ["how-to/terminal"],
 }
+DOCS = Path(__file__).parents[1]
 
 
 def pages(flap: Path) -> dict[str, str]:
@@ -78,15 +80,22 @@ def command_pages(flap: Path):
     yield "reference/commands/index.md", "\n".join(index)
     for name in names:
         text = command(flap, [name], 1)
-        if guide := GUIDES.get(name):
+        if guides := GUIDES.get(name):
             head, _, rest = text.partition("\n\n")
-            text = f"{head}\n\nGuide: [{guide[0]}](../../{guide[1]}.md).\n\n{rest}"
+            links = ", ".join(f"[{page_title(guide)}](../../{guide}.md)" for guide in guides)
+            text = f"{head}\n\n{'Guide' if len(guides) == 1 else 'Guides'}: {links}.\n\n{rest}"
         for group, body in sections(run(flap, name, "--help")):
             if group == "Commands":
                 for inner, _ in subcommands(body):
                     if inner != "help":
                         text += "\n" + command(flap, [name, inner], 2)
         yield f"reference/commands/{name}.md", text
+
+
+def page_title(page: str) -> str:
+    """The title of a page of the manual."""
+    lines = (DOCS / f"{page}.md").read_text(encoding="utf-8").splitlines()
+    return next(line.removeprefix("# ") for line in lines if line.startswith("# "))
 
 
 def sections(text: str) -> list[tuple[str, str]]:
