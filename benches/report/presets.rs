@@ -23,11 +23,16 @@ pub(crate) fn print(effort: Effort) {
          - *cycles*: median number of drive periods per point\n\
          - *settled*: number of points with an orbit\n\
          - *ratio of times*: time with marching divided by time with Newton shooting\n\
-         - *lanes full*: share of the steps in all [lanes](../glossary.md#lane) that a point needed, computed with Newton shooting\n\
+         - *lanes in use*: share of the [lanes](../glossary.md#lane) that integrate a point, on average over the steps with Newton shooting. The other lanes are idle\n\
          \n\
-         The four numbers of *lanes full* are the shares for marching, for periods with responses, for measured periods, and for all steps.\n\
-         Responses are derivatives of the motion with respect to the initial state.\n\n\
-         | preset | marching, points/s | cycles | settled | Newton, points/s | cycles | settled | ratio of times | lanes full |\n\
+         The column *lanes in use* has one share for each part of the computation, and the share in all steps:\n\
+         \n\
+         1. marching\n\
+         2. integration of the derivatives for Newton shooting\n\
+         3. measurement of the settled motion\n\
+         4. all steps\n\
+         \n\
+         | preset | marching, points/s | cycles | settled | Newton, points/s | cycles | settled | ratio of times | lanes in use |\n\
          |---|---|---|---|---|---|---|---|---|",
         effort.side,
         SolverSettings::default().settle_tol,

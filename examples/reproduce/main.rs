@@ -21,11 +21,12 @@ const PAPERS: [Paper; 4] = [jafferis::PAPER, ozaki::PAPER, arabagi::PAPER, vehic
 const HEAD: &str = "\
 # Reproduction of the papers
 
-<!-- keywords: reproduction, papers, validation -->
+<!-- keywords: reproduction, papers, validation, accuracy, accuracy experiments, measurements -->
+
+<!-- The command `just reproduce` writes this page. Change the texts in examples/reproduce. -->
 
 This page compares statements of papers on flapping-wing robots with numbers that flap computes from its [presets](../glossary.md#preset).
 Use the comparison to judge how well a preset represents the published robot.
-The command `just reproduce` generates this page, so do not edit the page by hand.
 
 In the sections on the papers, each row of a table is about one statement.
 If a statement depends on a number that the paper leaves out, the table has one row for each number that was tried.
