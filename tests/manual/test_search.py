@@ -49,6 +49,18 @@ SEARCHES = {
     "error bars": ["how-to/fit"],
     "job array": ["how-to/several-machines"],
     "notebook": ["start/index", "start/first-notebook"],
+    "duty cycle": ["how-to/experiments"],
+    "square wave": ["how-to/experiments"],
+    "lift per power": ["how-to/questions", "how-to/devices", "models/bimorph"],
+    "compare wings": ["how-to/devices"],
+    "two strokes": ["how-to/response"],
+    "bistable voltage": ["how-to/response"],
+    "hysteresis voltage": ["how-to/response"],
+    "fit damping": ["how-to/fit"],
+    "not modelled": ["models/limits"],
+    "accuracy experiments": ["models/limits", "evidence/reproduction"],
+    "hinge stiffness formula": ["models/terms"],
+    "hinge width": ["models/terms"],
 }
 
 
