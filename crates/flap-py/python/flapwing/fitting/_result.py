@@ -218,8 +218,8 @@ class Fit(Solution):
     combinations : list of str
         The combinations of parameters that the data determine best and worst.
     indistinct : list of str
-        Combined changes of parameters that change none of the readings: exact scalings of the model,
-        and parameters without effect.
+        Combined changes of parameters that change none of the readings: exact scalings of the model, and parameters
+        without effect.
     goodness : Goodness
         Chi-square, its probability, and the residuals by data set and measure.
     unsettled : list of Unsettled
