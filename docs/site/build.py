@@ -36,7 +36,15 @@ DOCUMENTS = {
 }
 # Pages that only links lead to.
 APART = ["examples/own_model.md"]
-LANGUAGES = {".bib": "bibtex", ".cff": "yaml", ".toml": "toml", ".py": "python", ".rs": "rust", ".sh": "sh", ".csv": "text"}
+LANGUAGES = {
+    ".bib": "bibtex",
+    ".cff": "yaml",
+    ".toml": "toml",
+    ".py": "python",
+    ".rs": "rust",
+    ".sh": "sh",
+    ".csv": "text",
+}
 LINK = re.compile(r"(\]\()([^)#\s]+)(#[^)\s]*)?\)")
 FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
 # Words that lead to a page in the search.
