@@ -86,9 +86,10 @@ def heatmap(
         combined. The best is the largest value with ``reduce="max"``, and the smallest with ``reduce="min"``.
         Otherwise it is the smallest for costs such as power, and the largest for other measures.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give them in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is neither
-        drawn nor selected nor reduced is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected nor reduced, the picture has only the rows at its middle value. A warning shows this
+        value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
