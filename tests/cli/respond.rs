@@ -288,3 +288,64 @@ fn each_design_is_run_at_its_own_resonance() {
         refused.stderr
     );
 }
+
+const EDGES: &str = "\
+preset = \"jafferis2016\"
+[params]
+drive_voltage_pp = \"160 V\"
+[axes]
+hinge_stiffness = [\"0.7486 uN*m/rad\", \"1.5 uN*m/rad\"]
+drive_frequency = { from = \"116 Hz\", to = \"132 Hz\", step = \"2 Hz\" }
+";
+
+#[test]
+fn edges_have_a_row_per_point() {
+    let folder = Folder::with_grid(EDGES);
+    let options = "respond grid.toml --edge drive_voltage_pp --edge-from 75 --edge-to 200 --edge-step 40";
+    let ended = folder.flap(options);
+    assert_eq!(ended.code, 0, "{}", ended.stderr);
+    let soft = "hinge_stiffness = 748.6 nN*m/rad: fold from 200 V, 130.908 Hz to 200 V, 125.639 Hz; \
+                hysteresis begins at 80.4053 V, 117.66 Hz (cusp)\n\n";
+    assert!(ended.stdout.starts_with(soft), "{}", ended.stdout);
+    let table = "drive_voltage_pp  drive_frequency  stroke_pp_deg\n200 V             130.908 Hz       101";
+    assert!(ended.stdout.contains(table), "{}", ended.stdout);
+    let published = "hinge_stiffness = 1.5 uN*m/rad: no edge: with drive_voltage_pp = 160 V, no band of drive_frequency \
+                     ends between 116 Hz and 132 Hz; set drive_voltage_pp to a value with hysteresis, such as a larger one\n";
+    assert!(ended.stdout.ends_with(published), "{}", ended.stdout);
+
+    let ended = folder.flap(&format!("{options} --format csv"));
+    assert_eq!((ended.code, &*ended.stderr), (0, published));
+    let rows: Vec<Vec<&str>> = ended.stdout.lines().map(|line| line.split(',').collect()).collect();
+    let names =
+        ["hinge_stiffness", "edge", "kind", "mark", "drive_voltage_pp", "drive_frequency", "floquet_max"];
+    assert_eq!(rows[0][..7], names);
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+    let points: Vec<[&str; 2]> = rows[1..].iter().map(|row| [row[3], row[4]]).collect();
+    let ends = [["", "200.0"], ["", "195.0"], ["", "155.0"], ["", "115.0"]];
+    assert_eq!(points[..4], ends);
+    assert!(points[4][0] == "cusp" && points[4][1].starts_with("80.40"), "{points:?}");
+    assert!(points[5..].iter().eq(ends.iter().rev()), "{points:?}");
+    assert_eq!(folder.flap(&format!("{options} --format csv --threads 1")).stdout, ended.stdout);
+}
+
+#[test]
+fn edges_that_mean_nothing_are_refused() {
+    let folder = Folder::with_grid(EDGES);
+    let edges = |edge: &str| format!("respond grid.toml --edge {edge}");
+    folder
+        .ends(2, &edges("drive_voltage_pp --edge-from 170 --edge-to 200"))
+        .says("`drive_voltage_pp` is 160 V, and its range is 170 V to 200 V");
+    folder
+        .ends(2, &edges("drive_frequency --edge-from 100 --edge-to 200"))
+        .says("`drive_frequency` is the followed parameter");
+    folder
+        .ends(2, &edges("hinge_stiffness --edge-from 1e-6 --edge-to 2e-6"))
+        .says("`hinge_stiffness` has no value of its own");
+    folder.ends(2, &edges("drive_voltage_pp --edge-from 170")).says("--edge-to");
+    folder
+        .ends(2, &edges("drive_voltage_pp --edge-from 100 --edge-to 200 --edge-step 0"))
+        .says("--edge-step 0: must be more than zero");
+    folder
+        .ends(2, &edges("drive_voltage_pp --edge-from 100 --edge-to 200 --unstable"))
+        .says("cannot be used with");
+}

@@ -216,6 +216,7 @@ def test_progress_of_responses_is_told():
         (lambda: flapwing.evaluate(PRESET, {3: [1.0]}), "int"),
         (lambda: flapwing.evaluate(PRESET, {"drive_frequency": [1.0]}, client=3), "int"),
         (lambda: flapwing.respond(PRESET, 3), "int"),
+        (lambda: flapwing.edges(PRESET, 3, edge_start=1, edge_stop=2), "int"),
         (lambda: flapwing.trajectory(PRESET, initial_state=[0.1]), "list"),
         (lambda: flapwing.trajectory(PRESET, from_rest="no"), "str"),
         (lambda: flapwing.run(PRESET, waveform=3), "int"),

@@ -287,6 +287,7 @@ def test_no_parameter_is_hidden_by_a_solver_setting(preset):
         flapwing.sweep,
         flapwing.evaluate,
         flapwing.respond,
+        flapwing.edges,
         flapwing.trajectory,
         *EXPERIMENTS,
     ]:

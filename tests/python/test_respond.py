@@ -38,6 +38,27 @@ def test_rows_are_those_of_the_command(flap, tmp_path):
         np.testing.assert_array_equal([float(row[name] or "nan") for row in rows], table[name])
 
 
+def test_edges_are_those_of_the_command(flap):
+    options = [f"--set={name}={value}" for name, value in SOFT.items()]
+    span = ["--from", "120 Hz", "--to", "130 Hz", "--step", "1 Hz"]
+    edge = ["--edge", "drive_voltage_pp", "--edge-from", "70 V", "--edge-to", "180 V", "--edge-step", "20 V"]
+    ended = flap("respond", "jafferis2016", *options, *span, *edge, "--format", "csv")
+    table = flapwing.edges(
+        "jafferis2016", edge_start=70, edge_stop="180 V", edge_step=20, start=120, stop=130, step="1 Hz", **SOFT
+    )
+    rows = list(csv.DictReader(ended.stdout.splitlines()))
+    assert list(rows[0]) == table.columns
+    assert [row["mark"] for row in rows] == table["mark"].tolist()
+    for name in ["edge", "drive_voltage_pp", "drive_frequency", "stroke_pp_deg", "floquet_max"]:
+        np.testing.assert_array_equal([float(row[name]) for row in rows], table[name])
+    assert table.meta["parameter"] == "drive_frequency" and table.meta["second_parameter"] == "drive_voltage_pp"
+    assert table.meta["edges"] == [
+        line for line in flap("respond", "jafferis2016", *options, *span, *edge).stdout.splitlines() if " from " in line
+    ]
+    with pytest.raises(ValueError, match="`drive_voltage_pp` is 160 V, and its range is 200 V to 300 V"):
+        flapwing.edges("jafferis2016", edge_start=200, edge_stop=300, start=120, stop=130, step=1, **SOFT)
+
+
 def test_designs_of_a_grid_have_a_curve_each():
     grid = {
         "preset": "ozaki2018-large",

@@ -1,6 +1,7 @@
 //! Studies on the real models: designs at their resonances, responses up and down, and optima.
 
 mod driven;
+mod edges;
 mod optimum;
 mod resonance;
 mod response;

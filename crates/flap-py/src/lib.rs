@@ -60,7 +60,7 @@ mod _flapwing {
         quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,
-        respond::respond,
+        respond::{edges, respond},
         run::{presets, run, trajectory},
         solver::settings,
         sweep::sweep,

@@ -1,16 +1,16 @@
 //! Follows responses up and down.
 
-use flap_core::parameter::Kind;
-use flap_sweep::plan::Along;
+use flap_core::parameter::{Kind, Parameter};
+use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, Summary};
-use flap_sweep::study::response::{AlongError, BandKind, Responses, Verdict};
+use flap_sweep::study::response::{AlongError, BandKind, EdgeRange, Edges, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::columns::Columns;
-use crate::watch::Watch;
+use crate::watch::{Watch, interruptible};
 use crate::{design, error, parameters, sweep};
 
 /// The column of the stroke amplitude.
@@ -68,38 +68,7 @@ pub(crate) fn respond<'py>(
     curves: Option<Vec<u64>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
-    let plan = design::plan(design, keywords)?;
-    design::check_one_wing(&plan)?;
-    if plan.resonance().is_some() {
-        let message =
-            "the grid runs each design at its resonance: set drive_frequency to a number, or follow it";
-        return Err(PyValueError::new_err(message));
-    }
-    let index = parameters::index(plan.simulator(), parameter)?;
-    let parameter = &plan.robot().model().parameters()[index];
-    let number = |value: Option<&Bound<'py, PyAny>>| match parameter.kind {
-        // The choice is rejected below.
-        Kind::Choice(_) => Ok(None),
-        Kind::Number(_) | Kind::Following(..) => {
-            value.map(|value| parameters::value_of(parameter, value)).transpose()
-        }
-    };
-    let steps = match [number(start)?, number(stop)?, number(step)?] {
-        [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
-        [None, None, None] => None,
-        _ => {
-            let message = format!(
-                "the values of `{}` are incomplete: start, stop and step are required together",
-                parameter.name
-            );
-            return Err(PyValueError::new_err(message));
-        }
-    };
-    let along = Along::new(plan, index, steps, number(tolerance)?, unstable);
-    let (plan, along) = along.map_err(|AlongError { message, help }| {
-        PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
-    })?;
-
+    let (plan, along) = followed(design, parameter, [start, stop, step], tolerance, unstable, keywords)?;
     let mut plan = plan.following(along);
     if return_states {
         plan = plan.with_states().map_err(|error| PyValueError::new_err(error.to_string()))?;
@@ -120,7 +89,8 @@ pub(crate) fn respond<'py>(
         while let Some(batch) = run.next_batch()? {
             for curve in &batch {
                 if let Outcome::Ran(curve) = curve {
-                    verdicts.push(Judged::new(&Verdict::new(curve, along, parameter, stroke)));
+                    let verdict = Verdict::new(curve, along, along.parameter(&plan), stroke);
+                    verdicts.push(Judged::new(&verdict));
                 }
                 output.write_curve(curve)?;
             }
@@ -141,5 +111,109 @@ pub(crate) fn respond<'py>(
     dict.set_item("columns", columns.into_python(py)?)?;
     dict.set_item("meta", meta)?;
     dict.set_item("designs", plan.len())?;
+    Ok(dict)
+}
+
+/// Returns the plan of a design and the parameter that it follows.
+///
+/// # Errors
+/// A mistake in the design or the arguments, as an exception.
+fn followed<'py>(
+    design: &Bound<'py, PyAny>,
+    parameter: &str,
+    [start, stop, step]: [Option<&Bound<'py, PyAny>>; 3],
+    tolerance: Option<&Bound<'py, PyAny>>,
+    unstable: bool,
+    keywords: Option<&Bound<'py, PyDict>>,
+) -> PyResult<(Plan, Along)> {
+    let plan = design::plan(design, keywords)?;
+    design::check_one_wing(&plan)?;
+    if plan.resonance().is_some() {
+        let message =
+            "the grid runs each design at its resonance: set drive_frequency to a number, or follow it";
+        return Err(PyValueError::new_err(message));
+    }
+    let index = parameters::index(plan.simulator(), parameter)?;
+    let parameter = &plan.robot().model().parameters()[index];
+    let number = |value| number(parameter, value);
+    let steps = match [number(start)?, number(stop)?, number(step)?] {
+        [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
+        [None, None, None] => None,
+        _ => {
+            let message = format!(
+                "the values of `{}` are incomplete: start, stop and step are required together",
+                parameter.name
+            );
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    Along::new(plan, index, steps, number(tolerance)?, unstable).map_err(impossible)
+}
+
+/// Returns a value of a parameter; `None` for a choice, which no curve follows.
+fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
+    match parameter.kind {
+        Kind::Choice(_) => Ok(None),
+        Kind::Number(_) | Kind::Following(..) => {
+            value.map(|value| parameters::value_of(parameter, value)).transpose()
+        }
+    }
+}
+
+fn impossible(AlongError { message, help }: AlongError) -> PyErr {
+    PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
+}
+
+/// Follow the edges of hysteresis; see `flapwing.edges`.
+#[pyfunction]
+#[pyo3(signature = (design, first, second, /, *, first_range, second_range, tolerance=None, threads=None, keywords=None))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
+#[expect(clippy::needless_pass_by_value, reason = "pyo3 extracts values")]
+pub(crate) fn edges<'py>(
+    py: Python<'py>,
+    design: &Bound<'py, PyAny>,
+    first: &str,
+    second: &str,
+    first_range: [Option<Bound<'py, PyAny>>; 3],
+    second_range: [Option<Bound<'py, PyAny>>; 3],
+    tolerance: Option<&Bound<'py, PyAny>>,
+    threads: Option<&Bound<'py, PyAny>>,
+    keywords: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let options = sweep::options(threads)?;
+    let steps = first_range.each_ref().map(Option::as_ref);
+    let (plan, along) = followed(design, first, steps, tolerance, false, keywords)?;
+    let index = parameters::index(plan.simulator(), second)?;
+    let parameter = &plan.robot().model().parameters()[index];
+    let [from, to, step] = second_range.each_ref().map(|value| number(parameter, value.as_ref()));
+    let limits = [from?, to?].map(|limit| limit.unwrap_or(f64::NAN));
+    let second = EdgeRange::new(&plan, &along, index, limits, step?).map_err(impossible)?;
+    let plan = plan.following(along);
+    let followed = plan.followed().zip(Responses::of(&plan));
+    let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
+    let mut columns = Columns::new(Edges::columns(&plan, along, &second));
+    let mut lines = Vec::new();
+    let ran = interruptible(py, |interrupted| {
+        let mut run = responses.curves(&options, 0);
+        while let Some(batch) = run.next_batch()? {
+            for curve in &batch {
+                let Outcome::Ran(curve) = curve else { continue };
+                let edges = responses.edges(curve, &second, interrupted);
+                lines.extend(edges.edges.iter().map(|edge| edge.verdict(&plan, along, &second)));
+                edges.rows(&plan, &curve.design).iter().for_each(|row| columns.push(row));
+            }
+            if interrupted() {
+                run.stop();
+            }
+        }
+        Ok(())
+    })?;
+    ran.map_err(|error| error::run(&error))?;
+    let meta = sweep::meta(py, &plan, &options)?;
+    meta.set_item("second_parameter", plan.parameters()[index].name)?;
+    meta.set_item("edges", lines)?;
+    let dict = PyDict::new(py);
+    dict.set_item("columns", columns.into_python(py)?)?;
+    dict.set_item("meta", meta)?;
     Ok(dict)
 }

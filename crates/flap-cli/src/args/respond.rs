@@ -41,6 +41,30 @@ pub(crate) struct RespondArgs {
     #[arg(long)]
     pub(crate) unstable: bool,
 
+    /// Follow the ends of bistable bands in the plane of the followed parameter and of this parameter
+    ///
+    /// flap follows the response at the design's own value of PARAMETER, then continues each end of its bands.
+    #[arg(
+        long,
+        value_name = "PARAMETER",
+        requires_all = ["edge_from", "edge_to"],
+        conflicts_with_all = ["out", "unstable"],
+        help_heading = EDGES
+    )]
+    pub(crate) edge: Option<String>,
+
+    /// Smallest value of the parameter of --edge
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
+    pub(crate) edge_from: Option<String>,
+
+    /// Largest value of the parameter of --edge
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
+    pub(crate) edge_to: Option<String>,
+
+    /// Print points at multiples of this step from --edge-from, at cusps and at ends alone [default: all computed points]
+    #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
+    pub(crate) edge_step: Option<String>,
+
     /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
@@ -52,6 +76,7 @@ pub(crate) struct RespondArgs {
     /// Output format of the summary
     ///
     /// csv and json have one row per band of parameter values in which the design is bistable or its motions are not periodic.
+    /// With --edge, csv and json have one row per point of an edge.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -61,6 +86,9 @@ pub(crate) struct RespondArgs {
     #[command(flatten)]
     pub(crate) solver: SolverArgs,
 }
+
+/// Heading of the options for edges.
+const EDGES: &str = "Edges";
 
 const RESPOND_HELP: &str = "\
 The followed parameter first rises, then falls. The first point of each branch starts at rest. All later points start from the \
@@ -78,4 +106,6 @@ Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'
   flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' \
 --from '110 Hz' --to '140 Hz' --step '1 Hz' --out response.csv
+  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' \
+--from '110 Hz' --to '140 Hz' --step '1 Hz' --edge drive_voltage_pp --edge-from '60 V' --edge-to '300 V' --format csv
   flap respond ozaki2018-large --along drive_voltage_pp --from '20 V' --to '200 V' --step '5 V'";

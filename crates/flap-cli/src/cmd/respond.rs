@@ -1,12 +1,14 @@
 //! `flap respond`: follows the motions of designs while a parameter rises and falls.
 
+mod edges;
+
 use std::io;
 
 use flap_core::parameter::Parameter;
 use flap_sweep::notation::units;
 use flap_sweep::plan::{Along, ChangeError, Plan};
 use flap_sweep::run::{RunOptions, Sink, Summary};
-use flap_sweep::study::response::AlongError;
+use flap_sweep::study::response::{AlongError, EdgeRange};
 use flap_sweep::table::layout::Cell;
 
 use super::outputs::is_stdout;
@@ -33,6 +35,10 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     let (mut plan, along) = along(args, plan)?;
     for (name, value) in &args.set {
         plan = set(plan, &along, name, value)?;
+    }
+    if let Some(edge) = &args.edge {
+        let second = second(args, &plan, &along, edge)?;
+        return edges::run(&plan.following(along), &second, args);
     }
     let plan = plan.following(along);
     let Some(verdicts) = Verdicts::of(&plan, args.format, Lines::Stdout) else {
@@ -99,10 +105,26 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
             }
         };
     let tolerance = amount("--tolerance", &args.tolerance)?;
-    Along::new(plan, index, steps, tolerance, args.unstable).map_err(|AlongError { message, help }| {
-        let failure = Failure::usage(message);
-        if help.is_empty() { failure } else { failure.help(help) }
-    })
+    Along::new(plan, index, steps, tolerance, args.unstable).map_err(impossible)
+}
+
+/// Returns the second parameter of edges, from the command line.
+fn second(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<EdgeRange, Failure> {
+    let index = point::find_parameter(plan.parameters(), name)?;
+    let parameter = &plan.parameters()[index];
+    let limit = |option: &str, given: &Option<String>| {
+        let given = given.as_deref().ok_or_else(|| Failure::usage(format!("{option} is missing")))?;
+        point::value(parameter, option, given)
+    };
+    let range = [limit("--edge-from", &args.edge_from)?, limit("--edge-to", &args.edge_to)?];
+    let step =
+        args.edge_step.as_deref().map(|text| difference(parameter, "--edge-step", text)).transpose()?;
+    EdgeRange::new(plan, along, index, range, step).map_err(impossible)
+}
+
+fn impossible(AlongError { message, help }: AlongError) -> Failure {
+    let failure = Failure::usage(message);
+    if help.is_empty() { failure } else { failure.help(help) }
 }
 
 /// Parses a step, which is more than zero.

@@ -25,7 +25,7 @@ from ._listing import measures, params, states
 from ._live import Live, live
 from ._optimise import optimise
 from ._point import resonance, run, trajectory
-from ._respond import respond
+from ._respond import edges, respond
 from ._results import (
     ActiveBound,
     BistableBand,
@@ -75,6 +75,7 @@ __all__ = [
     "Wing",
     "__version__",
     "chirp",
+    "edges",
     "evaluate",
     "fit",
     "forces_along",

@@ -35,6 +35,7 @@ __all__ = [
     "colours",
     "command",
     "correlations",
+    "edges",
     "evaluate",
     "forces_along",
     "identity",
@@ -417,6 +418,20 @@ def respond(
 
     `curves` has the numbers of the designs to follow, in rising order. In the result, `designs` is the number of all designs.
     """
+
+def edges(
+    design: Any,
+    first: str,
+    second: str,
+    /,
+    *,
+    first_range: list[SupportsFloat | str | None],
+    second_range: list[SupportsFloat | str | None],
+    tolerance: SupportsFloat | str | None = None,
+    threads: SupportsIndex | None = None,
+    keywords: dict[str, Any] | None = None,
+) -> NativeTable:
+    """Follow the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a step."""
 
 def sweep(
     grid: Grid,

@@ -1,4 +1,4 @@
-"""Responses of designs to a parameter that rises and falls."""
+"""Responses of designs to a parameter that rises and falls, and the edges of their bistable bands."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._results import BistableBand, Verdict
 from ._table import Table
 from ._types import Design, Executor, Value
 
-__all__ = ["respond"]
+__all__ = ["edges", "respond"]
 
 
 def respond(
@@ -112,4 +112,88 @@ def respond(
     native["meta"]["verdicts"] = [
         Verdict(verdict["text"], [BistableBand(**band) for band in verdict["bands"]]) for verdict in verdicts
     ]
+    return Table._of(native, keywords=keywords)
+
+
+def edges(
+    design: Design,
+    first: str = "drive_frequency",
+    second: str = "drive_voltage_pp",
+    /,
+    *,
+    edge_start: Value,
+    edge_stop: Value,
+    edge_step: Value | None = None,
+    start: Value | None = None,
+    stop: Value | None = None,
+    step: Value | None = None,
+    tolerance: Value | None = None,
+    threads: SupportsIndex | None = None,
+    **keywords: Value,
+) -> Table:
+    """Follow the ends of bistable bands in the plane of two parameters.
+
+    The response of each design along the first parameter is followed as by `respond`. Each end of its bands is then
+    continued through the plane of both parameters. A cusp is a point at which hysteresis begins.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset or a grid (see `Grid`). Each point of the grid, without the followed axis, is a design with its own
+        edges. Its value of the second parameter must lie between `edge_start` and `edge_stop`.
+    first, second : str, optional
+        The two parameters. Defaults ``"drive_frequency"`` and ``"drive_voltage_pp"``.
+    edge_start, edge_stop : float or str
+        Smallest and largest value of the second parameter: numbers in SI units, or text with units.
+    edge_step : float or str, optional
+        Return points at multiples of this step from `edge_start`, at cusps, turns and ends alone. Default: all computed
+        points.
+    start, stop, step : float or str, optional
+        First value, last value, and step between values of the first parameter, as for `respond`. Default: the values
+        of the grid's axis.
+    tolerance : float or str, optional
+        Longest step of the response at the ends of bistable bands, as for `respond`.
+    threads : int, optional
+        Number of threads for the responses, 1 or more. Default: one per core. Rows do not depend on it.
+    **keywords : float or str
+        Parameters of all designs and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        One row per point, in the order of the edge. The columns are the parameters of the design, `edge` (number of the
+        edge), `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``), `mark` (``"cusp"``, ``"turn"`` or empty), both
+        parameters, `floquet_max`, and the measures. ``meta["edges"]`` has a summary of each edge in one line. A design
+        without hysteresis has no rows.
+
+    Raises
+    ------
+    ValueError
+        Unknown preset, parameter, option or unit; no steps; the value of the design is outside of the range. GridError
+        if there are mistakes in a grid.
+    TypeError
+        A value of the wrong type.
+
+    Examples
+    --------
+    >>> soft = {"hinge_stiffness": "0.7486 uN*m/rad", "drive_voltage_pp": "160 V"}
+    >>> edge = flapwing.edges("jafferis2016", edge_start=60, edge_stop=300, start=110, stop=140, step=1, **soft)
+    >>> print(edge.meta["edges"][0])
+    fold from 300 V, 137.363 Hz to 300 V, 127.432 Hz; hysteresis begins at 80.4053 V, 117.66 Hz (cusp)
+    """
+    for name, parameter in [("first", first), ("second", second)]:
+        if not isinstance(parameter, str):
+            raise _mistakes.refused(name, parameter, 'it must be the name of a parameter, such as "drive_frequency"')
+    if first in keywords:
+        raise ValueError(f"`{first}` is set here and followed: keep one of them")
+    native = _flapwing.edges(
+        design,
+        first,
+        second,
+        first_range=[start, stop, step],
+        second_range=[edge_start, edge_stop, edge_step],
+        tolerance=tolerance,
+        threads=threads,
+        keywords=dict(keywords),
+    )
     return Table._of(native, keywords=keywords)

@@ -65,6 +65,16 @@ impl Measure {
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
     }
+
+    /// Returns the cell for a row's measures.
+    pub(crate) fn cell(&self, measures: &[f64]) -> Cell<'static> {
+        let value = self.value(measures);
+        match self.column.kind {
+            CellKind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
+            CellKind::Text => Cell::Text(gap(value)),
+            CellKind::Number | CellKind::Whole => Cell::Number(value),
+        }
+    }
 }
 
 impl<'p> Layout<'p> {
@@ -263,14 +273,7 @@ impl Entry<'_> {
             Entry::Followed(_) => Cell::Number(place.map_or(f64::NAN, |place| place.value)),
             Entry::Bistable => Cell::Flag(place.and_then(|place| place.bistable)),
             Entry::State(place, _) => Cell::Number(row.state.get(*place).copied().unwrap_or(f64::NAN)),
-            Entry::Measure(measure) => {
-                let value = measure.value(&row.measures);
-                match measure.column.kind {
-                    CellKind::Flag => Cell::Flag((!value.is_nan()).then_some(value != 0.0)),
-                    CellKind::Text => Cell::Text(gap(value)),
-                    CellKind::Number | CellKind::Whole => Cell::Number(value),
-                }
-            }
+            Entry::Measure(measure) => measure.cell(&row.measures),
         }
     }
 }

@@ -7,6 +7,8 @@ use flap_core::simulate::{Interrupt, Point, Row, Status, never};
 
 use super::continuation;
 use super::curve::{Curve, Step};
+use super::edge::{EdgeRange, Edges};
+use super::edge_continuation;
 use super::follow::Follow;
 use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, SequenceSource};
@@ -54,6 +56,14 @@ impl<'a> Responses<'a> {
         let mut follow = Follow::new(self.plan, self.along, design);
         sequence::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
         self.complete(follow.finish(), backend, &never)
+    }
+
+    /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and of
+    /// `second`. `curve` is a response of this plan.
+    ///
+    /// If it is interrupted, edges are incomplete.
+    pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
+        edge_continuation::edges(self.plan, self.along, second, curve, Backend::best(), interrupted)
     }
 
     /// Adds the unstable orbits to a curve, if requested, and the plan's own measures to all of its rows.

@@ -173,6 +173,11 @@ fn describe((status, period): (Status, u32)) -> String {
     }
 }
 
+/// Returns `121.5 Hz`, to six digits.
+pub(super) fn at(value: f64, unit: &'static str) -> String {
+    length(value, [value; 2], unit)
+}
+
 /// Returns `from 121.5 to 136 Hz`, or `at 14 mm`.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale([from, to], unit);

@@ -1,0 +1,273 @@
+//! Edges of hysteresis in the plane of two parameters: their points, their rows, and a one-line summary.
+
+use std::fmt;
+
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{Point, Unfinished};
+
+use super::along::AlongError;
+use super::verdict::at;
+use crate::plan::{Along, Plan};
+use crate::table::layout::{Cell, CellKind, Column, Layout, Measure};
+
+/// Largest modulus of the multipliers of an orbit that loses its stability.
+pub(super) const CRITICAL: f64 = 1.001;
+
+/// Largest number of points of an edge in each direction.
+pub(super) const MOST: usize = 2000;
+
+/// Largest number of steps of the second parameter.
+const MOST_STEPS: f64 = 1e4;
+
+/// Second parameter of the edges, and its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EdgeRange {
+    /// Index in the model's parameter table.
+    pub parameter: usize,
+    /// First and last value.
+    pub range: [f64; 2],
+    /// Distance between the values at which points are returned; `None` for all points of the continuation.
+    pub step: Option<f64>,
+}
+
+impl EdgeRange {
+    /// Returns the second parameter of the edges of a plan that follows `along`.
+    ///
+    /// # Errors
+    /// [`AlongError`] in these cases:
+    ///
+    /// - The parameter is a choice, or it is the followed parameter.
+    /// - Its value comes from an axis, a formula or other parameters.
+    /// - The first value is not below the last, or the value of the plan is outside of the range.
+    /// - The step is not more than zero, or the range has more than 10,000 steps.
+    pub fn new(
+        plan: &Plan,
+        along: &Along,
+        parameter: usize,
+        range: [f64; 2],
+        step: Option<f64>,
+    ) -> Result<EdgeRange, AlongError> {
+        let Parameter { name, kind, unit, .. } = plan.parameters()[parameter];
+        let error = |message: String, help| Err(AlongError { message, help });
+        if let Kind::Choice(_) = kind {
+            return error(format!("`{name}` is a choice, so bands have no edge along it"), "");
+        }
+        if parameter == along.parameter {
+            return error(format!("`{name}` is the followed parameter"), "choose two different parameters");
+        }
+        let value = plan.point(0).values[parameter];
+        if !value.is_finite() || plan.clone().with_parameter(parameter, value).is_err() {
+            let help = "set it to one number: each edge begins at this value";
+            return error(format!("`{name}` has no value of its own"), help);
+        }
+        let [from, to] = range;
+        if from >= to || !(from..=to).contains(&value) {
+            let [value, from, to] = [value, from, to].map(|value| at(value, unit));
+            let help = "the range must rise, and contain the value of the design, at which each edge begins";
+            return error(format!("`{name}` is {value}, and its range is {from} to {to}"), help);
+        }
+        if step.is_some_and(|step| step <= 0.0 || (to - from) / step > MOST_STEPS) {
+            let help = "the range may have up to 10,000 steps";
+            return error(format!("the step of `{name}` must be more than zero, and not too short"), help);
+        }
+        Ok(EdgeRange { parameter, range, step })
+    }
+}
+
+/// Edges of one design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edges {
+    /// Edges, in the order of the bands at which they were found.
+    pub edges: Vec<Edge>,
+    /// Values of the first parameter at which a band ends, but no edge was found.
+    pub missed: Vec<f64>,
+}
+
+/// A curve in the plane of two parameters on which an orbit loses its stability.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    /// Kind of the critical multiplier.
+    pub kind: EdgeKind,
+    /// Points in the order of the curve.
+    pub points: Vec<EdgePoint>,
+    /// Reasons for the ends of the curve, before the first and after the last point.
+    pub ends: [EdgeEnd; 2],
+}
+
+/// Kind of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeKind {
+    /// A multiplier of +1: a stable and an unstable orbit meet.
+    Fold,
+    /// A multiplier of −1: the motion begins to repeat after two drive periods.
+    PeriodDoubling,
+    /// A complex pair of multipliers of modulus 1: the motion begins to have a second frequency.
+    Torus,
+}
+
+/// An orbit on an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EdgePoint {
+    /// Values of the first and of the second parameter.
+    pub values: [f64; 2],
+    /// Special point of the edge.
+    pub mark: Option<EdgeMark>,
+    /// State at the beginning of the drive period.
+    pub state: Vec<f64>,
+    /// Measures of the orbit.
+    pub measures: Vec<f64>,
+    /// Largest modulus of the multipliers. It exceeds 1 if the orbit is unstable on both sides of the edge.
+    pub floquet_max: f64,
+}
+
+/// Special point of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeMark {
+    /// Both folds of a band meet. The edge turns back in the plane.
+    Cusp,
+    /// The second parameter is the smallest or largest nearby.
+    Turn,
+}
+
+/// Reason for the end of an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EdgeEnd {
+    /// The edge leaves the range of the parameter with this index.
+    Range(usize),
+    /// The edge is a closed curve.
+    Closed,
+    /// The pair of multipliers of a torus becomes real.
+    Resonance,
+    /// Newton's iteration does not converge for the shortest step.
+    Unconverged,
+    /// A drive period cannot be integrated.
+    Unfinished(Unfinished),
+    /// The edge has more points than the limit.
+    Long,
+}
+
+impl EdgeMark {
+    /// Returns the name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            EdgeMark::Cusp => "cusp",
+            EdgeMark::Turn => "turn",
+        }
+    }
+}
+
+impl EdgeKind {
+    /// All kinds.
+    pub const ALL: [EdgeKind; 3] = [EdgeKind::Fold, EdgeKind::PeriodDoubling, EdgeKind::Torus];
+
+    /// Returns the name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            EdgeKind::Fold => "fold",
+            EdgeKind::PeriodDoubling => "period_doubling",
+            EdgeKind::Torus => "torus",
+        }
+    }
+}
+
+impl Edges {
+    /// Returns the columns of the rows of edges.
+    pub fn columns(plan: &Plan, along: &Along, second: &EdgeRange) -> Vec<Column> {
+        let parameter = |index: usize| Column::of_parameter(&plan.parameters()[index]);
+        let word = |name, doc| Column::new(name, "", CellKind::Text, doc);
+        let varied = plan.axes().varied().map(parameter);
+        let fixed = [
+            Column::new("edge", "", CellKind::Whole, "number of the edge of the design, from 0"),
+            word("kind", "kind of the critical multiplier: fold, period_doubling or torus"),
+            word("mark", "cusp or turn; empty for other points"),
+        ];
+        let place = [second.parameter, along.parameter].map(parameter);
+        let doc = "largest modulus of the Floquet multipliers";
+        let multiplier = Column::new("floquet_max", "", CellKind::Number, doc);
+        let measures = measures(plan).into_iter().map(|measure| measure.column);
+        varied.chain(fixed).chain(place).chain([multiplier]).chain(measures).collect()
+    }
+
+    /// Returns one row of [`Edges::columns`] for each point of the edges of `design`.
+    pub fn rows(&self, plan: &Plan, design: &Point) -> Vec<Vec<Cell<'static>>> {
+        let measures = measures(plan);
+        let varied: Vec<Cell<'static>> = (plan.axes().varied())
+            .map(|index| Cell::of_parameter(&plan.parameters()[index], design.values[index]))
+            .collect();
+        let row = |number: u64, kind: EdgeKind, point: &EdgePoint| {
+            let [first, second] = point.values;
+            let words = [Cell::Text(kind.name()), Cell::Text(point.mark.map_or("", EdgeMark::name))];
+            let numbers = [second, first, point.floquet_max].map(Cell::Number);
+            let measures = measures.iter().map(|measure| measure.cell(&point.measures));
+            let cells = varied.iter().copied().chain([Cell::Whole(number)]).chain(words);
+            cells.chain(numbers).chain(measures).collect()
+        };
+        let edges = (0..).zip(&self.edges);
+        edges
+            .flat_map(|(number, edge)| edge.points.iter().map(move |point| (number, edge.kind, point)))
+            .map(|(number, kind, point)| row(number, kind, point))
+            .collect()
+    }
+}
+
+/// Returns the measures of a plan without derivatives, which points of edges do not have.
+fn measures(plan: &Plan) -> Vec<Measure> {
+    let known = plan.rows().columns().len() + plan.measures().len();
+    Layout::of(plan).measures().filter(|measure| measure.index < known).cloned().collect()
+}
+
+impl Edge {
+    /// Returns the summary of an edge in the plane of `along` and `second`, in one line.
+    pub fn verdict(&self, plan: &Plan, along: &Along, second: &EdgeRange) -> String {
+        let units = [along.parameter, second.parameter].map(|index| plan.parameters()[index].unit);
+        let place = |point: &EdgePoint| {
+            let [first, second] = [0, 1].map(|k| at(point.values[k], units[k]));
+            format!("{second}, {first}")
+        };
+        let kind = self.kind.name().replace('_', " ");
+        let mut parts = match &self.points[..] {
+            [first, ..] if self.ends[0] == EdgeEnd::Closed => {
+                vec![format!("{kind} on a closed curve through {}", place(first))]
+            }
+            [first, .., last] => vec![format!("{kind} from {} to {}", place(first), place(last))],
+            [point] => vec![format!("{kind} at {}", place(point))],
+            [] => vec![kind],
+        };
+        for (index, point) in self.points.iter().enumerate() {
+            let neighbour = self.points.get(if index == 0 { 1 } else { index - 1 });
+            let is_smallest = neighbour.is_none_or(|neighbour| neighbour.values[1] >= point.values[1]);
+            match point.mark {
+                None => {}
+                Some(EdgeMark::Cusp) => {
+                    let motions = if point.floquet_max <= CRITICAL { "" } else { " of unstable orbits" };
+                    let verb = if is_smallest { "begins" } else { "ends" };
+                    parts.push(format!("hysteresis{motions} {verb} at {} (cusp)", place(point)));
+                }
+                Some(EdgeMark::Turn) => {
+                    let limit = if is_smallest { "smallest" } else { "largest" };
+                    let name = plan.parameters()[second.parameter].name;
+                    parts.push(format!("{limit} {name} at {}", place(point)));
+                }
+            }
+        }
+        for (end, point) in self.ends.iter().zip([self.points.first(), self.points.last()]) {
+            if let (false, Some(point)) = (matches!(end, EdgeEnd::Range(_) | EdgeEnd::Closed), point) {
+                parts.push(format!("stopped at {}: {end}", place(point)));
+            }
+        }
+        parts.join("; ")
+    }
+}
+
+impl fmt::Display for EdgeEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EdgeEnd::Range(_) => write!(f, "the edge leaves the range"),
+            EdgeEnd::Closed => write!(f, "the edge is closed"),
+            EdgeEnd::Resonance => write!(f, "the pair of multipliers becomes real"),
+            EdgeEnd::Unconverged => write!(f, "Newton's iteration does not converge for the shortest step"),
+            EdgeEnd::Unfinished(unfinished) => unfinished.fmt(f),
+            EdgeEnd::Long => write!(f, "it has {MOST} points"),
+        }
+    }
+}
