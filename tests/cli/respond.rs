@@ -349,3 +349,27 @@ fn edges_that_mean_nothing_are_refused() {
         .ends(2, &edges("drive_voltage_pp --edge-from 100 --edge-to 200 --unstable"))
         .says("cannot be used with");
 }
+
+#[test]
+fn basins_have_a_row_per_value_of_a_band() {
+    let folder = Folder::with_grid(EDGES);
+    let ended = folder.ends(0, "respond grid.toml --basins 50");
+    assert!(
+        ended.stdout.starts_with("hinge_stiffness = 748.6 nN*m/rad:\ndrive_frequency  up "),
+        "{}",
+        ended.stdout
+    );
+    let none = "hinge_stiffness = 1.5 uN*m/rad: no value of drive_frequency with two stable orbits\n";
+    assert!(ended.stdout.ends_with(none), "{}", ended.stdout);
+    let rows = folder.ends(0, "respond grid.toml --basins 50 --format csv").stdout;
+    let rows: Vec<Vec<&str>> = rows.lines().map(|line| line.split(',').collect()).collect();
+    let names = ["hinge_stiffness", "drive_frequency", "starts", "share_up", "error_up", "share_down"];
+    assert_eq!(rows[0][..6], names);
+    assert!(rows.len() > 3);
+    for row in &rows[1..] {
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        assert_eq!((row[2], number(3) + number(5) + number(7)), ("50", 1.0));
+    }
+    folder.ends(2, "respond grid.toml --basins 0").says("--basins");
+    folder.ends(2, "respond grid.toml --seed 1").says("--basins");
+}

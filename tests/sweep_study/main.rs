@@ -1,5 +1,6 @@
 //! Studies on the real models: designs at their resonances, responses up and down, and optima.
 
+mod basins;
 mod driven;
 mod edges;
 mod optimum;

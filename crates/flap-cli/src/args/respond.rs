@@ -65,6 +65,20 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 
+    /// At each value in a bistable band, count the motions from N random initial states that go to each branch
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000),
+        conflicts_with_all = ["out", "unstable", "edge"],
+        help_heading = BASINS
+    )]
+    pub(crate) basins: Option<u32>,
+
+    /// Seed of the random initial states
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "basins", help_heading = BASINS)]
+    pub(crate) seed: u64,
+
     /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
@@ -76,7 +90,8 @@ pub(crate) struct RespondArgs {
     /// Output format of the summary
     ///
     /// csv and json have one row per band of parameter values in which the design is bistable or its motions are not periodic.
-    /// With --edge, csv and json have one row per point of an edge.
+    /// With --edge, csv and json have one row per point of an edge. With --basins, csv and json have one row
+    /// per value in a bistable band.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -89,6 +104,9 @@ pub(crate) struct RespondArgs {
 
 /// Heading of the options for edges.
 const EDGES: &str = "Edges";
+
+/// Heading of the options for basins.
+const BASINS: &str = "Basins";
 
 const RESPOND_HELP: &str = "\
 The followed parameter first rises, then falls. The first point of each branch starts at rest. All later points start from the \

@@ -1,5 +1,6 @@
 //! `flap respond`: follows the motions of designs while a parameter rises and falls.
 
+mod basins;
 mod edges;
 
 use std::io;
@@ -8,7 +9,7 @@ use flap_core::parameter::Parameter;
 use flap_sweep::notation::units;
 use flap_sweep::plan::{Along, ChangeError, Plan};
 use flap_sweep::run::{RunOptions, Sink, Summary};
-use flap_sweep::study::response::{AlongError, EdgeRange};
+use flap_sweep::study::response::{AlongError, EdgeRange, Starts};
 use flap_sweep::table::layout::Cell;
 
 use super::outputs::is_stdout;
@@ -39,6 +40,9 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     if let Some(edge) = &args.edge {
         let second = second(args, &plan, &along, edge)?;
         return edges::run(&plan.following(along), &second, args);
+    }
+    if let Some(count) = args.basins {
+        return basins::run(&plan.following(along), Starts { count, seed: args.seed }, args);
     }
     let plan = plan.following(along);
     let Some(verdicts) = Verdicts::of(&plan, args.format, Lines::Stdout) else {

@@ -99,7 +99,7 @@ impl Design {
 }
 
 /// Returns a random number in the open interval from 0 to 1.
-pub(super) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
+pub(crate) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
     let mut generator = stream(seed, dimension, false);
     // The position counts 32-bit words.
     generator.set_word_pos(2 * u128::from(index));

@@ -8,12 +8,14 @@
 //! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive
 //! - `follow`: one curve, up and down, with the ends of its bistable bands
 //! - `continuation`: unstable orbits that connect the branches of a bistable band
+//! - `basin`: shares of initial states that go to each branch
 //! - `edge`: ends of bands in the plane of two parameters, their rows and summary
 //! - `edge_continuation`: continuation of these ends
 //! - `verdict`: one-line summary of a curve
 //! - `run`: curves of all designs of a plan, in order
 
 mod along;
+mod basin;
 mod continuation;
 mod curve;
 mod edge;
@@ -24,6 +26,7 @@ mod verdict;
 
 pub use crate::plan::Along;
 pub use along::AlongError;
+pub use basin::{Basin, Starts};
 pub use curve::{Curve, Step};
 pub use edge::{Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges};
 pub use run::Responses;

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Interrupt, Point, Row, Status, never};
+use flap_core::simulate::{Interrupt, Point, Row, Status, Unfinished, never};
 
+use super::basin::{self, Basin, Starts};
 use super::continuation;
 use super::curve::{Curve, Step};
 use super::edge::{EdgeRange, Edges};
@@ -64,6 +65,19 @@ impl<'a> Responses<'a> {
     /// If it is interrupted, edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
         edge_continuation::edges(self.plan, self.along, second, curve, Backend::best(), interrupted)
+    }
+
+    /// Returns the basins of both branches at the values of `curve` at which they have different orbits.
+    ///
+    /// # Errors
+    /// [`Unfinished`] if the model computes rows alone, if an orbit cannot be sampled, or after an interruption.
+    pub fn basins(
+        self,
+        curve: &Curve,
+        starts: Starts,
+        interrupted: Interrupt<'_>,
+    ) -> Result<Vec<Basin>, Unfinished> {
+        basin::basins(self.plan, self.along, curve, starts, Backend::best(), interrupted)
     }
 
     /// Adds the unstable orbits to a curve, if requested, and the plan's own measures to all of its rows.

@@ -1,0 +1,78 @@
+//! Basins of attraction in bistable bands, for `flap respond --basins`.
+
+use flap_core::simulate::never;
+use flap_sweep::notation::text;
+use flap_sweep::notation::units::prefixed;
+use flap_sweep::plan::{Along, Plan};
+use flap_sweep::run::{Outcome, RunOptions};
+use flap_sweep::study::response::{Basin, Curve, Responses, Starts};
+
+use crate::args::{OutputFormat, RespondArgs};
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::print;
+use crate::table::{Table, assignment};
+
+/// Prints the basins of each design of a plan that follows a parameter.
+pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exit, Failure> {
+    let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
+        return Err(Failure::Bug("the plan follows no parameter".to_owned()));
+    };
+    let default = RunOptions::default();
+    let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
+    let mut rows = Vec::new();
+    for outcome in responses.curves(&options, 0) {
+        let Outcome::Ran(curve) = outcome? else { continue };
+        let basins = responses.basins(&curve, starts, &never);
+        let basins = basins.map_err(|error| Failure::usage(error.to_string()))?;
+        if args.format == OutputFormat::Table {
+            console::results(&table(plan, along, &curve, &basins))?;
+        } else {
+            rows.extend(basins.iter().map(|basin| cells(plan, &curve, basin)));
+        }
+    }
+    if args.format != OutputFormat::Table {
+        let varied = plan.axes().varied().map(|index| plan.parameters()[index].name);
+        let followed = along.parameter(plan).name;
+        let shares =
+            ["up", "down", "other"].map(|motion| [format!("share_{motion}"), format!("error_{motion}")]);
+        let names = varied.chain([followed, "starts"]).map(str::to_owned);
+        let names: Vec<String> = names.chain(shares.into_iter().flatten()).collect();
+        print::table(args.format, &names, &rows, String::new)?;
+    }
+    Ok(Exit::Done)
+}
+
+/// Returns the basins of a design for a terminal.
+fn table(plan: &Plan, along: &Along, curve: &Curve, basins: &[Basin]) -> String {
+    let varied = plan.axes().varied();
+    let varied = varied.map(|index| assignment(&plan.parameters()[index], curve.design.values[index]));
+    let design = varied.collect::<Vec<_>>().join(", ");
+    let before = |text: &str| if design.is_empty() { String::new() } else { format!("{design}:{text}") };
+    let parameter = along.parameter(plan);
+    if let Some(reason) = curve.invalid() {
+        return format!("{}no response: {reason}\n", before(" "));
+    }
+    if basins.is_empty() {
+        return format!("{}no value of {} with two stable orbits\n", before(" "), parameter.name);
+    }
+    let mut table = Table::with_names([parameter.name, "up", "down", "other"].map(str::to_owned).into());
+    for basin in basins {
+        let shares = basin.shares().map(|[share, error]| percent(share, error));
+        table.row([vec![prefixed(basin.value, parameter.unit)], shares.to_vec()].concat());
+    }
+    before("\n") + &table.text_within(console::width())
+}
+
+/// Returns a share with its standard error, such as `61.5 ± 2.4 %`.
+fn percent(share: f64, error: f64) -> String {
+    format!("{:.1} ± {:.1} %", 100.0 * share, 100.0 * error)
+}
+
+/// Returns one row for csv and json.
+fn cells(plan: &Plan, curve: &Curve, basin: &Basin) -> Vec<String> {
+    let varied = plan.axes().varied();
+    let varied = varied.map(|index| text::value(&plan.parameters()[index], curve.design.values[index]));
+    let shares = basin.shares().into_iter().flatten().map(text::float);
+    varied.chain([text::float(basin.value), basin.count.to_string()]).chain(shares).collect()
+}

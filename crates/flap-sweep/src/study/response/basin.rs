@@ -1,0 +1,142 @@
+//! Basins of attraction in bistable bands: the share of initial states whose motions go to each branch.
+
+use flap_core::num::Backend;
+use flap_core::simulate::{
+    Interrupt, Jobs, Point, PointRun, Row, SolverSettings, TrajectoryRequest, Unfinished,
+};
+
+use super::curve::{Comparison, Curve, Step, compare, component_sizes};
+use crate::plan::{Along, Plan, sample};
+
+/// Number of samples of an orbit that determine the range of its states.
+const SAMPLES: u32 = 64;
+
+/// Random initial states of basins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Starts {
+    /// Number of initial states at each value.
+    pub count: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+/// Basins at one value of the followed parameter, where both branches have different orbits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basin {
+    /// Value of the followed parameter.
+    pub value: f64,
+    /// Number of initial states.
+    pub count: u32,
+    /// Numbers of motions that go to the orbit of the upward branch, to the orbit of the downward branch, and to
+    /// other motions.
+    pub motions: [u32; 3],
+}
+
+impl Basin {
+    /// Returns the shares of the motions, each with its binomial standard error.
+    pub fn shares(&self) -> [[f64; 2]; 3] {
+        let count = f64::from(self.count);
+        self.motions.map(|motions| {
+            let share = f64::from(motions) / count;
+            [share, (share * (1.0 - share) / count).sqrt()]
+        })
+    }
+}
+
+/// Returns the basins at all values at which both branches have different orbits, in ascending order.
+///
+/// The initial states are uniformly distributed over a box: the smallest and largest value of each state component on
+/// both orbits. Motions settle by marching, because Newton's iteration may leave a basin.
+pub(super) fn basins(
+    plan: &Plan,
+    along: &Along,
+    curve: &Curve,
+    starts: Starts,
+    backend: Backend,
+    interrupted: Interrupt<'_>,
+) -> Result<Vec<Basin>, Unfinished> {
+    let sizes = component_sizes(&curve.up, &curve.down);
+    let solver = SolverSettings { newton: false, ..*plan.solver() };
+    let mut found = Vec::new();
+    for (up, down) in curve.up.iter().zip(&curve.down) {
+        let orbits = [up, down];
+        let are_orbits = orbits.iter().all(|step| step.row.stable() == Some(true));
+        if !are_orbits || compare(&up.row, &down.row, &sizes) != Comparison::Different {
+            continue;
+        }
+        let values = along.values_at(plan, &curve.design, up.value);
+        let run = PointRun::new(backend, plan.solver(), &values).until(interrupted);
+        let mut motions = Motions {
+            ranges: ranges(plan, &run, orbits)?,
+            values: &values,
+            orbits,
+            sizes: &sizes,
+            starts,
+            next: 0,
+            counts: [0; 3],
+            interrupted,
+        };
+        plan.simulator().run(backend, &solver, &mut motions);
+        if interrupted() {
+            return Err(Unfinished::Interrupted);
+        }
+        found.push(Basin { value: up.value, count: starts.count, motions: motions.counts });
+    }
+    Ok(found)
+}
+
+/// Returns the smallest and largest value of each state component on two orbits.
+fn ranges(plan: &Plan, run: &PointRun<'_>, orbits: [&Step; 2]) -> Result<Vec<[f64; 2]>, Unfinished> {
+    let states = orbits[0].row.state.len();
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: SAMPLES, settled: false };
+    let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; states];
+    for orbit in orbits {
+        let motion = plan.simulator().motions()?.trajectory_from(run, Some(&orbit.row.state), &request)?;
+        for sample in motion.rows {
+            // The states follow the time.
+            for ([least, most], y) in ranges.iter_mut().zip(&sample[1..]) {
+                *least = least.min(*y);
+                *most = most.max(*y);
+            }
+        }
+    }
+    Ok(ranges)
+}
+
+/// Motions from random initial states at one value of the followed parameter.
+struct Motions<'a> {
+    ranges: Vec<[f64; 2]>,
+    values: &'a [f64],
+    orbits: [&'a Step; 2],
+    sizes: &'a [f64],
+    starts: Starts,
+    /// Number of the next initial state.
+    next: u32,
+    counts: [u32; 3],
+    interrupted: Interrupt<'a>,
+}
+
+impl Jobs for Motions<'_> {
+    fn next(&mut self, _idle: bool) -> Option<Point> {
+        if self.next == self.starts.count || (self.interrupted)() {
+            return None;
+        }
+        let number = u64::from(self.next);
+        self.next += 1;
+        let component = |(dimension, [least, most]): (usize, &[f64; 2])| {
+            least + sample::coordinate(self.starts.seed, dimension, number) * (most - least)
+        };
+        let begin = self.ranges.iter().enumerate().map(component).collect();
+        Some(Point { begin: Some(begin), ..Point::at_rest(number, self.values.to_vec()) })
+    }
+
+    fn done(&mut self, _index: u64, row: Row) {
+        let is_same = |orbit: &&Step| compare(&orbit.row, &row, self.sizes) == Comparison::Same;
+        let motion = self.orbits.iter().position(is_same).unwrap_or(2);
+        self.counts[motion] += 1;
+    }
+
+    fn interrupted(&self) -> bool {
+        (self.interrupted)()
+    }
+}
