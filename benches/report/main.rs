@@ -56,7 +56,9 @@ fn main() {
     let effort = if arguments.iter().any(|argument| argument == "--bench") { MEASURED } else { TRIAL };
 
     println!("# Performance\n\n<!-- keywords: performance, speed, benchmark, memory -->\n");
-    println!("<!-- The command `just bench-report` writes this page. Change the texts in benches/report. -->\n");
+    println!(
+        "<!-- The command `just bench-report` writes this page. Change the texts in benches/report. -->\n"
+    );
     println!(
         "This page reports the speed and memory of flap on one machine, beside other solvers.\n\
          The numbers differ between machines.\n\
