@@ -35,8 +35,8 @@ fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
         &about(1.0, 0.01),
         straightness,
         format!(
-            "a straight line from 0.7 times the resonance frequency to the resonance has R² = \
-             {straightness:.3}"
+            "a straight line through the lift from 0.7 times the first resonance frequency to this \
+             frequency has R² = {straightness:.3}"
         ),
     )
 }
@@ -54,7 +54,11 @@ fn largest(system: &System, response: &Response, resonance: f64) -> Claim {
     .is(
         &between(10.0, 20.0),
         frequency - resonance,
-        format!("difference of {:.1} Hz (largest lift at {frequency:.1} Hz)", frequency - resonance),
+        format!(
+            "largest lift of the {} at {frequency:.1} Hz, {:.1} Hz above the first resonance",
+            system.name,
+            frequency - resonance
+        ),
     )
 }
 
@@ -79,7 +83,11 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
     )
     .holds(
         lags.windows(2).all(|pair| pair[1] > pair[0]) && lags[3] > 135.0 && from.is_finite(),
-        format!("phase lag {}; the lift is negative from {from:.0} Hz", words.join(", ")),
+        format!(
+            "phase lag of the pitch {}. The lift of the {} is negative from {from:.0} Hz",
+            words.join(", "),
+            system.name
+        ),
     )
 }
 
@@ -89,8 +97,8 @@ pub(super) fn parts() -> Vec<Claim> {
         let point = super::bench().point(system.params.to_values());
         ["translational", "added_mass", "rotational"].map(|part| point.get(&format!("lift_{part}_mean_mn")))
     });
-    let shown = |split: [f64; 3]| {
-        format!("lift of translation {:.3} mN, lift of added mass {:.3} mN", split[0], split[1])
+    let shown = |name: &str, split: [f64; 3]| {
+        format!("lift of translation {:.3} mN, lift of added mass {:.3} mN in the {name}", split[0], split[1])
     };
     let [translational, added_mass, rotational] = split_30;
     vec![
@@ -99,14 +107,19 @@ pub(super) fn parts() -> Vec<Claim> {
             "(S) in the 75 Hz system, translation makes more lift than added mass",
             "dominant",
         )
-        .holds(split_75[0] > split_75[1], shown(split_75)),
+        .holds(split_75[0] > split_75[1], shown("75 Hz system", split_75)),
         said(
             "IV-A, Fig. 7b",
             "(S) in the 30 Hz system, most lift comes from translation and little lift from added mass",
             "most",
         )
-        .holds(translational > 0.5 * (translational + added_mass + rotational), shown(split_30)),
-        said("IV-A, Fig. 7b", "the rotational lift of the 30 Hz system is very low", "very low")
-            .holds(rotational.abs() < 0.05 * translational, format!("{rotational:.3} mN")),
+        .holds(
+            translational > 0.5 * (translational + added_mass + rotational),
+            shown("30 Hz system", split_30),
+        ),
+        said("IV-A, Fig. 7b", "the rotational lift of the 30 Hz system is very low", "very low").holds(
+            rotational.abs() < 0.05 * translational,
+            format!("rotational lift of the 30 Hz system {rotational:.3} mN"),
+        ),
     ]
 }

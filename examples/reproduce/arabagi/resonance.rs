@@ -18,13 +18,13 @@ pub(super) fn claims() -> Vec<Claim> {
             "V-B, Fig. 11",
             "(T) frequency of the first stroke peak of the 75 Hz system",
             75.0,
-            peak(&humps_75, 0),
+            ("first stroke peak of the 75 Hz system", peak(&humps_75, 0)),
         ),
         frequency(
             "V-B, Fig. 11",
             "(T) simulated frequency of the second stroke peak of the 75 Hz system",
             115.0,
-            peak(&humps_75, 1),
+            ("second stroke peak of the 75 Hz system", peak(&humps_75, 1)),
         ),
         said(
             "V-C",
@@ -33,22 +33,26 @@ pub(super) fn claims() -> Vec<Claim> {
         )
         .holds(
             peak(&humps_75, 1) < second_75,
-            format!("second peak at {second_75:.0} Hz with 20 V, at {:.0} Hz with 150 V", peak(&humps_75, 1)),
+            format!(
+                "second stroke peak of the 75 Hz system at {second_75:.0} Hz with 20 V, at {:.0} Hz with 150 V",
+                peak(&humps_75, 1)
+            ),
         ),
         frequency(
             "V-A, Fig. 9",
             "(T) frequency of the first stroke peak of the 30 Hz system",
             30.0,
-            peak(&humps_30, 0),
+            ("first stroke peak of the 30 Hz system", peak(&humps_30, 0)),
         ),
         said("V-A, Fig. 8", "measured frequency of the second stroke peak of the 30 Hz system", "36 Hz").is(
             &closely(36.0, 0.5),
             peak(&humps_30, 1),
             if humps_30.len() > 1 {
-                format!("{:.1} Hz", peak(&humps_30, 1))
+                format!("second stroke peak of the 30 Hz system at {:.1} Hz", peak(&humps_30, 1))
             } else {
                 format!(
-                    "no second peak up to {:.0} Hz at 180 V; second peak at {second_30:.1} Hz at 20 V",
+                    "no second stroke peak of the 30 Hz system up to {:.0} Hz at 180 V. Second stroke peak at \
+                     {second_30:.1} Hz with 20 V",
                     system_30().range[1]
                 )
             },
@@ -60,7 +64,9 @@ pub(super) fn claims() -> Vec<Claim> {
         claims.push(said("V-A", format!("quality factor of the stroke response of the {name}"), "≈ 2").is(
             &assumed(2.0, 0.05),
             quality,
-            format!("quality factor {quality:.2} (half-power band from {low:.1} to {high:.1} Hz)"),
+            format!(
+                "quality factor of the {name} {quality:.2} (half-power band from {low:.1} to {high:.1} Hz)"
+            ),
         ));
     }
     claims
@@ -83,8 +89,8 @@ pub(super) fn small_motions() -> Vec<Claim> {
             &closely(published, 0.5),
             computed,
             format!(
-                "peak at {computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz for the \
-                 undamped mode",
+                "peak of the 75 Hz system at {computed:.1} Hz for the stroke, {:.1} Hz for the pitch, {:.1} Hz \
+                 for the undamped mode",
                 peak(&pitch, index),
                 modes[index].frequency
             ),
@@ -101,11 +107,16 @@ fn peak(humps: &[f64], index: usize) -> f64 {
     humps.get(index).copied().unwrap_or(f64::NAN)
 }
 
-fn frequency(place: &'static str, statement: &str, published: f64, computed: f64) -> Claim {
+fn frequency(
+    place: &'static str,
+    statement: &str,
+    published: f64,
+    (quantity, computed): (&str, f64),
+) -> Claim {
     said(place, statement, format!("{published:.0} Hz")).is(
         &closely(published, 0.5),
         computed,
-        format!("{computed:.1} Hz"),
+        format!("{quantity} at {computed:.1} Hz"),
     )
 }
 

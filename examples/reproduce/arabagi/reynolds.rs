@@ -19,7 +19,11 @@ pub(super) fn claims() -> Vec<Claim> {
             said("II-C", statement, "2800").is(
                 &assumed(2800.0, 50.0),
                 reynolds,
-                format!("Reynolds number {:.0} at the largest stroke rate", 10.0 * (reynolds / 10.0).round()),
+                format!(
+                    "Reynolds number of the {} {:.0} at the largest stroke rate",
+                    system.name,
+                    10.0 * (reynolds / 10.0).round()
+                ),
             )
         })
         .into()

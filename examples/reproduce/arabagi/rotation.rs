@@ -42,7 +42,7 @@ fn lags() -> Vec<Claim> {
             format!("(S) simulated phase lag of the pitch at 95 Hz and a stroke amplitude of {assumption}"),
             "81°",
         )
-        .is(&assumed(81.0, 0.5), lag, format!("{lag:.1}°"))
+        .is(&assumed(81.0, 0.5), lag, format!("phase lag of the pitch {lag:.1}°"))
     };
     vec![
         simulated("7.5°", small),
@@ -52,7 +52,7 @@ fn lags() -> Vec<Claim> {
             &assumed(138.0, 0.5),
             large,
             format!(
-                "phase lag {small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke \
+                "phase lag of the pitch {small:.1}° at a stroke amplitude of 7.5°, {large:.1}° at a stroke \
                  amplitude of 12.5°"
             ),
         ),
@@ -85,7 +85,11 @@ fn parts() -> Vec<Claim> {
                     ),
                     "0.5",
                 )
-                .is(&assumed(0.5, 0.05), ratio, format!("{ratio:.2}")),
+                .is(
+                    &assumed(0.5, 0.05),
+                    ratio,
+                    format!("lift of translation is {ratio:.2} times the lift of added mass"),
+                ),
             );
         }
         largest.push(
@@ -120,9 +124,9 @@ fn growth() -> Claim {
         &assumed(8.0, 0.5),
         growth,
         format!(
-            "translational lift {growth:.1} times the lift at a stroke amplitude of \
-             {amplitude:.1}° (20° less than {stroke:.1}°, peak to peak). Relative to a stroke \
-             amplitude of 10°, the lift grows {over_10:.1} times"
+            "translational lift is {growth:.1} times the lift at a prescribed stroke amplitude of {amplitude:.1}° \
+             (20° less than {stroke:.1}°, peak to peak). Translational lift is {over_10:.1} times the lift at \
+             a prescribed stroke amplitude of 10°"
         ),
     )
 }
@@ -136,6 +140,9 @@ fn large_strokes() -> Claim {
     )
     .holds(
         translation > added_mass,
-        format!("lift of translation {translation:.3} mN, lift of added mass {added_mass:.3} mN"),
+        format!(
+            "lift of translation {translation:.3} mN, lift of added mass {added_mass:.3} mN in the 30 Hz \
+             system"
+        ),
     )
 }

@@ -52,7 +52,7 @@ fn as_settled() -> Claim {
         &closely(stroke, 0.0),
         farther,
         format!(
-            "largest stroke of design T₁ at 160 V is {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at \
+            "largest stroke of T₁ {up:.1}° at {f_up:.0} Hz with rising frequency, {down:.1}° at \
              {f_down:.0} Hz with falling frequency, {stroke:.1}° at {frequency:.0} Hz with \
              settled motions"
         ),

@@ -11,9 +11,9 @@ use crate::claim::{Claim, measured, said};
 const LIGHTER: f64 = 3.39e-9;
 
 /// The hypotheses as ends of statements.
-const SWAPPED: &str = ", if k_w is swapped";
-const SMALLER: &str = ", if J_B of the small type is smaller";
-const BOTH: &str = ", if k_w is swapped and J_B of the small type is smaller";
+const SWAPPED: &str = ", with swapped hinge stiffnesses k_w";
+const SMALLER: &str = ", with J_B = 3.39e-9 kg·m² (small type)";
+const BOTH: &str = ", with swapped hinge stiffnesses k_w and J_B = 3.39e-9 kg·m² (small type)";
 
 /// Table A1 with one or both changes.
 struct Variants {
@@ -71,18 +71,23 @@ fn efficiencies(hypothesis: &str, small: &Type, large: &Type) -> Vec<Claim> {
             format!("efficiency of the small type at 30 V and 209 Hz{hypothesis}"),
             "10.8 gf/W",
         )
-        .is(&measured(SMALL, 0.05), s, format!("{s:.2} gf/W")),
+        .is(&measured(SMALL, 0.05), s, format!("efficiency of the small type {s:.2} gf/W")),
         said(
             "4.3, Fig. 17",
             format!("efficiency of the large type at 50 V and 109 Hz{hypothesis}"),
             "7.31 gf/W",
         )
-        .is(&measured(LARGE, 0.005), l, format!("{l:.2} gf/W")),
+        .is(&measured(LARGE, 0.005), l, format!("efficiency of the large type {l:.2} gf/W")),
         said(
             "4.3, Fig. 17",
             format!("the small type is more efficient than the large type{hypothesis}"),
             "10.8 > 7.31 gf/W",
         )
-        .holds(s > l, format!("efficiency {s:.2} gf/W (small type) and {l:.2} gf/W (large type)")),
+        .holds(
+            s > l,
+            format!(
+                "efficiency {s:.2} gf/W of the small type at 30 V, {l:.2} gf/W of the large type at 50 V"
+            ),
+        ),
     ]
 }

@@ -21,25 +21,33 @@ pub(super) fn claims() -> Vec<Claim> {
         said("4.3, Fig. 17", "efficiency of the small type at 30 V and 209 Hz", "10.8 gf/W").is(
             &measured(SMALL, 0.05),
             s_30,
-            format!("{s_30:.2} gf/W"),
+            format!("efficiency of the small type {s_30:.2} gf/W"),
         ),
         said("4.3, Fig. 17", "efficiency of the large type at 50 V and 109 Hz", "7.31 gf/W").is(
             &measured(LARGE, 0.005),
             l_50,
-            format!("{l_50:.2} gf/W"),
+            format!("efficiency of the large type {l_50:.2} gf/W"),
         ),
         said("4.3, Fig. 17", "the small type is more efficient than the large type", "10.8 > 7.31 gf/W")
             .holds(
                 s_30 > l_50,
-                format!("efficiency {s_30:.2} gf/W (small type) and {l_50:.2} gf/W (large type)"),
+                format!(
+                    "efficiency {s_30:.2} gf/W of the small type at 30 V, {l_50:.2} gf/W of the large \
+                     type at 50 V"
+                ),
             ),
-        said("4.3, Fig. 17", "the efficiency of the small type falls as the voltage rises", "falls")
-            .holds(s_30 < s_15, format!("efficiency {s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V")),
-        said("4.3, Fig. 17", "the efficiency of the large type falls as the voltage rises", "falls")
-            .holds(l_50 < l_20, format!("efficiency {l_20:.2} gf/W at 20 V, {l_50:.2} gf/W at 50 V")),
+        said("4.3, Fig. 17", "the efficiency of the small type falls as the voltage rises", "falls").holds(
+            s_30 < s_15,
+            format!("efficiency of the small type {s_15:.2} gf/W at 15 V, {s_30:.2} gf/W at 30 V"),
+        ),
+        said("4.3, Fig. 17", "the efficiency of the large type falls as the voltage rises", "falls").holds(
+            l_50 < l_20,
+            format!("efficiency of the large type {l_20:.2} gf/W at 20 V, {l_50:.2} gf/W at 50 V"),
+        ),
         said(
             "4.3",
-            "errors of the calculated stroke, pitch, lift and power in the paper",
+            "errors of the calculated stroke, pitch, lift and power relative to the measurements \
+             of the paper",
             "20, 8.1, 15, 8.7 %",
         )
         .cannot_be_checked("the paper shows the measured points only in figures", ""),
@@ -55,7 +63,8 @@ pub(super) fn claims() -> Vec<Claim> {
 fn drawn(actuator: &Type, v_0: f64, point: &Settled) -> Claim {
     let Type { name, frequency, .. } = actuator;
     let computed = format!(
-        "stroke {:.2}°, pitch {:.1}°, lift {:.4} gf, power {:.2} mW",
+        "amplitudes of the {name} type: stroke {:.2}° and pitch {:.1}°. Mean lift {:.4} gf, mean power \
+         {:.2} mW",
         point.get("stroke_amplitude_deg"),
         point.get("pitch_amplitude_deg"),
         point.get("lift_mean_gf"),

@@ -94,7 +94,7 @@ pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Pu
         middle,
         format!(
             "resonance frequency of the {} type {middle:.1} Hz with an impulse of 0.5 rad, {weak:.1} Hz \
-             with 0.3 rad, {strong:.1} Hz with 0.8 rad, {:.1} Hz for small motions",
+             with 0.3 rad, {strong:.1} Hz with 0.8 rad. For small motions, the resonance frequency is {:.1} Hz",
             actuator.name,
             mode(actuator)
         ),
@@ -149,7 +149,8 @@ fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published:
         &closely(published.frequency, 0.5),
         published.frequency.clamp(low.min(high), low.max(high)),
         format!(
-            "largest stroke of the {} type at {low:.1} Hz with {v_low:.0} V, at {high:.1} Hz with {v_high:.0} V",
+            "largest stroke of the {} type at {low:.1} Hz with {v_low:.0} V, at {high:.1} Hz with {v_high:.0} \
+             V",
             actuator.name
         ),
     )

@@ -45,7 +45,11 @@ pub(super) fn claims() -> Vec<Claim> {
         .is(
             &assumed(0.95, 0.005),
             of_pitch,
-            format!("R² = {of_pitch:.3}, which is {:.2} times the published R²", of_pitch / 0.95),
+            format!(
+                "pitch torque against pitch command has R² = {of_pitch:.3}, which is {:.2} times the \
+                 published R²",
+                of_pitch / 0.95
+            ),
         ),
         said(
             "2604.22121, abstract",
@@ -55,7 +59,11 @@ pub(super) fn claims() -> Vec<Claim> {
         .is(
             &assumed(0.98, 0.005),
             of_roll,
-            format!("R² = {of_roll:.3}, which is {:.2} times the published R²", of_roll / 0.98),
+            format!(
+                "roll torque against roll command has R² = {of_roll:.3}, which is {:.2} times the \
+                 published R²",
+                of_roll / 0.98
+            ),
         ),
         said(
             "2604.22121, abstract",
@@ -65,12 +73,16 @@ pub(super) fn claims() -> Vec<Claim> {
         )
         .holds(
             cross.iter().all(|one| one.abs() < 0.0855),
-            format!("correlations with magnitudes {:.3} and {:.3}", cross[0].abs(), cross[1].abs()),
+            format!(
+                "correlations with magnitudes {:.3} (roll torque) and {:.3} (pitch torque)",
+                cross[0].abs(),
+                cross[1].abs()
+            ),
         ),
         said("2604.22121, abstract", "largest deviation of the thrust from the mean thrust", "5.8 %").is(
             &between(0.0, 5.8),
             deviation,
-            format!("{deviation:.1} %"),
+            format!("the thrust deviates by up to {deviation:.1} % from the mean thrust"),
         ),
         said(
             "2407.00217, abstract",
@@ -78,22 +90,30 @@ pub(super) fn claims() -> Vec<Claim> {
              the roll torque",
             "8.58 %",
         )
-        .is(&between(0.0, 8.58), roll_moved, format!("{roll_moved:.1} %")),
+        .is(
+            &between(0.0, 8.58),
+            roll_moved,
+            format!("largest change {roll_moved:.1} % of the range of the roll torque"),
+        ),
         said(
             "2407.00217, abstract",
             "largest change of the pitch torque with the roll command, relative to the range of \
              the pitch torque",
             "17.24 %",
         )
-        .is(&between(0.0, 17.24), pitch_moved, format!("{pitch_moved:.1} %")),
+        .is(
+            &between(0.0, 17.24),
+            pitch_moved,
+            format!("largest change {pitch_moved:.1} % of the range of the pitch torque"),
+        ),
         said("2407.00217, 2604.22121", "sizes of the roll and pitch torques in µN·m", "drawn")
             .cannot_be_checked(
                 "the available text of the papers gives neither sizes of torques nor voltages",
                 {
                     let [roll, pitch] = [&rolls, &pitches].map(|torques| range(torques));
                     format!(
-                        "range {roll:.2} µN·m of the roll torque and range {pitch:.2} µN·m of the pitch \
-                         torque"
+                        "the roll torque has a range of {roll:.2} µN·m, and the pitch torque has a range of \
+                         {pitch:.2} µN·m"
                     )
                 },
             ),

@@ -40,7 +40,8 @@ pub(super) fn claims() -> Vec<Claim> {
         .holds(
             largest(pitch, 1) && pitch[1] < 0.0,
             format!(
-                "{} with a bias voltage of {bias:.0} V. Both strokes move forward and the nose rises",
+                "{} with a bias voltage of {bias:.0} V. The strokes of both wings move forward and the \
+                 nose of the vehicle rises",
                 shown(pitch)
             ),
         ),
@@ -68,7 +69,10 @@ pub(super) fn claims() -> Vec<Claim> {
         .cannot_be_checked(
             "the available text gives no voltage, and the robot has other wings and actuators \
              than the simulated vehicle",
-            format!("{:.2} mN at {volts:.0} V", pair.point(&[]).get("force_up_mn")),
+            format!(
+                "lift of the simulated vehicle {:.2} mN at {volts:.0} V",
+                pair.point(&[]).get("force_up_mn")
+            ),
         ),
         of_size("roll", roll[0], &with_less(&rolling, difference)),
         of_size("pitch", pitch[1], ""),
@@ -81,7 +85,7 @@ fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     said(SENSOR, format!("predicted {name} {TORQUE}"), "1 to 10 µN·m").is(
         &between(1.0, 10.0),
         torque.abs(),
-        format!("{} µN·m{besides}", rounded(torque.abs())),
+        format!("{name} torque {} µN·m{besides}", rounded(torque.abs())),
     )
 }
 
@@ -102,8 +106,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
         .map(|(part, point)| format!("{} µN·m with {:.0} V", rounded(torques(point)[0]), part * difference));
     let lift = |point: &Settled| rounded(point.get("right_lift_mean_mn"));
     format!(
-        " with {difference:.0} V more on the left wing. The lift of the right wing drops steeply from {} mN with {:.0} V \
-         to {} mN with {difference:.0} V. Roll torques with smaller differences are {}",
+        " with {difference:.0} V more on the left wing. The lift of the right wing drops steeply from {} mN with a \
+         difference of {:.0} V to {} mN with {difference:.0} V. Roll torques with smaller differences are {}",
         lift(&points[1]),
         PARTS[0] * difference,
         lift(&points[0]),

@@ -22,7 +22,7 @@ pub(super) fn claims() -> Vec<Claim> {
     let turned: Vec<usize> = (1..yaws.len()).filter(|&i| yaws[i - 1] * yaws[i] < 0.0).collect();
     let list = |values: Vec<String>| values.join(", ");
     let shown = format!(
-        "yaw torques {} µN·m at {} times the stiffness of the preset",
+        "yaw torques {} µN·m at {} times the preset's hinge stiffness",
         list(yaws.iter().map(|yaw| rounded(*yaw)).collect()),
         list(FACTORS.iter().map(f64::to_string).collect())
     );

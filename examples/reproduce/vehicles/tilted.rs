@@ -37,8 +37,8 @@ pub(super) fn claims() -> Vec<Claim> {
         .holds(
             of_tilted.iamax() == 3 && of_tilted[3].abs() > of_flat[3].abs(),
             format!(
-                "{}, lift {} mN. One diagonal pair of wings has 1 V more, and the other pair has 1 V \
-                 less. Without tilt, the yaw torque is {} µN·m",
+                "one diagonal pair of wings has 1 V more, and the other pair has 1 V less. Changes: {}, lift \
+                 {} mN. Without tilt, the yaw torque changes by {} µN·m",
                 shown([of_tilted[1], of_tilted[2], of_tilted[3]]),
                 rounded(of_tilted[0]),
                 rounded(of_flat[3])
@@ -59,7 +59,7 @@ pub(super) fn claims() -> Vec<Claim> {
         said("2407.06500", "torques of the vehicle and tilt of the wings", "drawn")
             .cannot_be_checked("the available text gives neither torques nor tilt", ""),
         said("Fuller, abstract", "payload of the robot of Fuller with four wings", "> 260 mg")
-            .holds(payload > 260.0, format!("payload {payload:.0} mg at 200 V and 120 Hz")),
+            .holds(payload > 260.0, format!("payload of four wings {payload:.0} mg at 200 V and 120 Hz")),
     ]
 }
 
