@@ -18,6 +18,7 @@ const WORKS: [Work; 3] = [
         name: "integration",
         text: "## Beside other solvers\n\n\
                All solvers integrate the equations of `examples/own_equations` for the same points, in turn on one core.\n\
+               The error of a point is the largest relative error of its measures; the tables have the median over the points.\n\
                [Comparison with other solvers](../../benches/peers/README.md) describes the programs and the measurement.\n",
     },
     Work {
@@ -66,13 +67,13 @@ fn print_table(told: &Value) -> Option<()> {
     let counted = peers.iter().any(|peer| peer["periods_per_point"].is_number());
     println!(
         "The next table is for {} points at rtol {:e}, in {} rounds on {}:\n\n\
-         | solver | points per CPU-second | rate of flap divided by rate of the solver |{} median deviation | remarks |\n\
+         | solver | points per CPU-second | rate of flap divided by rate of the solver |{} median relative error | remarks |\n\
          |---|---|---|{}---|---|",
         told["points"],
         told["rtol"].as_f64()?,
         told["rounds"],
         told["processor"].as_str()?,
-        if counted { " periods per point |" } else { "" },
+        if counted { " drive periods per point |" } else { "" },
         if counted { "---|" } else { "" }
     );
     for peer in peers {

@@ -35,7 +35,7 @@ class Row:
             remarks.append(f"{self.timing.points} of {of} points, because the solver is slow")
         if self.integration is not None:
             if self.integration.missing:
-                remarks.append(f"{self.integration.missing} POINTS WITHOUT AN ANSWER")
+                remarks.append(f"no result for {self.integration.missing} points")
             if base is not None and self.integration.median > OUT_OF_LINE * base.median:
                 remarks.append(f"OUT OF LINE: {self.integration.median / base.median:.0f} times the base's error")
         return remarks
