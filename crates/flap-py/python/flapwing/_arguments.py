@@ -41,8 +41,8 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
 
 
 def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return a column of numbers as float64. Nulls and masked values become nan if `unknown` is true; otherwise they
-    raise ValueError.
+    """Return a column of numbers as float64. If `unknown` is true, nulls and masked values become nan; if not, nulls
+    and masked values raise ValueError.
     """
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
@@ -60,7 +60,7 @@ def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any,
 
 
 def refuse_missing(name: str, values: Any) -> None:
-    """Raise ValueError if there are masked values or nulls, because a point requires a number."""
+    """Raise ValueError if a column has masked values or nulls, because a point requires a number."""
     kind, missing = "masked", 0
     with reading(name, values, "it must be a list, an array or a Series"):
         if isinstance(values, np.ma.MaskedArray):
@@ -119,7 +119,9 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
-    """Return the components of a state. Of a row with more columns, return only the states of the design's model."""
+    """Return the components of a state. If a row with more columns is given, return only its columns with states of the
+    design's model.
+    """
     if initial_state is None:
         return None
     allowed = 'it must be a dictionary of components such as {"pitch": "10 deg"}, or a table of one row'

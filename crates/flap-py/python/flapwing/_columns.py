@@ -32,7 +32,7 @@ class Column(NamedTuple):
         return self.words is None and self.cells.dtype == np.int8
 
     def values(self) -> np.ndarray[Any, Any]:
-        """Return the values of the cells as a read-only array."""
+        """Return the values of a column as a read-only array."""
         if self.words is not None:
             words: np.ndarray[Any, Any] = np.array(self.words, dtype=np.str_)
             values = words[self.cells]
@@ -50,7 +50,7 @@ class Column(NamedTuple):
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
-        """Return a mask, True for cells with a value."""
+        """Return a mask of a column, which is True for cells with a value."""
         if self.is_flag:
             return np.greater_equal(self.cells, 0)
         if self.cells.dtype == np.float64:
@@ -169,7 +169,7 @@ def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndar
 
 
 def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
-    """Return the index of each row along an axis, found by the columns of the parameters of this axis."""
+    """Return the index of each row along an axis, which is found by the values of the axis's parameters."""
     length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)

@@ -86,7 +86,7 @@ class Data:
         return column.astype(float)
 
     def rows(self, mask: np.ndarray) -> Data:
-        """Return the rows that the mask selects."""
+        """Return the rows of the data for which `mask` is True."""
         columns = {name: column[mask] for name, column in self.columns.items()}
         return Data(columns, self.units, self.grid_axes, self.meta, self.axis_values)
 
@@ -139,8 +139,8 @@ class Data:
         return self._at_the_middle([name for name in left if name not in shown])
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
-        """Return one row for each combination of these columns. Other axes are fixed at their middle values, as by
-        `flap plot`; a warning ends with `remedy`.
+        """Return one row for each combination of values in the columns `names`. Other axes are fixed at their middle
+        values, as by `flap plot`, with a warning that ends with `remedy`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
@@ -150,7 +150,7 @@ class Data:
         return data
 
     def _at_the_middle(self, axes: Sequence[str], remedy: str = "") -> Data:
-        """Return the rows at the middle value of each of these axes; a warning lists the values."""
+        """Return the rows at the middle value of each axis in `axes`. A warning lists the middle values."""
         data = self
         for name in axes:
             data = data.rows(data.on_axis(name))
@@ -200,8 +200,8 @@ class Data:
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
-        """Return the values of a parameter. For a parameter of an axis, the result also has values without a row in
-        this selection of `whole`.
+        """Return the distinct values of a parameter. For a parameter of an axis, the result has all values in `whole`,
+        also if none of the selected rows has this value.
         """
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
@@ -210,7 +210,9 @@ class Data:
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def on_axis(self, name: str) -> np.ndarray:
-        """Return a mask, True for rows at a value of the parameter's axis; a refined grid has rows between them."""
+        """Return a mask, True for rows at a value of the parameter's axis. A refined grid also has rows between the
+        values of the axis.
+        """
         values = np.asarray(self.axis_values.get(name, ()))
         if len(values) < 2 or is_text(values) or is_text(self[name]):
             return np.ones(len(self), dtype=bool)
@@ -220,7 +222,7 @@ class Data:
         return np.asarray(distance <= 1e-9 * np.ptp(known))
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
-        """Return one group number per row. Rows with the same values in all of these columns have the same number."""
+        """Return one group number per row. Rows with the same values in all columns `names` have the same number."""
         numbers = np.zeros(len(self), dtype=np.int64)
         for name in names:
             values, inverse = np.unique(self[name], return_inverse=True)
@@ -251,7 +253,7 @@ class Data:
         return data
 
     def one_row_for(self, names: Sequence[str]) -> None:
-        """Raise ValueError if several rows have the same values in all of these columns, which means that another axis
+        """Raise ValueError if several rows have the same values in all columns `names`, which means that another axis
         varies.
         """
         if len(np.unique(self.groups(names))) == len(self):
@@ -263,7 +265,7 @@ class Data:
         raise ValueError(self.left_over(left))
 
     def left_over(self, left: Iterable[str]) -> str:
-        """Return the error message that lists the axes that the picture does not show."""
+        """Return an error message with the axes that vary and that a picture does not show."""
         lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
         first = lines[0].strip().split(" ")[0].rstrip(":")
         value = distinct(self[first])[0]
@@ -313,7 +315,9 @@ def _is_table(value: Any) -> bool:
 
 
 def joined(runs: Mapping[str, Data]) -> Data:
-    """Return the rows of several results, with their common columns after a column of their names."""
+    """Return the rows of several results as one result. The first column has the names of the results, and the other
+    columns are the columns that all results have.
+    """
     first = next(iter(runs.values()))
     names = [name for name in first.columns if all(name in run for run in runs.values())]
     columns = {name: np.concatenate([_plain(run[name]) for run in runs.values()]) for name in names}
@@ -385,8 +389,8 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """Return the edges of cells around rising values: halfway between neighbours. At both ends, a value is in the
-    middle of its cell.
+    """Return the edges of cells around rising values. An edge is halfway between two neighbouring values. The first and
+    the last value are in the middle of their cells.
     """
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:

@@ -58,16 +58,17 @@ def evaluate(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
         points in all.
     client : executor, optional
-        Run the points on the workers of an executor, as for `sweep`. Rows are the same.
+        Run the points on the workers of an executor, as for `sweep`. The rows are the same as without `client`.
     points_per_task : int, optional
         Number of points in a task of `client`, as for `sweep`.
     measures : list of str, optional
         The measures of the rows. Default: the grid's ``[output]``, else all measures.
     gradient : list of str, optional
-        Parameters by which the measures of the settled motion are differentiated. `Table.gradient` has the derivatives,
-        with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's column per SI
-        unit of the parameter. Derivatives by `gradient` replace the derivatives of ``[gradient]`` in a grid. The work
-        for each parameter is about the work of three drive periods.
+        Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
+        derivatives, with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's
+        column per SI unit of the parameter. The derivatives with respect to `gradient` replace the derivatives of
+        ``[gradient]`` in a grid. The derivatives with respect to each parameter take about the work of three drive
+        periods.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period. Columns are the components (see
         `states`), in the units of their names, with one row per point. A row with nan begins at rest. If a design has
@@ -91,8 +92,8 @@ def evaluate(
     ------
     ValueError
         Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter that
-        is a column and a keyword; a missing parameter of a model; derivatives by a choice, a whole number or a derived
-        parameter. A grid with mistakes raises GridError.
+        is a column and a keyword; a missing parameter of a model; derivatives with respect to a choice, a whole number
+        or a derived parameter. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 
@@ -156,7 +157,7 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
 
 
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
-    """Return the columns of a table that are parameters of its model, of any model, or of the vehicle."""
+    """Return the columns of a table that are parameters of its model, of any model, or of its vehicle."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
     known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}

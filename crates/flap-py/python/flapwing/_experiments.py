@@ -77,7 +77,8 @@ def impulse(
 ) -> Table:
     """Simulate the free motion of one design point after an impulse on the resting stroke.
 
-    During the motion, the drive voltage is constant. At this voltage, the wing can rest with zero stroke and pitch.
+    During the motion, the drive voltage is constant. Its value is the voltage at which a wing at rest has zero stroke
+    and pitch.
 
     Parameters
     ----------
@@ -89,7 +90,7 @@ def impulse(
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
-        Smallest number of samples per period of the first mode. Default 200.
+        Smallest number of samples of the motion per period of the first mode. Default 200.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -130,8 +131,8 @@ def forces_along(
 ) -> Table:
     """Compute the forces on the wing of one design point along a given motion, such as a filmed motion.
 
-    flap does not integrate equations of motion here. Between samples, the motion is a cubic spline. The acceleration of
-    the spline amplifies noise, so smooth measured angles first.
+    `forces_along` does not integrate equations of motion. Between samples, the given motion is a cubic spline. The
+    acceleration of the spline amplifies noise, so smooth measured angles first.
 
     Parameters
     ----------
@@ -142,17 +143,17 @@ def forces_along(
         `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
         `trajectory` have these columns. The motion has at least four samples at rising times.
     periodic : bool, optional
-        True if the motion is one period, so that the last sample is also the first sample of the next period.
+        True if the given motion is one period, so that its last sample is also the first sample of the next period.
     samples : int, optional
-        Number of equal intervals of the motion; forces are computed at their ends. Default 2000.
+        Number of equal intervals of the given motion; forces are computed at the ends of the intervals. Default 2000.
     **keywords : float or str
         Parameters of the model, as for `run`.
 
     Returns
     -------
     Table
-        ``samples + 1`` rows: `time_s`, the angles, and lift, drag and their parts. The table has no columns of the
-        actuator, because the motion does not determine them.
+        ``samples + 1`` rows: `time_s`, stroke and pitch, and lift, drag and their parts. The table has no columns of
+        the actuator, because the given motion does not determine the actuator.
 
     Raises
     ------
@@ -185,16 +186,16 @@ def forces_along(
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     """Compute stroke and pitch of a filmed wing from points that were tracked in its images.
 
-    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the projected chord. The
-    centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and
-    43).
+    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the length of the projected
+    chord. The centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs.
+    42 and 43).
 
     Parameters
     ----------
     points : path or columns
-        The points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns are `root_x`,
-        `root_y`, `tip_x` and `tip_y`, two points of the leading edge in one unit, and `time_s` (or `time_ms`). The
-        pitch also requires `edge_x` and `edge_y`, a point on the lower edge.
+        The tracked points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns are
+        `root_x`, `root_y`, `tip_x` and `tip_y`, two points of the leading edge in one unit, and `time_s` (or
+        `time_ms`). The pitch also requires `edge_x` and `edge_y`, a point on the lower edge.
     chord : float, optional
         Length of the chord from the leading edge to the point on the lower edge, in the unit of the points: more than
         0. If `chord` is given, the result has the pitch.

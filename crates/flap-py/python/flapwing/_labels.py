@@ -27,7 +27,9 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def readable(values: object, unit: str) -> tuple[float, str]:
-    """Return the factor to a unit in which values are easy to read, and the name of this unit for printing."""
+    """Return the factor from `unit` to a unit in which values are easy to read, and the name of the readable unit for
+    printing.
+    """
     sizes = np.abs(np.asarray(values, dtype=float))
     return scale(unit, float(np.max(sizes, initial=0.0, where=np.isfinite(sizes))))
 
@@ -59,7 +61,7 @@ def label(name: str, unit: str | None = None) -> str:
 
 
 def titled(text: str, unit: str) -> str:
-    """Return the words; if the unit is not empty, add the unit in parentheses."""
+    """Return the words of a label, with the unit in parentheses if the unit is not empty."""
     return f"{text} ({unit})" if unit else text
 
 
@@ -78,7 +80,7 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """Yield a title with its own lines, then with one more line, and so on."""
+    """Yield a title with its own line breaks, then the title in one more line, and so on."""
     told = [title]
     yield title
     for width in range(max(map(len, title.split("\n"))) - 1, 7, -1):

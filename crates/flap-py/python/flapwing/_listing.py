@@ -16,17 +16,18 @@ def params(design: Design, /) -> dict[str, Parameter]:
     ----------
     design : str, path, dict, Grid or Vehicle
         A preset, such as ``"ozaki2018-large"``, a device, a grid, a `Vehicle`, or a model, such as ``"direct-drive"``.
-        For a grid, the values are the values of its first point.
+        For a grid, each parameter has its value at the first point of the grid.
 
     Returns
     -------
     dict of str to Parameter
-        Parameters by name, in the order of the model's table. Parameters of the vehicle follow the model's parameters.
+        Parameters by name, in the order of the model's table. For a `Vehicle`, parameters of the vehicle follow the
+        model's parameters.
 
     Raises
     ------
     ValueError
-        There is no such preset or model. A device or a grid with mistakes raises GridError.
+        `design` is not the name of a preset or a model. A device or a grid with mistakes raises GridError.
 
     Examples
     --------

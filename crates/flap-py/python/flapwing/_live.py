@@ -13,7 +13,7 @@ from ._types import Design, Value
 
 __all__ = ["Live", "live"]
 
-#: Code of the widget, which shows the page in a frame.
+#: Code of the widget, which shows the live page in a frame.
 _SCRIPT = """
 function render({ model, el }) {
   const frame = document.createElement("iframe");
@@ -115,7 +115,7 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """Stop the server. After this, the page shows that the server does not answer."""
+        """Stop the server of the live page. After this, an open live page shows that the server does not answer."""
         self._server.stop()
 
 

@@ -21,8 +21,8 @@ class UnknownName(KeyError, ValueError):
 
 
 def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
-    """Return the error for a `name` that is not in `known`. The message has the nearest known name and the first few
-    known names.
+    """Return the error for a `name` that is not in `known`. The message of this error has the nearest known name and
+    the first few known names.
     """
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)
@@ -31,7 +31,7 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return the first few of the names as one text."""
+    """Return the first few of several names as one text."""
     every = list(names)
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
     return (
@@ -40,13 +40,15 @@ def listed(names: Iterable[str]) -> str:
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
-    """Return the error for a value of the wrong type, with a message of two lines."""
+    """Return the error for a value of the wrong type; its message has two lines."""
     return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
 
 
 @contextmanager
 def reading(name: str, value: object, allowed: str) -> Iterator[None]:
-    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions stay."""
+    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions are not
+    replaced.
+    """
     try:
         yield
     except OverflowError as error:

@@ -21,7 +21,7 @@ class NativeColumn(TypedDict):
 
 
 class NativeSummary(TypedDict, total=False):
-    """Counts of a run; the dictionary is empty if all rows already existed."""
+    """Counts of the rows and points of a run; the dictionary is empty if all rows already existed."""
 
     rows: int
     counts: dict[str, int]
@@ -29,7 +29,7 @@ class NativeSummary(TypedDict, total=False):
     unsatisfied: dict[str, int]
     cycles: int
     rhs_evals: int
-    #: The first few invalid points with their reasons.
+    #: The first few invalid points, with the reasons why they are invalid.
     invalid: list[tuple[int, str]]
 
 
@@ -40,9 +40,9 @@ class NativeTable(TypedDict, total=False):
     summary: NativeSummary
     axes: list[dict[str, Any]]
     meta: dict[str, Any]
-    #: The total number of designs of a response.
+    #: The total number of designs whose responses are computed.
     designs: int
-    #: Units that a file records, by column.
+    #: The units that a file of results records, by column.
     units: dict[str, str]
     warnings: list[str]
     verified: bool
@@ -190,7 +190,7 @@ class NativeOrigins(TypedDict):
 
 
 class NativeColours(TypedDict):
-    """The colours of pictures."""
+    """The colours of flap's pictures."""
 
     series: list[str]
     branches: dict[str, str]

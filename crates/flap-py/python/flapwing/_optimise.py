@@ -30,7 +30,7 @@ def optimise(
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
-    flap first computes the points of the grid. It then improves the best points step by step, with the derivatives of
+    flap first computes the points of the grid. flap then improves the best points step by step, with the derivatives of
     the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole
     numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in
     a sweep.
@@ -40,7 +40,7 @@ def optimise(
     design : str, path, dict or Grid
         A grid (see `Grid`), whose axes are the bounds of the search.
     maximise, minimise : str, optional
-        The goal, which becomes as large or as small as possible: a measure, or an expression of measures and
+        The goal, which is made as large or as small as possible: a measure, or an expression of measures and
         parameters. Give either `maximise` or `minimise`.
     where : str or sequence of str, optional
         Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
@@ -54,7 +54,7 @@ def optimise(
         Number of threads, 1 or more. Default: one per core. The number of threads does not change the result.
     progress : bool or function, optional
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points and starts done
-        and in all. With `client`, there is one step.
+        and in all. With `client`, the whole search is one step.
     client : executor, optional
         Search on a worker of an executor, as for `sweep`.
     **keywords : float or str
@@ -69,7 +69,7 @@ def optimise(
     Raises
     ------
     ValueError
-        An expression or a condition has a mistake; the grid varies no parameter; no point of the grid has a periodic
+        An expression or a condition has a mistake; no parameter varies in the grid; no point of the grid has a periodic
         motion. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.

@@ -37,7 +37,7 @@ def run(
 ) -> Row:
     """Run one design point until the motion repeats every drive period, and compute the measures of one drive period.
 
-    Keywords replace parameters of the design::
+    Keyword arguments replace parameters of the design::
 
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
@@ -66,9 +66,9 @@ def run(
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
         pair of arrays (s, rad). The model must have the parameter `stroke_mode`.
     progress : bool or function, optional
-        As for `sweep`; a point is one step.
+        As for `sweep`; the single point is one step.
     client : executor, optional
-        Run the point on a worker of an executor, as for `sweep`. The result is the same.
+        Run the point on a worker of an executor, as for `sweep`. The result is the same as without `client`.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
@@ -92,7 +92,7 @@ def run(
         until the motion settles on this orbit, which takes more periods. Default True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol: it finds the same orbit with about twice the work. Default True.
+        rtol: the search finds the same orbit with about twice the work. Default True.
     symmetry : bool, optional
         If True, only half of a period is integrated if the second half of the orbit mirrors the first half. If False,
         whole periods are integrated: the orbit is the same, with more work. Default True.
@@ -109,11 +109,11 @@ def run(
     ------
     ValueError
         A preset, parameter, option or unit is unknown; a value is out of range, infinite or not a number; a grid has
-        several points, but `point` is not given. The message has the nearest name and the allowed values.
+        several points, but `point` is not given. The error message has the nearest name and the allowed values.
     TypeError
         An argument has the wrong type, such as text for a tolerance or a number for an option.
     IndexError
-        The grid has no such point.
+        The grid has no point with the index `point`.
 
     Examples
     --------
@@ -162,8 +162,8 @@ def trajectory(
     cycles : int, optional
         Number of drive periods. Default 2.
     samples : int, optional
-        Number of samples per drive period. One more sample is at the end of the last period. Default 200. `cycles`
-        times `samples` is at most 5,000,000.
+        Number of samples of the motion per drive period. One more sample is at the end of the last period. Default 200.
+        `cycles` times `samples` is at most 5,000,000.
     from_rest : bool, optional
         If True, the table begins with the motion from rest. By default, the table begins after the motion has settled.
     initial_state : dict, Table or DataFrame, optional
@@ -258,7 +258,7 @@ def resonance(
     Returns
     -------
     Resonances
-        The resonances of each kind.
+        The resonances of small motions, of the free motion, and of the driven motion.
 
     Raises
     ------

@@ -11,8 +11,8 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield the function that is called with the number of points done and the number of all points. Yield None if no
-    progress is shown.
+    """Yield the function that reports progress: its arguments are the number of points done and the number of all
+    points. Yield None if no progress is shown.
     """
     if callable(progress):
         yield progress

@@ -34,7 +34,7 @@ def respond(
     The first point of each branch starts at rest. All later points start from the settled motion of the point before.
     If the branches up and down settle to different motions, the design is bistable. A step is halved if a bistable band
     ends in this step. A step in which the motion changes by more than a tenth is also halved, because such a step may
-    hide a narrow band.
+    hide a narrow bistable band.
 
     Parameters
     ----------
@@ -47,8 +47,8 @@ def respond(
         First value, last value and step of the followed parameter: numbers in SI units, or text with units. Default:
         the values of the axis in the grid.
     tolerance : float or str, optional
-        Longest step at the ends of bistable bands and where the response is steep. Default: a sixteenth of the shortest
-        step.
+        Longest step of the followed parameter at the ends of bistable bands and where the response is steep. Default: a
+        sixteenth of the shortest step.
     unstable : bool, optional
         If True, the branches are continued around the ends of bistable bands. The table then also has the unstable
         orbits between the branches.
@@ -61,7 +61,8 @@ def respond(
         Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
         designs in all.
     client : executor, optional
-        Follow the designs on the workers of an executor, as for `sweep`; a task is one design. Rows are the same.
+        Follow the designs on the workers of an executor, as for `sweep`; a task is one design. The rows are the same as
+        without `client`.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -76,8 +77,8 @@ def respond(
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown; there are no steps; the followed parameter is a choice, or
-        varies together with other parameters. A grid with mistakes raises GridError.
+        A preset, parameter, option or unit is unknown; the range from `start` to `stop` has no steps; the followed
+        parameter is a choice, or varies together with other parameters. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 

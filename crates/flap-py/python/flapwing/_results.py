@@ -28,12 +28,14 @@ __all__ = [
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Return True for equal values, and for two unknown values."""
+    """Return True if two values are equal or both unknown."""
     return bool(one == other or (one != one and other != other))
 
 
 class _Result:
-    """A result. Two results are equal if all their attributes are equal, where two unknown values count as equal."""
+    """The base class of results. Two results are equal if all their attributes are equal, where two unknown values
+    count as equal.
+    """
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -56,24 +58,25 @@ class Row(Mapping[str, Any]):
         parameter is in range, but together they are impossible).
     measures : dict of str to float
         The measures, named by quantity, kind of measure and unit: ``stroke_pp_deg``, ``lift_mean_mn``,
-        ``power_mean_mw``. The measures of ``[measure]`` in the grid follow; conditions are bool. All measures are nan
-        unless the point is periodic. A ratio of zero to zero, such as the efficiency without power, is nan.
+        ``power_mean_mw``. The measures of ``[measure]`` in the grid follow the model's measures; conditions are bool.
+        All measures are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without
+        power, is nan.
     cycles : int
         Number of integrated drive periods, including the measured periods.
     residual : float
-        Change of the state over the last period of the motion, relative to the typical size of each state. nan if no
-        period was completed.
+        Change of the state over the last period of the motion, relative to the typical size of each state. The residual
+        is nan if no period was completed.
     period : int
         Number of drive periods after which the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
     floquet_max : float
         Largest magnitude of a Floquet multiplier: the factor by which a small change of the motion grows or decays per
-        orbit after a long time. nan if no orbit was found, and for a wing at rest.
+        orbit after a long time. The multiplier is nan if no orbit was found, and for a wing at rest.
     stable : bool or float
-        True if floquet_max is below 1: after a small change, the motion returns to the orbit. True for a wing at rest.
-        nan if no orbit was found.
+        True if floquet_max is below 1: after a small change, the motion returns to the orbit. A wing at rest is stable.
+        The value is nan if no orbit was found.
     error_estimate : float
         Estimate of the largest relative error of the integration in stroke, pitch, mean lift and mean power; infinite
-        if no estimate is possible. nan unless the point is periodic.
+        if no estimate is possible. The estimate is nan unless the point is periodic.
     rhs_evals : int
         Number of evaluations of the equations of motion.
     reason : str
@@ -122,7 +125,7 @@ class Row(Mapping[str, Any]):
         return f"<table>{cells}</table>"
 
 
-#: The columns of a row other than measures.
+#: The columns of a row that are not measures.
 _ATTRIBUTES = (
     "status",
     "cycles",
@@ -147,20 +150,20 @@ class Parameter(_Result):
     Attributes
     ----------
     name : str
-        Name in grids, on the command line and as a keyword.
+        Name of the parameter in grids, on the command line and as a keyword.
     value : float or str
-        Value in the design, in SI units, or the name of an option. nan if the parameter is not set and follows other
-        parameters, or if a grid varies the parameter.
+        Value of the parameter in the design, in SI units, or the name of an option. The value is nan if the parameter
+        is not set and follows other parameters, or if a grid varies the parameter.
     unit : str
-        SI unit; ``""`` for pure numbers and options.
+        SI unit of the parameter; ``""`` for pure numbers and options.
     symbol : str
-        Symbol in the paper; ``""`` if the paper has no symbol.
+        Symbol of the parameter in the paper; ``""`` if the paper has no symbol.
     doc : str
-        Meaning in one line, with its source.
+        Meaning of the parameter in one line, with its source.
     allowed : str
-        The allowed values, as text.
+        The allowed values of the parameter, as text.
     options : tuple of str
-        Names of the options of a choice; empty for other parameters.
+        Names of the options if the parameter is a choice; empty for other parameters.
     """
 
     name: str
@@ -173,7 +176,7 @@ class Parameter(_Result):
 
     @property
     def is_number(self) -> bool:
-        """True if the value is a number and is set."""
+        """True if the parameter has a number as its value, and this value is set."""
         return isinstance(self.value, float) and not math.isnan(self.value)
 
 
@@ -184,11 +187,11 @@ class Measure:
     Attributes
     ----------
     name : str
-        Name of the column.
+        Name of the measure's column.
     unit : str
-        Unit of the column; ``""`` for a pure number.
+        Unit of the measure's column; ``""`` for a pure number.
     doc : str
-        Meaning in one line.
+        Meaning of the measure in one line.
     """
 
     name: str
@@ -203,11 +206,11 @@ class State:
     Attributes
     ----------
     name : str
-        Name of the component, such as ``"pitch_rate"``, for `initial_state`.
+        Name of the state, such as ``"pitch_rate"``, for `initial_state`.
     unit : str
         SI unit.
     column : str
-        Name of the column in tables, with the unit: ``"pitch_rate_rad_s"``.
+        Name of the state's column in tables, with the unit: ``"pitch_rate_rad_s"``.
     """
 
     name: str
@@ -222,11 +225,11 @@ class DampedSine:
     Attributes
     ----------
     frequency_hz : float
-        Frequency (Hz).
+        Frequency of the damped sine (Hz).
     decay_1_s : float
-        Decay rate (1/s).
+        Decay rate of the damped sine (1/s).
     relative_rms : float
-        Root mean square of the residuals, relative to the root mean square of the stroke.
+        Root mean square of the residuals of the damped sine, relative to the root mean square of the stroke.
     """
 
     frequency_hz: float
@@ -241,9 +244,9 @@ class DrivenPeak:
     Attributes
     ----------
     frequency_hz : float
-        Drive frequency (Hz).
+        Drive frequency of the peak (Hz).
     stroke_pp_deg, pitch_pp_deg : float
-        Peak-to-peak stroke and pitch at this frequency (deg).
+        Peak-to-peak stroke and pitch at the frequency of the peak (deg).
     """
 
     frequency_hz: float
@@ -258,9 +261,9 @@ class FrequencyGap:
     Attributes
     ----------
     start_hz, stop_hz : float
-        The ends of the range (Hz).
+        The lowest and the highest drive frequency of the range (Hz).
     status : str
-        The status of the motions in the range.
+        The status of the motions in the range of frequencies.
     """
 
     start_hz: float
@@ -279,12 +282,12 @@ class Resonances(_Result):
     impulse_fit : DampedSine or None
         The damped sine that was fitted to the stroke after the impulse. None if no damped sine fits.
     stroke_spectrum_hz, pitch_spectrum_hz : list of float
-        Highest peaks of the spectra after the impulse (Hz).
+        Frequencies of the highest peaks in the spectra of stroke and pitch after the impulse (Hz).
     driven : list of DrivenPeak
         Peaks of the settled stroke as a function of the drive frequency, with the highest peak first.
     larger_at_hz : float
-        The end of the frequency range (Hz) at which the stroke is larger than at all peaks; nan if there is no such
-        end.
+        The end of the frequency range (Hz) at which the stroke is larger than at all peaks; nan if the stroke is
+        largest at a peak.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """
@@ -307,9 +310,9 @@ class ActiveBound(_Result):
     kind : str
         ``"limit"`` for a condition; ``"smallest"`` or ``"largest"`` for an end of an axis.
     name : str
-        The condition, or the parameter of the axis.
+        The condition that limits the optimum, or the parameter of the limiting axis.
     limit : float
-        The number that the condition compares with, or the end of the axis in SI units.
+        The number in the condition, or the end of the axis in SI units.
     multiplier : float
         Change of the optimal value per unit of the limit (Lagrange multiplier).
     percent : float
@@ -336,7 +339,7 @@ class ConditionValue(_Result):
     Attributes
     ----------
     text : str
-        The comparison, or the name of a condition of the grid.
+        The comparison of the condition, or the name of a condition in the grid.
     smaller, larger : float
         The values of both sides of the comparison: the side that must be smaller, and the side that must be larger.
     excess : float
@@ -356,11 +359,11 @@ class LocalOptimum(_Result):
     Attributes
     ----------
     value : float
-        Value of the goal.
+        Value of the goal at this optimum.
     values : dict of str to float or str
-        The varied parameters, in SI units, or names of options.
+        The values of the varied parameters: numbers in SI units, or names of options.
     is_feasible : bool
-        True if all conditions hold.
+        True if all conditions hold at this optimum.
     starts : int
         Number of starts whose search ends at this optimum.
     """
@@ -373,41 +376,43 @@ class LocalOptimum(_Result):
 
 @dataclass(frozen=True, eq=False)
 class Optimum(_Result):
-    """The best design within the axes of a grid, which `optimise` returns.
+    """The result of `optimise`: the best design within the axes of a grid.
 
     Attributes
     ----------
     status : str
-        ``"optimal"`` if the derivatives confirm that no small change is better; ``"approximate"`` if the derivatives do
-        not confirm the design or are missing; ``"infeasible"`` if no design satisfies all conditions. An infeasible
-        design is the design with the smallest violation of the conditions.
+        ``"optimal"`` if the derivatives confirm that no small change of the design is better; ``"approximate"`` if the
+        derivatives do not confirm the design or are missing; ``"infeasible"`` if no design satisfies all conditions. An
+        infeasible design is the design with the smallest violation of the conditions.
     goal : str
         The expression that was maximised or minimised.
     value : float
-        The value of the goal.
+        The value of the goal for the best design.
     values : dict of str to float or str
-        The varied and derived parameters, in SI units, or names of options.
+        The values of the varied and derived parameters of the best design: numbers in SI units, or names of options.
     row : Row
-        The row of the design.
+        The row of the best design.
     active : list of ActiveBound
-        The bounds and conditions that limit the design, with their multipliers.
+        The bounds and conditions that limit the best design, with their multipliers.
     conditions : list of ConditionValue
-        All conditions.
+        All conditions, with their values for the best design.
     optima : list of LocalOptimum
         The distinct optima that were found, with the best optimum first.
     at_end : dict of str to tuple of float
         Parameters that are at an end of their axis, with the smallest and the largest value of the axis. A wider axis
         may have a better design.
     starts : int
-        Number of starts.
+        Number of points at which searches started.
     points, points_computed : int
         Number of points of the grid, and number of these points that were computed.
     rows, rows_with_derivatives : int
         Number of all rows that were computed, and number of these rows that have derivatives.
     is_polished : bool
-        True if a pattern search followed, because derivatives were missing or misled the search.
+        True if a pattern search followed the search with derivatives, because derivatives were missing or misled the
+        search.
     device : str
-        The design as the text of a device file, which you can write to a file or give to `run`; ``""`` for vehicles.
+        The best design as the text of a device file, which you can write to a file or give to `run`; ``""`` for
+        vehicles.
     """
 
     status: str
@@ -435,7 +440,7 @@ class BistableBand(_Result):
     Attributes
     ----------
     start, stop : float
-        The ends of the band, in SI units.
+        The smallest and the largest value of the parameter in the band, in SI units.
     stroke_difference_deg : float
         Largest difference between the peak-to-peak strokes of the two branches (deg); nan if the motions of both
         branches are nowhere periodic.
@@ -453,9 +458,9 @@ class Verdict:
     Attributes
     ----------
     text : str
-        The verdict in one line.
+        The text of the verdict in one line.
     bands : list of BistableBand
-        The bands with hysteresis, in rising order of the parameter; empty if there is no hysteresis.
+        The bands with hysteresis, in rising order of the parameter; empty if the design has no hysteresis.
     """
 
     text: str

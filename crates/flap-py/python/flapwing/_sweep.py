@@ -54,7 +54,7 @@ def sweep(
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
         with the method `result`. Examples are the executors of `concurrent.futures`, submitit and mpi4py, and the
-        client of a Dask cluster. The workers must have the same build of flapwing. Rows have the same order and the
+        client of a Dask cluster. The workers must have the same build of flapwing. The rows have the same order and the
         same bytes as without `client`. If a worker dies, other workers of a Dask cluster run its points again; with
         other executors, an error is raised. A worker whose processor has another arithmetic is an error, because its
         rows could differ.
@@ -79,8 +79,8 @@ def sweep(
     Raises
     ------
     GridError
-        The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
-        GridError is a ValueError.
+        The grid has mistakes. The error message lists each mistake with its line, the allowed values and the nearest
+        name. GridError is a ValueError.
     FileExistsError
         `out` has complete rows of another grid, or is not a result file, and `restart` is not given.
     OSError
@@ -117,7 +117,9 @@ def sweep(
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequence[str] | None) -> Grid:
-    """Return the grid of a design with parameters and solver settings from keywords, and only with these measures."""
+    """Return the grid of a design with the parameters and solver settings in `keywords`, and only with the measures in
+    `measures`.
+    """
     grid = design if isinstance(design, Grid) else Grid(design)
     if not keywords and measures is None:
         return grid
@@ -159,8 +161,8 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Returns
     -------
     Table
-        The rows. Numbers have the same bits as the numbers that were written. ``meta["verified"]`` is True if the
-        checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without
+        The rows of the file. Numbers have the same bits as the numbers that were written. ``meta["verified"]`` is True
+        if the checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without
         checksums.
 
     Raises
@@ -168,7 +170,7 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     OSError
         The file cannot be read.
     ValueError
-        The file is not a table of results, or is damaged. The message locates the damage.
+        The file is not a table of results, or is damaged. The error message gives the place of the damage.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise _mistakes.refused("path", path, "it must be the path of a file of results")

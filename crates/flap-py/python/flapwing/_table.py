@@ -24,11 +24,11 @@ __all__ = ["Table"]
 
 #: Number of rows that a notebook shows.
 SHOWN_ROWS = 10
-#: Number of column names that are shown in one line.
+#: Number of column names that the text of a table shows in one line.
 SHOWN_NAMES = 8
 
 
-#: Allowed keys, for messages.
+#: Allowed keys of a table, for error messages.
 _KEYS = (
     "columns are chosen by a name or a list of names, "
     "rows by a slice or by an array of one dimension: a mask or indices"
@@ -44,14 +44,14 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
 
 
 def _fixed(values: Any) -> np.ndarray[Any, Any]:
-    """Return values as a read-only array. Tables with some of the rows share this array."""
+    """Return values as a read-only array. A table and its tables with some of the rows share the read-only array."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
 
 
 class Table:
-    """Results as columns. Each column is a NumPy array, and all columns have the same length.
+    """A table of results. Each column is a NumPy array, and all columns have the same length.
 
     ``table["lift_mean_mn"]`` is a column. ``table[["drive_frequency", "lift_mean_mn"]]`` is a table of some of the
     columns. ``table[rows]`` is a table of some of the rows, where `rows` is a slice, a mask or indices. ``len(table)``
@@ -86,8 +86,8 @@ class Table:
 
     @classmethod
     def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
-        """Return a table of the native results of a call with these keywords. If a path is given, columns are read from
-        this file at their first use.
+        """Return a table of the native results of a call with the keywords `keywords`. If `path` is given, columns are
+        read from the file `path` at their first use.
         """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:
@@ -170,7 +170,9 @@ class Table:
             raise unknown("column", name, self._columns) from None
 
     def _rows(self, key: slice | np.ndarray[Any, Any]) -> Table:
-        """Return a table with some of the rows. The attribute `meta` of this table has new counts of rows."""
+        """Return a table with the rows that `key` selects. The attribute `meta` of the new table has the counts of the
+        selected rows.
+        """
         columns = {name: column._replace(cells=column.cells[key]) for name, column in self._columns.items()}
         table = self._new(columns, self.axes, copy.deepcopy(self.meta))
         if "counts" in table.meta:
@@ -193,7 +195,7 @@ class Table:
 
     @property
     def docs(self) -> dict[str, str]:
-        """The meaning of each column in one line; ``""`` if the meaning is unknown."""
+        """The meaning of each column in one line. The meaning of an unknown column is ``""``."""
         return {name: column.doc for name, column in self._columns.items()}
 
     @property
@@ -222,7 +224,7 @@ class Table:
     @property
     def verdicts(self) -> list[Verdict]:
         """The verdicts on the responses in a table of `respond`: one verdict for each design. The list is empty for
-        other tables.
+        tables of other calls.
         """
         return list(self.meta.get("verdicts", []))
 
@@ -270,9 +272,9 @@ class Table:
         For a response, the columns with the place of a row on its curve are coordinates along ``row``: `curve`, the
         design's parameters, `branch`, and the followed parameter. Columns are variables with the attributes `units`,
         `long_name` and `description`. Points that the grid excludes have no row: their cells are nan, 0 or empty text,
-        and flags become float64. The column `point`, or the parameters of the axes, locate the rows. Without these
-        columns, ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is
-        not text.
+        and flags become float64. The column `point`, or the parameters of the axes, locate the rows. If a table has
+        neither `point` nor these parameters, ValueError is raised. The attributes of the Dataset are the entries of
+        `meta`, as JSON if an entry is not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 
@@ -284,7 +286,7 @@ class Table:
         return f"<flapwing.Table of {len(self)} rows{told}, {len(names)} columns: {shown}>"
 
     def _repr_html_(self) -> str:
-        """Return the first rows as HTML, for notebooks."""
+        """Return the first rows of the table as HTML, for notebooks."""
         from html import escape
 
         def text(value: Any) -> str:

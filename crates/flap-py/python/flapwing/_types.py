@@ -46,14 +46,14 @@ class Executor(Protocol):
 #: A state at the start of a drive period: components by name, or a row with them, also as a table of one row.
 InitialState = Union[Mapping[str, Any], "Table", Frame, FrameRow]
 
-#: Names of measures.
+#: A type for names of measures.
 Measures = Sequence[str]
 
-#: Numbers.
+#: A type for numbers.
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-#: Truth values.
+#: A type for truth values.
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 
-#: Places in an array.
+#: A type for indices of an array.
 Places = np.ndarray[Any, np.dtype[np.intp]]

@@ -33,7 +33,7 @@ class _Entries(Mapping[str, Any]):
 
 
 class Wing(_Entries):
-    """A wing of a `Vehicle`, as the entries of a table ``[[vehicle.wings]]``.
+    """A wing of a `Vehicle`: the entries of a table ``[[vehicle.wings]]`` in a grid file.
 
     Parameters
     ----------
@@ -56,7 +56,8 @@ class Wing(_Entries):
     Raises
     ------
     TypeError
-        An argument has the wrong type. `Vehicle` reports other mistakes, with their place in the entries.
+        An argument has the wrong type. `Vehicle` reports other mistakes in the entries of a wing, with the place of
+        each mistake.
 
     Examples
     --------
@@ -137,14 +138,14 @@ class Vehicle(_Entries):
     Raises
     ------
     GridError
-        The entries have mistakes. The message lists each mistake with its place, the allowed values and the nearest
-        name.
+        The entries of the vehicle have mistakes. The error message lists each mistake with its place, the allowed
+        values and the nearest name.
     ValueError
         `design` already has a vehicle.
     TypeError
         An argument has the wrong type.
     OSError
-        A device cannot be read.
+        A device file cannot be read.
 
     Examples
     --------
@@ -203,7 +204,7 @@ def _design(design: Any) -> dict[str, Any]:
 
 
 def _listed(wings: Any) -> list[Any]:
-    """Return the wings as a list."""
+    """Return the wings of a vehicle as a list."""
     if isinstance(wings, (str, bytes, Mapping)) or not isinstance(wings, Iterable):
         raise refused("wings", wings, "it must be a list of wings: flapwing.Wing, or dictionaries")
     listed = list(wings)
@@ -220,7 +221,7 @@ def _wing(place: int, wing: Any) -> dict[str, Any]:
 
 
 def _vector(name: str, given: Any) -> list[Any]:
-    """Return three lengths."""
+    """Return a list of three lengths."""
     allowed = f'it must be three lengths along {_AXES}, such as ["0 mm", "4 mm", "0 mm"]'
     if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
         raise refused(name, given, allowed)

@@ -41,7 +41,8 @@ def _number_of_workers(client: Any) -> int:
 def _results(
     client: Executor, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]
 ) -> Generator[Any, None, None]:
-    """Yield the results of tasks, in the order of the tasks. A task is the arguments of the function.
+    """Yield the results of a function for several tasks, in the order of the tasks. A task consists of the arguments of
+    the function.
 
     A bounded number of tasks is submitted ahead. If the iterator is closed or an exception is raised, tasks that
     have not started are cancelled.
@@ -90,14 +91,14 @@ def call(client: Executor | None, function: Callable[..., Any], design: Any, *ar
 def _call_task(
     name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]
 ) -> tuple[NativeIdentity, Any]:
-    """Run the task of a worker: return its identity and the result of the native function with this name."""
+    """Run the task of a worker: return the identity of the worker and the result of the native function `name`."""
     keywords = {key: _aligned(value) if isinstance(value, dict) else value for key, value in keywords.items()}
     return _flapwing.identity(), getattr(_flapwing, name)(design, *arguments, **keywords)
 
 
 def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the columns with aligned arrays, which the native part requires. In a message of Dask, an array may begin
-    at any byte.
+    """Return columns whose arrays are aligned, as the native part requires. An array that Dask has transferred may
+    begin at any byte.
     """
     return {
         name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
@@ -106,7 +107,7 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _found(record: Any) -> Any:
-    """Return a record for workers. If the record is a path, this process makes the path absolute."""
+    """Return a record over time for workers. If the record is a path, the path is made absolute."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
@@ -160,7 +161,7 @@ class Chunks:
             self._results.close()
 
     def next(self, done: int) -> bytes | None:
-        """Return the next chunk; the first chunk begins after the points that are done."""
+        """Return the next chunk of rows. The first chunk begins after the points that are already done."""
         if self._results is None:
             begins = range(done, self._points, self._size)
             tasks = ((*self._grid, begin, min(self._points, begin + self._size), self._threads) for begin in begins)
@@ -169,7 +170,9 @@ class Chunks:
 
 
 def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
-    """Return the number of points of a task; by default so small that every worker gets points, even of few points."""
+    """Return the number of points of a task. The default is so small that every worker gets points, even if there are
+    few points.
+    """
     if points_per_task is not None:
         return _arguments.count("points_per_task", points_per_task)
     most = _TASK_POINTS * _arguments.count("threads", threads)
@@ -231,8 +234,8 @@ def evaluate(
 
 
 def _moved(part: NativeTable, offset: int) -> NativeTable:
-    """Return the rows of a part, numbered as points of the whole batch. The first point of the part has the number
-    `offset`.
+    """Return the rows of a part of a batch, numbered as points of the whole batch. The first point of the part has the
+    number `offset`.
     """
     columns: list[NativeColumn] = [
         {**one, "cells": one["cells"] + np.uint64(offset)} if one["name"] == "point" else one for one in part["columns"]
@@ -242,7 +245,7 @@ def _moved(part: NativeTable, offset: int) -> NativeTable:
 
 
 def _joined(parts: list[NativeTable]) -> NativeTable:
-    """Join the rows of all parts to one batch, and return this batch."""
+    """Join the rows of all parts of a batch, and return the whole batch."""
     first = parts[0]
     axes = list(first["axes"])
     if axes:
@@ -253,12 +256,12 @@ def _joined(parts: list[NativeTable]) -> NativeTable:
 
 
 def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
-    """Join the columns of all parts, and return the joined columns."""
+    """Join the columns of all parts of a batch, and return the joined columns."""
     return [_column([part["columns"][place] for part in parts]) for place in range(len(parts[0]["columns"]))]
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """Join a column of all parts, and return it. Each part has its own list of words."""
+    """Join a column of all parts of a batch, and return the joined column. Each part has its own list of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}

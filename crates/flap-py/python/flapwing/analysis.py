@@ -47,7 +47,7 @@ class Sensitivity:
     value : float
         The parameter's value in the design, in SI units.
     below, above : float
-        The lower and the upper value of the parameter at which the measure was computed, in SI units.
+        The lower and the upper value of the parameter at which the measure is computed, in SI units.
     measure : str
         The measure's name.
     base : float
@@ -71,7 +71,9 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger absolute value of the two changes of the measure; infinite if both changes are unknown."""
+        """The larger absolute value of the two changes of the measure, at the lower and at the upper value of the
+        parameter; infinite if both changes are unknown.
+        """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
 
@@ -216,7 +218,7 @@ def rank_correlations(
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
     Equal values get the mean of their ranks. A parameter is left out if all designs have the same value. A parameter is
-    also left out if it ranks the designs in the order, or the reverse order, of an earlier parameter.
+    also left out if it gives the designs the same or the reverse order as an earlier parameter.
 
     Parameters
     ----------
@@ -272,7 +274,7 @@ def _parameters(data: Data) -> list[str]:
 
 @dataclass(frozen=True)
 class Statistics:
-    """The statistics of a measure over designs. Its text is ``str(statistics)``.
+    """The statistics of a measure over designs. ``str(statistics)`` returns the statistics as text.
 
     Attributes
     ----------
@@ -283,17 +285,17 @@ class Statistics:
     designs : int
         The number of designs that have the measure.
     mean : float
-        The mean.
+        The mean of the measure.
     standard_deviation : float
         The standard deviation of a sample (divisor ``designs - 1``); nan for one design.
     standard_error : float
         The standard error of the mean, for designs that are drawn independently of each other: the standard deviation
-        divided by the square root of `designs`. For a Latin hypercube or a Sobol' sequence it is an upper estimate. For
-        a grid it has no meaning.
+        divided by the square root of `designs`. For a Latin hypercube or a Sobol' sequence, this standard error is an
+        upper estimate. For a grid, the standard error has no meaning.
     smallest, largest : float
-        The smallest and the largest value.
+        The smallest and the largest value of the measure.
     percentiles : dict of float to float
-        The chosen percentiles, by percentage.
+        The chosen percentiles of the measure, by percentage.
     """
 
     measure: str
@@ -314,7 +316,7 @@ class Statistics:
 
 
 def percentages(given: Any) -> list[float]:
-    """Return percentages in rising order; raise ValueError if one is not from 0 to 100."""
+    """Return percentages in rising order; raise ValueError if a percentage is not from 0 to 100."""
     with reading("percentiles", given, "it must be a list of percentages, such as [5, 50, 95]"):
         chosen = sorted(dict.fromkeys(given))
         outside = [percent for percent in chosen if not 0 <= percent <= 100]

@@ -35,7 +35,7 @@ _COURSE = {
     "status",
 }
 
-#: Short names in other tables of flap.
+#: Short names of columns in other tables of flap.
 _SHORT = {"frequency": "drive_frequency"}
 
 _IN_BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*(.*?)\s*[)\]]\s*")
@@ -43,20 +43,20 @@ _IN_BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*(.*?)\s*[)\]]\s*")
 
 @dataclass(frozen=True)
 class Meaning:
-    """The meaning of a column."""
+    """The meaning of a column of readings."""
 
     #: ``"parameter"``, ``"measure"``, or ``"sigma"`` for the standard error of a measure.
     kind: str
-    #: The parameter or measure.
+    #: The name of the parameter or measure.
     name: str
     #: The factor from the unit of the column to the unit of the parameter (SI) or of the measure.
     factor: float
-    #: True for standard errors in per cent of the model's value.
+    #: True if standard errors are in per cent of the model's value.
     is_share: bool = False
 
 
 def _hint(name: str, known: list[str]) -> str:
-    """Return the nearest known name as part of a message; empty if no known name is near."""
+    """Return the nearest known name as part of an error message; empty if no known name is near."""
     near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
     return f", did you mean `{near[0]}`?" if near else ""
 
@@ -172,12 +172,12 @@ class Noise:
 
     #: ``"absolute"``, ``"relative"`` to the model's value, or ``"unknown"``: estimated from the residuals.
     kind: str
-    #: In the measure's unit, or a share.
+    #: The standard error in the measure's unit, or as a share of the model's value.
     size: Array | float = 1.0
 
     def of(self, values: Array, measured: Array, guess: float) -> Array:
-        """Return the standard errors of readings for these values of the model. `guess` replaces unknown standard
-        errors.
+        """Return the standard errors of readings, given the model's values of these readings. `guess` replaces unknown
+        standard errors.
         """
         if self.kind == "unknown":
             return np.full(len(measured), guess)
@@ -216,7 +216,7 @@ def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
     return Noise("relative" if relative else "absolute", size)
 
 
-#: Other separators of columns, with their names.
+#: Separators of columns other than the comma, with their names.
 _OTHERS = {";": "semicolons", "\t": "tabs"}
 
 
@@ -252,19 +252,19 @@ def _file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
     return {header: [line[place].strip() for line in lines[1:]] for place, header in enumerate(headers)}
 
 
-#: The help for a cell without a number.
+#: The help in the error message for a cell without a number.
 _MISSING = "remove the row, or put the other measures into a separate data set"
 
-#: The help for a value outside its parameter's range.
+#: The help in the error message for a value outside its parameter's range.
 _IMPOSSIBLE = "correct the cell, or remove the row"
 
-#: The beginning of a number.
+#: A pattern for the beginning of a number.
 _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 
 
 def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """Return the column of a parameter: numbers in SI units, or names of options. Raise ValueError for values out of
-    range.
+    """Return the values in a column of a parameter: numbers in SI units, or names of options. Raise ValueError for
+    values out of range.
     """
 
     def value(cell: Any) -> float:
@@ -290,7 +290,7 @@ def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cel
 
 
 def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:
-    """Return the column of a measure, in the unit of the measure."""
+    """Return the values in a column of a measure, in the unit of the measure."""
     unit = names.unit(meaning.name)
 
     def read(cell: str) -> float:
@@ -302,9 +302,7 @@ def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells
 
 
 def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Noise:
-    """Return the column of standard errors of a measure: in the unit of the measure, or in per cent of the model's
-    value.
-    """
+    """Return the standard errors in a column: in the unit of the measure, or in per cent of the model's value."""
     shares = [isinstance(cell, str) and cell.strip().endswith("%") for cell in cells]
     if all(shares) and not meaning.is_share:
         meaning = Meaning(meaning.kind, meaning.name, 0.01, True)
@@ -362,7 +360,7 @@ def _number(told: str, cell: Any) -> float:
     return number
 
 
-#: The allowed forms of data, for messages.
+#: The allowed forms of the argument `data`, for error messages.
 _ALLOWED = f"{_arguments.COLUMNS}, the path of a CSV file, or flapwing.Readings"
 
 
@@ -447,11 +445,11 @@ class DataSet:
     name: str
     #: Parameters of the operating points: numbers in SI units, or options.
     points: dict[str, Array | list[str]]
-    #: The readings by measure, in its unit.
+    #: The readings of each measure, in the unit of the measure.
     measured: dict[str, Array]
     noise: dict[str, Noise]
     branch: str | None
-    #: The parameter that was changed along the branch.
+    #: The parameter that rose or fell during the experiment.
     parameter: str
 
     def __len__(self) -> int:
@@ -462,7 +460,7 @@ _READERS = {"parameter": parameter_cells, "measure": measure_cells, "sigma": sig
 
 
 def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
-    """Return the data sets of a call."""
+    """Return the data sets of a call of `fit`."""
     listed = list(data) if isinstance(data, (list, tuple)) else [data]
     if not listed:
         raise ValueError("there are no data\ngive columns of readings, or a list of data sets")
@@ -594,7 +592,7 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names)
 
 
 def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
-    """Return the ends of a range in SI units."""
+    """Return the smallest and the largest value of a range, in SI units."""
     place = f"hold_out[{name!r}]"
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(

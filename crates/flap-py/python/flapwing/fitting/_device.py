@@ -1,4 +1,4 @@
-"""The device file of a fit, which has parameters with standard errors and correlations. You can use it as a design."""
+"""The device file of a fit, with parameters, standard errors and correlations. You can use the file as a design."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ import numpy as np
 from .. import _flapwing
 from ._solution import Solution
 
-#: Largest correlation that is written, so that the matrix of rounded numbers stays positive definite.
+#: Largest correlation in a device file, so that the correlation matrix of rounded numbers stays positive definite.
 _NEAREST = 0.999999
 
-#: The text that a fit adds to a description; a later fit of the same robot replaces it.
+#: The text that a fit adds to the description of a device; a later fit of the same robot replaces this text.
 _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
@@ -30,7 +30,7 @@ def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, ove
 
 
 def text_of(fit: Solution, data_set: str | None) -> str:
-    """Return the text of a device."""
+    """Return the text of the device file of a fit."""
     fitted = _fitted(fit, data_set)
     names = fit._model.names
     base = {parameter["name"]: parameter["value"] for parameter in _flapwing.params(names.grid.preset)}
@@ -84,8 +84,8 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """Return the label of each fitted parameter. If a parameter differs between data sets, return the label for one
-    data set.
+    """Return the label of each fitted parameter. If a parameter differs between data sets, return its label for the
+    chosen data set.
     """
     known = [one.name for one in fit._sets]
     if data_set is not None and data_set not in known:
@@ -100,7 +100,7 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
 
 
 def _set(fit: Solution) -> dict[str, Any]:
-    """Return the parameters of the design, and the parameters that were keywords of the call."""
+    """Return the parameters of the design, and the parameters that were keywords of the call of `fit`."""
     model = fit._model
     given = {
         name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)

@@ -18,7 +18,7 @@ from ._result import Fit
 from ._search import FINE, Found, Target
 from ._solution import Effort, Estimate, Unsettled
 
-#: Losses of `scipy.optimize.least_squares`.
+#: Names of the loss functions of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 #: Number of rounds in which standard errors that depend on the fit are updated.
@@ -63,27 +63,29 @@ def fit(
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
         The loss function. All except ``"linear"`` reduce the weight of outliers.
     starts : int
-        Number of searches. The first search starts at the design's values, and the other searches at the best points of
-        a Sobol' sequence.
+        Number of searches. The first search starts at the design's values, and the other searches start at the best
+        points of a Sobol' sequence.
     seed : int
         Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, list of str or dict, optional
         Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
         parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units.
     profile : bool
-        If True, intervals are computed by the profile likelihood. If False, intervals are computed from the derivatives
-        at the estimate, which is faster.
+        If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
+        computed from the derivatives at the estimate, which is faster.
     threads : int, optional
         Number of threads, 1 or more. Default: one per core. The number of threads does not change the results.
     progress : bool or function, optional
-        If True, the number of computed points is shown. A function is called with this number as both arguments.
+        If True, the number of computed points is shown. A function is called with the number of computed points as both
+        arguments.
     **keywords : float or str
         Parameters of all data and solver settings.
 
     Returns
     -------
     Fit
-        Estimates, errors, intervals, and the quality of the fit. Print the result to read the report.
+        Estimates of the parameters, their errors and confidence intervals, and the quality of the fit. Print the result
+        to read the report.
 
     Raises
     ------
@@ -180,7 +182,7 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, with standard errors for the end of the search. Readings without a settled motion at this
+    """Run the last search, with the standard errors at the end of this search. Readings without a settled motion at the
     end are left out.
     """
     found = best
@@ -247,13 +249,13 @@ def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettle
 
 
 def _lost(answer: Answer, held: Mask) -> Places:
-    """Return the readings without a settled motion."""
+    """Return the readings whose operating points have no settled motion."""
     return np.flatnonzero(~np.isfinite(answer.values) & ~held)
 
 
 def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, held: Mask) -> str:
-    """Return the message for too few readings with a settled motion. If the points of readings are impossible, the
-    message has the reason.
+    """Return the error message for too few readings with a settled motion. If the points of readings are impossible,
+    the error message has the reason.
     """
     lost = _unsettled(sets, answer, held)
     told = "too few readings have a settled motion at the best parameters found: "

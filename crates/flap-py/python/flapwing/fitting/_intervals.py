@@ -15,13 +15,14 @@ from ._model import Answer, Model
 from ._parameters import Coordinate, Space
 from ._search import FINE, NOTHING, Ask, Found, Target, minimise, sobol, together
 
-#: Largest number of values on each side.
+#: Largest number of values of a profile on each side of the estimate.
 _TRIES = 6
 
-#: Further values between the estimate and the end of the interval, as shares of the distance.
+#: Further values of a profile, as shares of the distance from the estimate to the end of the interval.
 _BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
 
-#: Largest difference between the required height and the height at which a profile ends.
+#: Largest difference between the required height of a profile and the height at its end. The height is the square root
+#: of the rise of the cost, in standard errors.
 _NEAR = 0.03
 
 
@@ -32,14 +33,15 @@ class Profile:
     Attributes
     ----------
     value : array
-        Values of the parameter in SI units, rising.
+        Values of the parameter in SI units, in rising order.
     rise : array
-        The signed square root of the rise of the cost, in standard errors. The rise is 0 at the estimate, and nearly a
-        straight line if the data determine the parameter well.
+        The signed square root of the rise of the cost at each value, in standard errors. This rise is 0 at the
+        estimate, and nearly a straight line if the data determine the parameter well.
     low, high : float
-        Ends of the 95 % interval, in SI units.
+        Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the end of the range, so that the data do not bound the parameter on this side.
+        True if the interval extends to the lower or upper bound of the parameter. The data then do not bound the
+        parameter on this side.
     """
 
     value: Array
@@ -51,14 +53,14 @@ class Profile:
 
     @property
     def is_flat(self) -> bool:
-        """True if the data do not bound the parameter on both sides."""
+        """True if the data do not bound the parameter on at least one side."""
         return self.open_below or self.open_above
 
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile: coordinates, heights, and a flag. The flag is True if the profile reached the end of the
-    range first.
+    """One side of a profile: coordinates, heights, and the flag `is_open`. The flag is True if the profile reached the
+    bound of the parameter before the required height.
     """
 
     x: list[float]
@@ -70,7 +72,9 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """The fit from which profiles begin: its target and estimate, and the height at which profiles end."""
+    """The fit from which profiles begin: its readings and estimate, and the height at which profiles end, in standard
+    errors.
+    """
 
     space: Space
     target: Target
@@ -79,7 +83,7 @@ class _Walks:
     height: float
 
     def side(self, ask: Ask, held: int, way: float) -> _Side:
-        """Return the profile on one side of the estimate, up to the height or to the end of the range."""
+        """Return the profile on one side of the estimate, up to the height `height` or the bound of the parameter."""
         here = self.found.x[held]
         end = self.space.high[held] if way > 0 else self.space.low[held]
         error = np.sqrt(self.covariance[held, held])
@@ -130,7 +134,7 @@ class _Walks:
         return _Side(side.x, side.height, float(reached), is_open, best)
 
     def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
-        """Add a value to a profile, between the estimate and the last value."""
+        """Add a value to one side of a profile, between the estimate and the last value of this side."""
         x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
         tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
         side.x.append(float(x[held]))
@@ -140,8 +144,8 @@ class _Walks:
 def profiles(
     model: Model, target: Target, found: Found, covariance: Array, height: float
 ) -> tuple[list[Profile], Found | None]:
-    """Return the profiles of all coordinates up to `height` standard errors. If the search finds a better fit, return
-    this fit too.
+    """Return the profiles of all coordinates up to `height` standard errors. If a search for a profile finds a better
+    fit, return the better fit too.
     """
     space = model.space
     walks = _Walks(space, target, found, covariance, height)
@@ -168,17 +172,17 @@ def profiles(
     return made, better
 
 
-#: Number of random sets of parameters, and the number of sets that are used.
+#: Number of random sets of parameters that are tried for `indistinct`, and number of sets that are used.
 _SETS_LOOKED_AT, _PLACES = 6, 4
 
-#: The tolerance of the integration for these sets.
+#: The tolerance of the integration for the random sets of parameters.
 _RTOL = 1e-7
 
-#: A parameter has no effect if, over its whole range, it changes all readings by less than this share of their standard
-#: errors.
+#: Limit for a parameter without an effect: the change of every reading over the whole range of the parameter, as a
+#: share of the reading's standard error.
 _EFFECT = 1e-2
 
-#: A component with a smaller share of the largest component is left out of texts.
+#: Smallest component of a direction that texts show, as a share of the largest component.
 _SHARE = 0.05
 
 
@@ -186,10 +190,11 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
     """Return one sentence for each combined change of parameters that affects no reading at any values of the
     parameters.
 
-    The derivatives of the readings are computed at several random sets of parameters. If these derivatives have a null
-    space at each set, no data of this kind can distinguish the parameters. If only a product of parameters matters, the
-    null space in logarithms is the same at all sets. If only a sum of parameters matters, the null space in the
-    parameters is the same at all sets. In both cases, the stacked derivatives have this null space.
+    The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
+    space at each set of parameters, no data of this kind can distinguish the parameters. If only a product of
+    parameters matters, the null space in logarithms of the parameters is the same at all sets. If only a sum of
+    parameters matters, the null space in the parameters is the same at all sets. In both cases, the stacked derivatives
+    of all sets have the same null space.
     """
     space = model.space
     looks = sobol(space, _SETS_LOOKED_AT, seed)
@@ -224,7 +229,7 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
 
 
 def _null(jacobian: Array) -> Array:
-    """Return the directions in parameter space that change no reading."""
+    """Return the directions in parameter space along which no reading changes."""
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
@@ -233,7 +238,9 @@ def _null(jacobian: Array) -> Array:
 
 
 def _sparse(directions: Array) -> list[Array]:
-    """Return combinations of the directions, each with few parameters, found by elimination."""
+    """Return combinations of directions in parameter space. Each combination has few parameters, and is found by
+    elimination.
+    """
     rows = [row / np.abs(row).max() for row in directions]
     for place in range(len(rows)):
         pivot = int(np.argmax(np.abs(rows[place])))
@@ -245,7 +252,9 @@ def _sparse(directions: Array) -> list[Array]:
 
 
 def _in_words(space: Space, direction: Array) -> str:
-    """Return a direction as text: the parameters that change together, scaled so that the largest change is 1 %."""
+    """Return a direction in parameter space as text: the parameters that change together, scaled so that the largest
+    change is 1 %.
+    """
     largest = int(np.argmax(np.abs(direction)))
     scaled = direction / direction[largest]
     named = []
@@ -260,8 +269,8 @@ def _in_words(space: Space, direction: Array) -> str:
 
 
 def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
-    """Return the combinations of parameters that the data determine best and worst, with the error of the first
-    parameter.
+    """Return the combinations of parameters that the data determine best and worst, with the standard error of the
+    first parameter of each combination.
     """
     if len(space) < 2:
         return []
@@ -279,7 +288,7 @@ def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[s
 
 
 def _size(one: Coordinate, change: float) -> str:
-    """Return a change of a coordinate as text."""
+    """Return a change of a parameter's coordinate as text."""
     if not one.log:
         return f"{change * one.width:.2g} {one.unit}".rstrip()
     return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

@@ -18,13 +18,14 @@ from .._types import Array, Mask, Places
 from ._data import DataSet, Names
 from ._parameters import Space
 
-#: The longest step along a branch, as a share of the parameter. Between more distant readings, points are added.
+#: The longest step along a branch, as a share of the followed parameter. Between more distant readings, points are
+#: added.
 _STEP = 0.02
 
 
 @dataclass(frozen=True)
 class Way:
-    """The points of a branch. These points are run one after the other, while a parameter rises or falls."""
+    """The points of a branch, which are run one after the other while a parameter rises or falls."""
 
     parameter: str
     falls: bool
@@ -70,8 +71,8 @@ def states_along(
 
 
 def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
-    """Return the points along a branch for each group with equal other parameters: row, followed parameter and value of
-    this parameter.
+    """Return the points along a branch: for each group of points with equal other parameters, the row, the followed
+    parameter and its value.
     """
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row in way.rows + offset:
@@ -99,7 +100,7 @@ def _taken(values: Any, places: list[int]) -> Any:
 #: The tolerances of integration and settling for initial states, which need only be close to the motion.
 _NEARBY, _SETTLED = 1e-4, 1e-4
 
-#: Number of answers that are kept: a search repeats the point at which an earlier search ended.
+#: Number of results of the model that are kept, because a search repeats the point at which an earlier search ended.
 _KEPT = 16
 
 
@@ -107,24 +108,24 @@ _KEPT = 16
 class Asked:
     """Measures at operating points, with one number for each point."""
 
-    #: The data set of each, for parameters per data set.
+    #: The data set of each measure, for parameters that differ between data sets.
     of_set: Places
-    #: The operating point of each, as an index into the columns of points.
+    #: The operating point of each measure, as an index into the columns of points.
     row: Places
     measure: list[str]
 
 
 @dataclass(frozen=True)
 class Answer:
-    """The model at one set of parameters."""
+    """The results of the model at one set of parameters."""
 
-    #: Values; nan if the motion does not settle.
+    #: Values of the measures; nan if the motion does not settle.
     values: Array
-    #: Derivatives by the coordinates; zero if they are unknown.
+    #: Derivatives of the measures with respect to the coordinates; zero if a derivative is unknown.
     slopes: Array
-    #: The status of each motion.
+    #: The status of the motion at each operating point.
     status: np.ndarray[Any, Any]
-    #: True if a derivative is unknown.
+    #: True for each measure with an unknown derivative.
     gaps: Mask
 
 
@@ -197,8 +198,8 @@ class Model:
         return self._split(table, asked, rows, xs, slopes)
 
     def reason(self, reading: int, x: Array) -> str:
-        """Return the reason why the point of a reading is impossible at these coordinates. The text is empty if the
-        point is possible.
+        """Return the reason why the point of a reading is impossible at given coordinates. The reason is empty text if
+        the point is possible.
         """
         of_set, row = self.asked.of_set[reading], self.asked.row[reading]
         free = {
@@ -221,7 +222,7 @@ class Model:
         return rows
 
     def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
-        """Return the columns of the free parameters."""
+        """Return the columns of points with the free parameters."""
         of_row = np.zeros(rows, np.intp)
         of_row[asked.row] = asked.of_set
         columns = {name: np.empty((len(xs), rows)) for name in self.space.parameters}
@@ -236,7 +237,7 @@ class Model:
         which = np.array([measures.index(name) for name in asked.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
-            """Return the rows of all points. Rows that the conditions of the design exclude are empty."""
+            """Return one row for each point. If the conditions of the design exclude a point, its row is empty."""
             everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
             everything[table["point"].astype(np.intp)] = found
             return everything.reshape(len(xs), rows, *found.shape[1:])

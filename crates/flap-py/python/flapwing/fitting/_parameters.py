@@ -24,13 +24,14 @@ class FreeParameter:
     ----------
     low, high : float or str, optional
         Bounds of the parameter, in SI units or as text with units. Default: a third of the design's value, and three
-        times the design's value. The first search begins at the design's value. If this value is outside of the bounds,
-        the first search begins in their middle.
+        times the design's value. The first search begins at the design's value, or at the middle of the bounds if the
+        design's value is outside of the bounds.
     prior : (value, error), optional
         A value that is known before the fit, and its standard error: numbers in SI units, or text with units. The error
         can also be a text such as ``"5 %"``.
     per_set : bool
-        True if each data set has its own value, for example if the wing was changed between experiments.
+        True if each data set has its own value of the parameter, for example if the wing was changed between
+        experiments.
     """
 
     low: Value | None = None
@@ -44,7 +45,7 @@ class Coordinate:
     """A free parameter, either for all data sets or for one data set."""
 
     parameter: str
-    #: The index of its data set; None for all data sets.
+    #: The index of the data set to which the coordinate applies; None for all data sets.
     of_set: int | None
     label: str
     unit: str
@@ -60,11 +61,11 @@ class Coordinate:
         return self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
 
     def at(self, value: float) -> float:
-        """Return the coordinate of a value."""
+        """Return the coordinate that belongs to a value of the parameter in SI units."""
         return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
 
     def slope(self, x: float) -> float:
-        """Return the derivative of the value by the coordinate."""
+        """Return the derivative of the parameter's value with respect to its coordinate."""
         return float(self.value(x) if self.log else self.width)
 
     @property
@@ -74,7 +75,7 @@ class Coordinate:
 
 
 class Space:
-    """The coordinates of a fit."""
+    """All coordinates of a fit."""
 
     def __init__(self, coordinates: Sequence[Coordinate]) -> None:
         self.coordinates = list(coordinates)
@@ -87,15 +88,15 @@ class Space:
         return len(self.coordinates)
 
     def values(self, x: Array) -> Array:
-        """Return values in SI units."""
+        """Return the values of the free parameters in SI units, at given coordinates."""
         return np.array([one.value(place) for one, place in zip(self.coordinates, x)])
 
     def slopes(self, x: Array) -> Array:
-        """Return the derivative of each value by its coordinate."""
+        """Return the derivative of each free parameter's value with respect to its coordinate."""
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
     def prior(self, x: Array) -> tuple[Array, Array]:
-        """Return the residuals of the priors, and the derivatives of these residuals."""
+        """Return the residuals of the priors, and their derivatives with respect to the coordinates."""
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
         for row, (place, one) in enumerate(known):
@@ -106,7 +107,7 @@ class Space:
 
 
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
-    """Return the coordinates of a call."""
+    """Return the coordinates for the free parameters of a call of `fit`."""
     if isinstance(free, str) or not (isinstance(free, Mapping) or hasattr(free, "__iter__")):
         raise TypeError(
             f"`free` is {type(free).__name__}\n"

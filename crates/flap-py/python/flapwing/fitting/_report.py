@@ -1,4 +1,4 @@
-"""A fit as text."""
+"""The report of a fit as text and as HTML."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 
 from ._solution import Estimate, Solution
 
-#: Limits of the probability of chi-square: below the first, the model is poor; below the second, doubtful; above the
-#: third, standard errors are too large.
+#: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
+#: is doubtful. Above the third limit, the standard errors are too large.
 POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 
-#: Largest number of unsettled readings that are listed.
+#: Largest number of unsettled readings that the report lists.
 _LISTED = 5
 
 
 def text(fit: Solution) -> str:
-    """Return the report as text."""
+    """Return the report of a fit as text."""
     lines = [table(*_estimates(fit)), *_remarks(fit), "", *_quality(fit), "", table(*_residuals(fit)), ""]
     if fit.combinations:
         lines += [*fit.combinations]
@@ -28,7 +28,7 @@ def text(fit: Solution) -> str:
 
 
 def html(fit: Solution) -> str:
-    """Return the report as HTML, for notebooks."""
+    """Return the report of a fit as HTML, for notebooks."""
     parts = [
         _html_table(*_estimates(fit)),
         _paragraphs(_remarks(fit)),

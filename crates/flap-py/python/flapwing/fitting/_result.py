@@ -26,17 +26,17 @@ class Prediction:
     Attributes
     ----------
     measure, unit : str
-        The measure and its unit.
+        The predicted measure and its unit.
     points : dict
         The operating points: values of parameters, in SI units.
     value : array
-        The values of the measure; nan if the motion does not settle.
+        The predicted values of the measure; nan if the motion does not settle.
     error : array
         Standard errors of the predictions, without the noise of a reading.
     low, high : array
-        Ends of the 95 % bands.
+        Lower and upper ends of the 95 % bands of the predictions.
     status : array of str
-        The status of each motion.
+        The status of the motion at each operating point.
     """
 
     measure: str
@@ -75,7 +75,7 @@ class NextMeasurements:
     measures : list of str
         The measure to read at each point.
     errors : list of float
-        The error of the target after the readings at this point and all points before it.
+        The error of the target after the readings at a point and at all points before this point.
     """
 
     target: str
@@ -138,7 +138,7 @@ def _answers(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
     """Return a measure at other operating points, with the parameters of a data set. If `like` is given, use the branch
-    of this data set.
+    of the data set `like`.
     """
     count = len(next(iter(points.values())))
     model.names.check_measure(measure)
@@ -173,11 +173,11 @@ def _next_measurements(
     count: int,
     guesses: Mapping[str, float],
 ) -> tuple[list[int], list[str], list[float], float]:
-    """Return the best readings in order: rows of `points`, measures, errors of the target after each reading, and the
-    present error.
+    """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
+    the present error of the target.
 
-    A reading adds the square of its derivatives, in standard errors, to the information matrix. Of all candidates, the
-    next reading is the candidate with the smallest variance of the target.
+    A reading adds the outer product of its derivatives, in standard errors, to the information matrix. The next reading
+    is the candidate after which the variance of the target is smallest.
     """
     rows, names, sensitivities = [], [], []
     for measure, noise in measures.items():
@@ -212,7 +212,7 @@ class Fit(Solution):
     Attributes
     ----------
     estimates : dict of str to Estimate
-        Value, standard error, 95 % interval and profile of each parameter, in SI units.
+        Value, standard error, 95 % interval and profile of each fitted parameter, in SI units.
     correlations : array
         Correlations of the estimates, in the order of `estimates`; nan for parameters that the data do not determine.
     combinations : list of str
@@ -233,14 +233,15 @@ class Fit(Solution):
     def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
         """Predict a measure at other operating points, with 95 % bands.
 
-        The bands are for the value of the model, without the noise of a reading.
+        The 95 % bands are for the value of the model, without the noise of a reading.
 
         Parameters
         ----------
         points : dict, DataFrame or Grid
-            Columns of parameters, as in `Readings`. You may leave out parameters that have the same value in all data.
+            Columns of parameters, as in `Readings`. You may leave out parameters that have the same value in all data
+            sets.
         measure : str
-            The measure to predict. The data need not have readings of this measure.
+            The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
             The data set whose parameters and branch are used. Default: the parameters of the first data set, and
             motions from rest.
@@ -276,17 +277,18 @@ class Fit(Solution):
         candidates : dict, DataFrame or Grid
             Operating points that could be measured, as columns of parameters.
         target : str or dict
-            A parameter, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency": 110}``.
+            The parameter whose error is reduced, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency":
+            110}``.
         count : int
-            Number of readings. A point may occur twice, because a repeated reading adds information.
+            Number of readings to choose. A point may occur twice, because a repeated reading adds information.
         measures : list of str, optional
             Measures that can be read. Default: the measures of the data.
 
         Returns
         -------
         NextMeasurements
-            Operating points and measures, with the best first, and the remaining error after each reading. The error of
-            a parameter is in its SI unit.
+            Operating points and measures, with the best first, and the remaining error of the target after each
+            reading. The error of a parameter is in the parameter's SI unit.
 
         Raises
         ------
@@ -326,7 +328,7 @@ class Fit(Solution):
         Parameters
         ----------
         path : str or path
-            The file.
+            The path of the device file.
         data_set : str, optional
             The data set whose parameters are written, if some parameters differ between data sets.
         overwrite : bool
@@ -342,8 +344,8 @@ class Fit(Solution):
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """Return the derivatives of a target by the coordinates, and the name and the unit of this target. A target is
-        a parameter or a prediction.
+        """Return the derivatives of a target with respect to the coordinates, and the name and the unit of the target.
+        A target is a parameter or a prediction.
         """
         space = self._model.space
         if isinstance(target, str):
@@ -369,7 +371,7 @@ class Fit(Solution):
         return answer.slopes[0], measure, self._model.names.unit(measure)
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
-        """Return operating points. Parameters that have the same value in all data are added."""
+        """Return operating points, with added columns for the parameters that have the same value in all data sets."""
         points = _points_of(self._model.names, place, given)
         count = len(next(iter(points.values())))
         for name, values in self._model.points.items():

@@ -18,7 +18,7 @@ from ._parameters import Space
 
 _Result = TypeVar("_Result")
 
-#: A function that returns the model at a set of coordinates.
+#: A function that returns the results of the model at a set of coordinates.
 Ask = Callable[[Array], Answer]
 
 
@@ -81,7 +81,7 @@ def together(
 #: Tolerances of the integration: for choosing starts, for the searches from all starts, and for the last search.
 LOOK, COARSE, FINE = 1e-4, 1e-5, 1e-6
 
-#: Number of coordinates that are tried per start.
+#: Number of sets of coordinates that are tried for each start.
 _LOOKS = 4
 
 #: Largest number of steps of a search.
@@ -90,7 +90,7 @@ _STEPS = 40
 
 @dataclass(frozen=True)
 class Target:
-    """The readings with their weights."""
+    """The readings of a fit with their weights."""
 
     measured: Array
     sigma: Array
@@ -101,15 +101,15 @@ class Target:
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
         """Return the residuals of the readings, (model - reading) / standard error, then the residuals of the priors.
 
-        If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual is
-        then so large that the search avoids these coordinates.
+        If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual of an
+        unsettled motion is therefore so large that the search avoids its coordinates.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
         return np.concatenate([residuals, space.prior(x)[0]])
 
     def jacobian(self, space: Space, x: Array, answer: Answer) -> Array:
-        """Return the derivatives of the residuals by the coordinates."""
+        """Return the derivatives of the residuals with respect to the coordinates."""
         return np.concatenate([(answer.slopes / self.sigma[:, np.newaxis])[self.used], space.prior(x)[1]])
 
 
@@ -118,7 +118,7 @@ class Found:
     """The point at which a search ended."""
 
     x: Array
-    #: Half of the sum of the losses.
+    #: Half of the sum of the losses of all residuals.
     cost: float
     jacobian: Array
     converged: bool
@@ -165,7 +165,9 @@ def minimise(
 
 
 def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
-    """Return starts of searches: the design's coordinates, and the best points of a scrambled Sobol' sequence."""
+    """Return the coordinates at which searches start: the design's coordinates, and the best points of a scrambled
+    Sobol' sequence.
+    """
     space = model.space
     own = np.clip(np.zeros(len(space)), space.low, space.high)
     if count == 1:
@@ -210,7 +212,7 @@ def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Foun
 
 
 def polish(model: Model, target: Target, begin: Array) -> Found:
-    """Return the best coordinates near `begin`, at the tolerance of the last search."""
+    """Return the best coordinates near `begin`, at the integration tolerance of the last search."""
 
     def ask(x: Array) -> Answer:
         return model.at([x], rtol=FINE)[0]
@@ -236,13 +238,15 @@ def spread(jacobian: Array) -> Array:
     return covariance
 
 
-#: Smallest singular value of a direction with an effect, relative to the largest. Derivatives have relative errors of
-#: about 1e-4.
+#: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have
+#: relative errors of about 1e-4.
 NOTHING = 3e-4
 
 
 def weights(residuals: Array, loss: str) -> Array:
-    """Return the weight of each residual for a loss function: the derivative of the loss by the squared residual."""
+    """Return the weight of each residual for a loss function: the derivative of the loss with respect to the squared
+    residual.
+    """
     square = residuals**2
     derivatives: dict[str, Callable[[Array], Array]] = {
         "linear": np.ones_like,

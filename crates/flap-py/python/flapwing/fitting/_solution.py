@@ -22,19 +22,21 @@ class Estimate:
     Attributes
     ----------
     parameter, unit : str
-        The parameter and its SI unit.
+        The estimated parameter and its SI unit.
     value : float
-        The value, in SI units.
+        The estimated value of the parameter, in SI units.
     error : float
-        Standard error from the derivatives at the estimate, in SI units.
+        Standard error of the parameter from the derivatives at the estimate, in SI units.
     low, high : float
-        Ends of the 95 % interval. If the profile likelihood was computed, the interval follows from it.
+        Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval
+        follows from the profile.
     open_below, open_above : bool
-        True if the interval extends to the end of the range: the data do not bound the parameter on this side.
+        True if the interval extends to the lower or upper bound of the parameter: the data do not bound the parameter
+        on this side.
     profile : Profile or None
-        The profile likelihood, if it was computed.
+        The profile likelihood of the parameter, if it was computed.
     at_bound : bool
-        True if the estimate of the parameter is at an end of its range.
+        True if the estimate of the parameter is at a bound of the parameter.
     """
 
     parameter: str
@@ -61,11 +63,11 @@ class Unsettled:
     Attributes
     ----------
     data_set, measure : str
-        The data set and the measure.
+        The data set and the measure of the reading.
     row : int
-        The row in the data set, counted from 1.
+        The row of the reading in the data set, counted from 1.
     status : str
-        The status of the motion.
+        The status of the motion at the reading's operating point.
     """
 
     data_set: str
@@ -81,11 +83,11 @@ class HeldOut:
     Attributes
     ----------
     count : int
-        Number of readings.
+        Number of readings that were not fitted.
     rms : dict of str to float
         Root mean square of the prediction errors of each measure, in the unit of the measure.
     covered : float
-        The share of these readings within their 95 % bands, which include the noise of readings.
+        The share of the readings that lie within their 95 % bands. These bands include the noise of readings.
     """
 
     count: int
@@ -118,10 +120,10 @@ class Effort:
     seconds: float
 
 
-#: Residuals are structured below this probability, which all tests share.
+#: Limit of the probability below which residuals are structured. All tests share this limit.
 _SIGNIFICANT = 0.01
 
-#: Smallest number of residuals for a test.
+#: Smallest number of residuals for a test of structure.
 _FEWEST = 8
 
 
@@ -134,18 +136,18 @@ class Residuals:
     data_set : str
         Name of the data set.
     measure, unit : str
-        The measure and its unit.
+        The measure of the residuals and its unit.
     values : array
         Model minus reading, in the measure's unit; nan if the motion does not settle.
     scaled : array
         The residuals divided by the standard errors of the readings.
     rms : float
-        Root mean square, in the measure's unit.
+        Root mean square of the residuals, in the measure's unit.
     count : int
-        Number of fitted readings.
+        Number of fitted readings of the measure in the data set.
     p_runs, p_neighbours : float
-        Probabilities, if residuals are only noise: of at most this number of changes of sign, and of neighbours that
-        are at least this similar.
+        Probabilities for residuals that are only noise. `p_runs` is the probability of at most as many changes of sign
+        as in `values`. `p_neighbours` is the probability of neighbours that are at least as similar as in `values`.
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
@@ -171,10 +173,10 @@ class Goodness:
     chi_square : float
         Sum of the squares of the residuals in standard errors.
     freedom : int
-        Degrees of freedom.
+        Degrees of freedom of the fit.
     p : float
-        The probability of at least this sum of squares, if the model is correct and standard errors are as given. nan
-        if standard errors are estimated.
+        The probability of a sum of squares of at least `chi_square`, if the model is correct and standard errors are as
+        given. The probability is nan if standard errors are estimated.
     residuals : list of Residuals
         The residuals by data set and measure.
     """
@@ -191,8 +193,8 @@ class Goodness:
 
 
 def order(points: Mapping[str, Array | list[str]]) -> Places:
-    """Return the order of the rows of a data set in which neighbours are similar. In this order, the parameter with
-    most values varies fastest.
+    """Return an order of the rows of a data set in which neighbours are similar. In the returned order, the parameter
+    with most values varies fastest.
     """
     numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -204,7 +206,7 @@ def order(points: Mapping[str, Array | list[str]]) -> Places:
 def of_residuals(
     sets: Sequence[DataSet], units: Mapping[str, str], values: Array, scaled: Array, used: Mask
 ) -> list[Residuals]:
-    """Return the residuals by data set and measure."""
+    """Return the residuals of a fit by data set and measure."""
     found, begin = [], 0
     for one in sets:
         for measure in one.measured:
@@ -235,7 +237,9 @@ def of_residuals(
 
 
 def _runs(noise: Array) -> float:
-    """Return the probability of at most this number of runs of residuals with one sign (test of Wald and Wolfowitz)."""
+    """Return the probability of at most as many runs of residuals with one sign as in the given residuals (test of Wald
+    and Wolfowitz).
+    """
     from scipy.stats import norm
 
     signs = noise[noise != 0] > 0
@@ -252,8 +256,8 @@ def _runs(noise: Array) -> float:
 
 
 def _neighbours(noise: Array) -> float:
-    """Return the probability of neighbours that are at least this similar, from the correlation of each residual with
-    the next.
+    """Return the probability of neighbours that are at least as similar as in the given residuals, from the correlation
+    of each residual with the next.
     """
     from scipy.stats import norm
 

@@ -1,9 +1,9 @@
 """Pictures of results with matplotlib, each by one function call.
 
-Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. It returns
-matplotlib Axes, a Figure if there are several Axes, or an animation. `flapwing.analysis` computes sensitivities, rank
-correlations and Pareto fronts. `style` sets the size of figures and letters. The other functions do not change the
-settings of matplotlib.
+Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. Every
+function returns matplotlib Axes, a Figure if the picture has several Axes, or an animation. `flapwing.analysis`
+computes sensitivities, rank correlations and Pareto fronts. `style` sets the size of figures and letters. The functions
+that draw do not change the settings of matplotlib.
 
     >>> import numpy as np
     >>> from flapwing import plot

@@ -22,7 +22,7 @@ class _Kind(NamedTuple):
     """A kind of argument."""
 
     fits: Callable[[Any], bool]
-    #: The allowed values, for messages.
+    #: The allowed values of the argument, for error messages.
     allowed: str
 
 
@@ -87,8 +87,8 @@ _KINDS: dict[str, _Kind | None] = {
 
 
 def checked(function: _F) -> _F:
-    """Return a function that checks its arguments before it calls the given function. The check raises TypeError or
-    ValueError.
+    """Return a function that checks its arguments before it calls the given function. A wrong argument raises TypeError
+    or ValueError.
 
     Each argument must have a kind in `_KINDS`; otherwise importing the module raises KeyError. An argument may be None
     if its default is None.

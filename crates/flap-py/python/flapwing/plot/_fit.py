@@ -20,10 +20,10 @@ from .._flapwing import printed, scale, words
 from ..fitting import Estimate, Fit
 from . import _style
 
-#: Names of the pictures.
+#: Names of the pictures of a fit.
 _PARTS = ("data", "profiles", "correlations")
 
-#: Number of points in a curve.
+#: Number of points in a curve of the model.
 _CURVE = 80
 
 
@@ -41,13 +41,13 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Returns
     -------
     matplotlib Figure
-        The bands are for the value of the model, without the noise of a reading. If a profile does not reach the dashed
-        line on one side, the data do not bound the parameter on that side.
+        The 95 % bands are for the value of the model, without the noise of a reading. If a profile does not reach the
+        dashed line on one side, the data do not bound the parameter on that side.
 
     Raises
     ------
     ValueError
-        `show` has another value, or profiles were not computed.
+        `show` is not one of the three names, or the fit has no profiles.
     TypeError
         `result` is not a `Fit`.
     """
@@ -77,7 +77,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
 
 
 def _columns() -> int:
-    """Return the number of profiles beside each other."""
+    """Return the number of profiles that a figure shows beside each other."""
     return 2 if _style.is_narrow() else 3
 
 
@@ -149,7 +149,7 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """Draw the profiles: the rise of the cost when one parameter is fixed at different values."""
+    """Draw the profiles of a fit: the rise of the cost if one parameter is fixed at different values."""
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(_columns(), len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):
@@ -180,7 +180,7 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
 
 
 def _correlations(result: Fit, part: Any) -> None:
-    """Draw the correlations as numbers in a map."""
+    """Draw the correlations of the fitted parameters as numbers in a map."""
     names = [words(name, one.unit) for name, one in result.estimates.items()]
     values = result.correlations
     ax = part.subplots()

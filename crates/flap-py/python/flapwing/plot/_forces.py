@@ -27,9 +27,9 @@ _LEAST = 1e-3
 class _Effects(NamedTuple):
     """Changes of force and torque with inputs."""
 
-    #: Columns of force and torque, one for each row of the values.
+    #: Columns of force and torque, one for each row of `values`.
     outputs: list[str]
-    #: Names of inputs with their units, one for each column.
+    #: Names of inputs with their units, one for each column of `values`.
     inputs: list[tuple[str, str]]
     values: np.ndarray
 
@@ -46,10 +46,10 @@ def control_matrix(
 ) -> _style.Drawn:
     """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
 
-    The columns of the map are inputs, and the rows are components of force and torque. The number in a cell is the
-    change per unit of the input. Colours show which force or torque an input changes most. In this comparison of forces
-    with torques, 1 µN·m has the same weight as 1 mN. A number below 0.1 % of the largest number in its column is shown
-    as ``≈0``.
+    The columns of the map are inputs, and the rows are components of force and torque. The number in a cell of the map
+    is the change per unit of the input. Colours show which force or torque an input changes most. In the comparison of
+    forces with torques by colours, 1 µN·m has the same weight as 1 mN. A number below 0.1 % of the largest number in
+    its column is shown as ``≈0``.
 
     Parameters
     ----------
@@ -76,8 +76,8 @@ def control_matrix(
     Raises
     ------
     ValueError
-        There are no derivatives of a force or torque, or several rows with derivatives; an input is unknown; an array
-        has another shape.
+        The table has no derivatives of a force or torque, or several rows with derivatives; an input is unknown; an
+        array has another shape.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     table : Table, data frame, mapping of columns, or path
         Results of a vehicle.
     x : str, optional
-        The parameter on the horizontal axes. Default: the axis of the grid.
+        The parameter on the horizontal axes of the panels. Default: the axis of the grid.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
@@ -154,7 +154,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
 
 
 def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects in an array; `inputs` has the names of its columns."""
+    """Return the effects of inputs in an array, whose columns have the names `inputs`."""
     if not isinstance(table, (np.ndarray, list, tuple)):
         return None
     values = np.asarray(table, dtype=float)
@@ -169,7 +169,7 @@ def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects from a table with derivatives, which has exactly one row."""
+    """Return the effects of inputs from a table with derivatives, which has exactly one row."""
     gradient = data.meta.get("gradient")
     if not gradient:
         return None
@@ -185,13 +185,13 @@ def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _per(unit: str) -> str:
-    """Return the unit in the denominator of an effect, which is the unit of the input."""
+    """Return the unit in the denominator of an input's effect, which is the unit of the input."""
     return unit.partition("/")[2].strip("()")
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects from a table of `flap vehicle`. Such a table has one row of means, and then one row for each
-    input.
+    """Return the effects of inputs from a table of `flap vehicle`. A table of `flap vehicle` has one row of means, and
+    then one row for each input.
     """
     if "input" not in data:
         return None
@@ -206,7 +206,7 @@ def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
-    """Return the inputs to show."""
+    """Return the effects of the inputs to show."""
     for name in inputs or ():
         if name not in known:
             raise unknown("input", name, known)
@@ -214,7 +214,7 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
 
 
 def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Drawn:
-    """Draw the map of the effects, with a number in each cell."""
+    """Draw the map of the effects of inputs, with a number in each cell."""
     values = effects.values
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
@@ -248,7 +248,7 @@ def _input(name: str, unit: str) -> str:
 
 
 def _cell(value: float, share: float) -> str:
-    """Return the number in a cell of the map, with three digits."""
+    """Return the number in a cell of the control matrix, with three digits."""
     if not np.isfinite(value):
         return "?"
     return "≈0" if share < _LEAST else _labels.number(float(f"{value:.3g}"))

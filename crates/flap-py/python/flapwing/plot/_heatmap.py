@@ -53,43 +53,45 @@ def heatmap(
     """Draw a measure as a map against two axes, for example lift, power or efficiency against frequency and voltage.
 
     The edges of cells are halfway between neighbouring values of an axis, or between their logarithms on a logarithmic
-    axis. Cells without a periodic motion are grey. Cells without a row, which ``[where]`` excludes or the file does not
-    have, are hatched. A legend explains grey and hatched cells. In a table of `respond`, curves were refined at
-    different points. In this case, a cell without a row shows the nearest row of the same curve.
+    axis. Cells without a periodic motion are grey. A cell is hatched if ``[where]`` excludes its row or the file does
+    not have the row. A legend explains grey and hatched cells. In a table of `respond`, each curve has its own refined
+    points. In a map of such a table, a cell without a row shows the nearest row of the same curve.
 
-    Points that form no grid, such as a sample, are drawn as dots. The colours between them are interpolated linearly on
-    triangles. A triangle is left out if one of its points has no value. Crosses are points without a periodic motion.
+    Points that form no grid, such as a sample, are drawn as dots. The colours between the dots are interpolated
+    linearly on triangles. A triangle is left out if one of its points has no value. Crosses are points without a
+    periodic motion.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sweep over a grid or of a sample.
     value : str, optional
-        The measure. Default: the mean lift.
+        The measure to draw. Default: the mean lift.
     x, y : str, optional
         The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, else the last axis of the
         grid. Default for y: the first of the other axes. If the grid has fewer than two axes, sampled parameters are
         used.
     xscale, yscale : {"linear", "log"}, optional
-        Default: logarithmic if the values have a constant ratio. For points that form no grid: linear.
+        The scales of the axes. Default: logarithmic if the values of an axis have a constant ratio. For points that
+        form no grid: linear.
     cmap : str, optional
-        A colour map of matplotlib. Default: viridis. For values of both signs, a map that is white at zero, with a line
-        at zero.
+        A colour map of matplotlib. Default: viridis. For values of both signs, the default colour map is white at zero,
+        with a line at zero.
     vmin, vmax : float, optional
-        The ends of the colours, in the unit of the colour bar. Default: the smallest and the largest value. An arrow at
-        an end of the colour bar marks values beyond it.
+        The values at the ends of the colour bar, in the unit of the colour bar. Default: the smallest and the largest
+        value of the measure. An arrow at an end of the colour bar marks values beyond this end.
     reduce : {"max", "min", "mean"}, optional
-        Combine the rows with the same x and y: their largest value, their smallest value or their mean. These rows
-        differ in the axes that are not drawn. Rows without a value are left out.
+        Combine the rows with the same x and y: their largest value, their smallest value or their mean. Rows with the
+        same x and y differ in the axes that are not drawn. Rows without a value are left out.
     annotate : bool
-        Mark the best cell with a star. The legend has its value, its place, and the values of the axes that `reduce`
-        combined. The best is the largest value with ``reduce="max"``, and the smallest with ``reduce="min"``.
-        Otherwise it is the smallest for costs such as power, and the largest for other measures.
+        Mark the best cell with a star. The legend has the value and the place of the best cell, and the values of the
+        axes that `reduce` combined. The best cell has the largest value with ``reduce="max"``, and the smallest value
+        with ``reduce="min"``. Without these options, the best cell has the smallest value for costs such as power, and
+        the largest value for other measures.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected nor reduced, the picture has only the rows at its middle value. A warning shows this
-        value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor selected nor reduced is fixed at its middle value, and a warning shows this value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -164,8 +166,8 @@ def heatmap(
 
 
 def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
-    """Return one row for each combination of these columns: the row with the largest or smallest value, or one row with
-    the mean.
+    """Return one row for each combination of values in the columns `names`: the row with the largest or smallest value,
+    or one row with the mean.
     """
     groups = data.groups(names)
     values = np.where(data.measured(), data.numbers(value), np.nan)
@@ -183,14 +185,14 @@ def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
 
 
 def _combined(data: Data, x: str, y: str) -> list[str]:
-    """Return the parameters with several values that are not drawn."""
+    """Return the parameters that have several values and are not on an axis of the map."""
     drawn = {data.axis(x), data.axis(y)}
     names = [name for name in data.parameters() if name not in (x, y) and len(distinct(data[name])) > 1]
     return [name for name in names if data.axis(name) not in drawn or not data.on_a_grid(name)]
 
 
 def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
-    """Return the entry of the legend for the best row: its value, then the parameters."""
+    """Return the entry of the legend for the best row: the value of the measure, then the parameters."""
     lines = []
     for name in (value, *names):
         shown = data.shown(name)
@@ -199,7 +201,7 @@ def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
 
 
 def _star(ax: Axes, place: tuple[float, float], label: str) -> Line2D:
-    """Mark a place with a star and return the entry of the legend."""
+    """Mark a place in the map with a star, and return the star's entry of the legend."""
     look: Any = {"marker": "*", "linestyle": "none", "markersize": _style.size(2.0), "color": "white"}
     (line,) = ax.plot(*place, label=label, markeredgecolor=_style.DARK, markeredgewidth=_style.width(0.5), **look)
     return line
@@ -217,13 +219,13 @@ class _Points:
         return self.points.draw(ax, colours)
 
     def mark_missing(self, ax: Axes) -> list[Any]:
-        """Mark the points without a value, and return the entries of the legend."""
+        """Mark the points without a value, and return their entries of the legend."""
         rows = np.arange(len(self.data))
         missing = _missing(self.data, rows, self.values)
         return [self.points.mark(ax, rows[mask], name) for name, mask in missing.items()]
 
     def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value, and its place."""
+        """Return the row with the best value of the measure, and the place of this row in the map."""
         row = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
         return row, self.points.place(row)
 
@@ -259,7 +261,7 @@ class _Cells:
         return mesh
 
     def mark_missing(self, ax: Axes) -> list[Any]:
-        """Fill the cells without a value, and return the entries of the legend."""
+        """Fill the cells without a value, and return their entries of the legend."""
         entries = []
         for name, mask in _missing(self.data, self.rows, self.values).items():
             # Several cells along a curve may show the same row.
@@ -268,7 +270,7 @@ class _Cells:
         return entries
 
     def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value, and the place of its cell."""
+        """Return the row with the best value of the measure, and the place of its cell."""
         cell = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
         line, column = np.unravel_index(cell, self.values.shape)
         return int(self.rows[line, column]), (float(self.across.centres[column]), float(self.up.centres[line]))
@@ -298,7 +300,7 @@ class _Axis:
         self.edges = edges(values, self.log)
 
     def places(self, column: np.ndarray) -> np.ndarray:
-        """Return the cell of each row."""
+        """Return the index of each row's cell along this axis."""
         if self.shown.text:
             place = {word: i for i, word in enumerate(self.keys)}
             return np.array([place[word] for word in column.astype(str)])
@@ -317,8 +319,8 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """Return the rows of cells, with one curve in each line of cells. Cells between the ends of a curve get the nearest
-    row of the curve.
+    """Return the rows of cells, with one curve in each line of cells. A cell between the ends of a curve gets the
+    nearest row of the curve.
     """
     filled = rows.copy()
     places = np.log(axis.centres) if axis.log else axis.centres
@@ -355,7 +357,7 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the masks of cells without a value, one mask for each reason."""
+    """Return the masks of cells without a value, one mask for each reason of the missing value."""
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:
@@ -390,7 +392,7 @@ def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: 
 
 
 def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tuple[float, float]]]:
-    """For every row of cells, return the outlines of groups of neighbouring cells."""
+    """Return the outlines of groups of neighbouring cells, for every row of cells in a map."""
     outlines = []
     for row, flags in enumerate(mask):
         ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))

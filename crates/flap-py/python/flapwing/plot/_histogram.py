@@ -33,7 +33,7 @@ def histogram(
     """Draw a histogram: the number of designs over a measure, with mean, standard deviation and percentiles.
 
     Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
-    `flapwing.analysis.describe` returns the numbers.
+    `flapwing.analysis.describe` returns mean, standard deviation and percentiles as numbers.
 
     Parameters
     ----------
@@ -44,15 +44,15 @@ def histogram(
     percentiles : iterable of float, optional
         Percentages from 0 to 100, each with a line. Default: 5, 50 and 95, as in ``flap plot``.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
-        axes that you give. The legend has the mean and the standard deviation.
+        axes that you give. The legend contains the mean and the standard deviation.
     ax : matplotlib Axes, optional
-        Axes to draw in, in the style of their figure. Only their labels are drawn outside of them.
-        Default: axes of a new figure.
+        Axes for the picture, in the style of their figure. Only labels are outside of these axes. Default: axes of a
+        new figure.
 
     Returns
     -------

@@ -29,14 +29,14 @@ def hysteresis(
     """Draw the branches up and down of a response. If the table has unstable orbits between these branches, draw them
     too.
 
-    Arrows show the directions of the branches and their jumps. Bistable bands are shaded.
+    Arrows show the directions of the branches and the jumps between the branches. Bistable bands are shaded.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `flapwing.respond` or ``flap respond --out``.
     y : str, optional
-        The measure. Default: the stroke, peak to peak.
+        The measure to draw. Default: the stroke, peak to peak.
     parameter : str, optional
         The followed parameter. Default: the column after ``branch``.
     curve : int, optional
@@ -59,7 +59,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        There are several designs and none is selected; a column or value is unknown; there are no branches.
+        The table has several designs and none is selected; a column or value is unknown; the table has no branches.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:
@@ -138,7 +138,7 @@ class _Way:
 
 
 def _one_design(data: Data) -> None:
-    """Raise ValueError if there are several designs. The message has the parameters of the designs."""
+    """Raise ValueError if the results have several designs. The error message has the parameters of the designs."""
     if "curve" not in data:
         return
     curves = distinct(data["curve"])
@@ -157,20 +157,20 @@ def _ends(low: float, high: float, x: Shown) -> str:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return a line that has gaps after the given rows."""
+    """Return the points of a line, with gaps after the rows `after`."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
 def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
-    """Draw a light vertical arrow for a jump, halfway between the two rows around the jump."""
+    """Draw a light vertical arrow for a jump of a branch, halfway between the rows before and after the jump."""
     x = 0.5 * (way.x[i] + way.x[i + 1])
     look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
-    """Draw an arrowhead on the line of a branch: in a bistable band, or after a third of the branch if there is no
+    """Draw an arrowhead on the line of a branch: in a bistable band, or after a third of the branch without such a
     band.
     """
     count = len(way.x)

@@ -35,7 +35,7 @@ def pareto(
 
     Designs without a periodic motion, or with a NaN among the objectives, are left out.
     `flapwing.analysis.non_dominated` computes the front. With two objectives, a stepped line connects the designs of
-    the front. With more objectives, these designs have rings.
+    the front. With more than two objectives, the designs of the front have rings.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def pareto(
     Raises
     ------
     ValueError
-        There are fewer than two objectives; a column or value is unknown; no design has all objectives.
+        Fewer than two objectives are given; a column or value is unknown; no design has all objectives.
 
     Examples
     --------

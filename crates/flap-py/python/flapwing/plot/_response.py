@@ -37,28 +37,28 @@ def response(
 ) -> _style.Drawn:
     """Draw a family of responses: a measure against one parameter, with one line for each value of another parameter.
 
-    Rows without a periodic motion leave a gap in a line. Above the picture, each gap has a mark in the colour of the
-    line.
+    Rows without a periodic motion leave a gap in a line. Above the picture, each gap in a line has a mark in the colour
+    of the line.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them. To compare designs, give several
-        results: a mapping of names to results, or a list. Each design then has one line.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
+        several results: a mapping of names to results, or a list. Each design then has one line.
     y : str, optional
-        The measure. Default: the stroke, peak to peak.
+        The measure to draw. Default: the stroke, peak to peak.
     x : str, optional
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
-        Several results have one line for each.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
+        axis. If several results are given, each result has one line.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
     label : sequence of str, optional
-        The names of a list of results in the legend. Default: their numbers.
+        The names of a list of results in the legend. Default: the numbers of the results.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -71,7 +71,7 @@ def response(
     Returns
     -------
     matplotlib Axes
-        Parameters are in readable units, which the labels show.
+        The axes show parameters in readable units, which the labels contain.
 
     Raises
     ------
@@ -122,22 +122,22 @@ def response_panels(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of them. To compare designs, give several
-        results: a mapping of names to results, or a list. Each design then has one line.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
+        several results: a mapping of names to results, or a list. Each design then has one line.
     measures : sequence of str
-        The measures, from top to bottom.
+        The measures to draw, from top to bottom.
     x : str, optional
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if there is one.
-        Several results have one line for each.
+        The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
+        axis. If several results are given, each result has one line.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
+        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
+        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
     label : sequence of str, optional
-        The names of a list of results in the legend. Default: their numbers.
+        The names of a list of results in the legend. Default: the numbers of the results.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.
@@ -152,7 +152,7 @@ def response_panels(
     Raises
     ------
     ValueError
-        The same errors as for `response`. There are no measures.
+        The same errors as for `response`. `measures` is empty.
 
     Examples
     --------
@@ -182,7 +182,9 @@ def response_panels(
 
 
 def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
-    """Return the results as one table, and the column with a line for each value: for several results, their names."""
+    """Return results as one table, and the column that has one line for each value. For several results, this column
+    has the names of the results.
+    """
     designs = several(table, label)
     if designs is None:
         if label is not None:
@@ -194,7 +196,7 @@ def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[
 
 
 def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None) -> Family:
-    """Return the lines of a picture of these measures."""
+    """Return the lines of a picture of the measures `measures`."""
     for name in measures:
         data.numbers(name)
     x = along(data, by) if x is None else x
@@ -215,7 +217,7 @@ def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by:
 
 
 class Family:
-    """The lines of one picture. Rows and colours of a line are the same for every measure."""
+    """The lines of one picture. The rows and the colour of a line are the same for every measure."""
 
     def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
         self.data, self.x = data, data.shown(x)
@@ -261,7 +263,9 @@ class Family:
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
-        """Draw marks above the axes where rows of results have no measures. Each line has its own row of marks."""
+        """Draw marks above the axes at the values of x for which rows of results have no measures. Each line has its
+        own row of marks.
+        """
         lines = self._not_periodic()
         if not lines:
             return
@@ -297,7 +301,7 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """Return the rows without measures for each line that has such rows, and the colour of the line."""
+        """Return the rows without measures and the colour of the line, for each line that has such rows."""
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
         return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
@@ -307,7 +311,7 @@ class Family:
         _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
 
     def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
-        """Draw a legend for the lines, or a colour bar if there are many numbers."""
+        """Draw a legend for the lines, or a colour bar if the lines have many different numbers."""
         handles: list[Any] = []
         if given and self._not_periodic():
             look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
@@ -365,7 +369,7 @@ def _beside(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """Return a mask, which is True for values without a neighbour, because a line does not show such values."""
+    """Return a mask, which is True for values without a neighbour. A line does not show values without a neighbour."""
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])
@@ -373,5 +377,5 @@ def _alone(ys: np.ndarray) -> np.ndarray:
 
 
 def _wrapped(text: str) -> str:
-    """Return a legend's title in short lines."""
+    """Return the title of a legend in short lines."""
     return text.replace(", ", ",\n").replace(" (", "\n(")

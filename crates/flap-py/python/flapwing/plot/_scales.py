@@ -13,22 +13,22 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 from .._flapwing import is_signed
 from . import _style
 
-#: The colour map for numbers of both signs. Others have matplotlib's `image.cmap`, by default viridis.
+#: The colour map for numbers of both signs. Numbers of one sign have matplotlib's `image.cmap`, by default viridis.
 DIVERGING = "RdBu_r"
 
 
 class Colours(NamedTuple):
-    """The colours of numbers."""
+    """The colours that represent numbers."""
 
     cmap: str | Colormap
     norm: Normalize
-    #: The ends of the colour bar with an arrow, which marks numbers beyond: "neither", "min", "max" or "both".
+    #: The ends of the colour bar with an arrow, which marks numbers beyond this end: "neither", "min", "max" or "both".
     extend: str
-    #: True for a diverging map around zero.
+    #: True for a diverging colour map around zero.
     signed: bool
 
     def bar(self, ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes, label: str) -> None:
-        """Draw the colour bar, with a line at zero between both signs."""
+        """Draw the colour bar of the numbers, with a line at zero between both signs."""
         bar = _style.colour_bar(ax, mappable, wanted, label=label, extend=self.extend)
         if bar is None:
             return
@@ -47,7 +47,8 @@ def colours(
     vmax: float | None = None,
     log: bool = False,
 ) -> Colours:
-    """Return the colours of numbers from `vmin` to `vmax`. The defaults are the smallest and the largest number.
+    """Return the colours of numbers from `vmin` to `vmax`. By default, `vmin` is the smallest and `vmax` is the largest
+    of the numbers.
 
     Without a `cmap`, numbers of both signs get a diverging map whose middle is zero.
     """
@@ -72,7 +73,7 @@ def _diverging(low: float, high: float) -> Colormap:
 
 
 def in_ratio(values: np.ndarray) -> bool:
-    """Return True if there are three or more rising values with a constant ratio."""
+    """Return True if `values` are three or more rising values with a constant ratio."""
     if len(values) < 3 or values[0] <= 0:
         return False
     ratios = values[1:] / values[:-1]

@@ -101,8 +101,8 @@ def scatter(
 
 
 def _third(data: Data, taken: list[str]) -> str | None:
-    """Return the default measure for colours, which differs from two other measures. Return None if the table has no
-    other measure.
+    """Return the default measure for colours, which differs from the measures on the two axes. Return None if the table
+    has no third measure.
     """
     try:
         return data.usual("motion", "color", taken)
@@ -119,7 +119,7 @@ def points(
     cmap: str | Colormap | None,
     colorbar: bool | Axes,
 ) -> float:
-    """Draw designs as points, coloured by a column, and return the size of the points."""
+    """Draw designs as points, coloured by a column, and return the size of these points."""
     size = _style.size(0.62 if len(data) <= 2000 else 0.4)
     look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
     if color is None:

@@ -1,4 +1,4 @@
-"""The style of pictures. The settings apply only while a picture is drawn, and are then restored."""
+"""The style of pictures. Settings of matplotlib are changed only while a picture is drawn, and then restored."""
 
 from __future__ import annotations
 
@@ -65,13 +65,13 @@ _SETTINGS: Any = {
 }
 
 
-#: Lengths in inches.
+#: Units of length in inches.
 _INCHES = {"in": 1.0, "cm": 1.0 / 2.54, "mm": 1.0 / 25.4}
 
-#: The height of a picture with one axes (inches). Pictures with several axes are higher in proportion.
+#: The height of a picture with one Axes object (inches). Pictures with several axes are higher in proportion.
 _HEIGHT = 4.0
 
-#: Narrower figures (inches) have their axes below each other.
+#: Figures narrower than this width (inches) have their axes below each other.
 NARROW = 5.0
 
 
@@ -81,27 +81,27 @@ def style(
 ) -> Iterator[None]:
     """Set the size of pictures and of their letters, for a paper or for slides.
 
-    The settings apply to figures that are drawn and saved in the ``with`` block. They are settings of matplotlib, such
-    as ``figure.figsize`` and ``font.size``, so they apply to your own figures too.
+    The settings apply to figures that are drawn and saved in the ``with`` block. The settings of `style` are settings
+    of matplotlib, such as ``figure.figsize`` and ``font.size``, so they apply to your own figures too.
 
     Parameters
     ----------
     width, height : float or str, optional
         Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
         the width is 6.4 inches. The default of the height is 1 inch plus 0.42 of the width. Figures with several axes
-        below each other are higher in proportion. If both are omitted, flap's sizes are kept.
+        below each other are higher in proportion. If both width and height are omitted, figures keep flap's sizes.
     font_size : float, optional
         Size of the letters (points). Lines and markers are thinner for letters of less than 9.5 points. Default: 8.
 
     Returns
     -------
     context manager
-        The settings are restored at the end of its ``with`` block.
+        A context manager, which restores the settings at the end of its ``with`` block.
 
     Raises
     ------
     ValueError
-        A length or a size that is not more than zero, or that has another unit.
+        A length or a font size that is not more than zero, or that has an unknown unit.
     TypeError
         A value of the wrong type.
 
@@ -158,7 +158,7 @@ def _inches(name: str, length: Any) -> float:
 
 @contextmanager
 def applied(ax: Axes | None = None) -> Iterator[None]:
-    """Apply the style of flap's pictures while one is drawn.
+    """Apply the style of flap's pictures while a picture is drawn.
 
     Settings of matplotlib that the user has changed stay. A setting counts as changed if it differs from the default of
     matplotlib. Axes that the user gives keep the style of their figure.
@@ -229,7 +229,7 @@ def figure_of(ax: Axes) -> Figure:
     return figure
 
 
-#: The place of a legend above axes, aligned with their left edge.
+#: The place of a legend above axes, aligned with the left edge of the axes.
 _ABOVE: Mapping[str, Any] = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
 
 
@@ -243,7 +243,7 @@ def legend(
     **options: Any,
 ) -> None:
     """Draw a legend if `wanted` is true: outside of new axes, or inside given axes. If `wanted` is a place, the legend
-    is inside in both cases.
+    is inside both new and given axes.
     """
     if wanted is False:
         return
@@ -257,7 +257,7 @@ def legend(
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:
     """Draw a colour bar for a map or for coloured points: beside `ax`, or in the axes `wanted`. If `wanted` is False,
-    draw none.
+    draw no colour bar.
     """
     if wanted is False:
         return None
@@ -272,7 +272,7 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """If the label of a colour bar is longer than the bar, break it into lines or make its letters smaller."""
+    """If the label of a colour bar is longer than the bar, break the label into lines or make its letters smaller."""
     if not bar.ax.yaxis.label.get_text() or bar.orientation != "vertical":
         return
     figure_of(bar.ax).draw_without_rendering()
@@ -314,7 +314,7 @@ def _fit_labels(figure: Figure) -> None:
 
 
 def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
-    """Draw a legend above axes, or in a part of a figure, with so many columns that it is not much wider."""
+    """Draw a legend above axes, or in a part of a figure, with as many columns as fit into the width of the axes."""
     part = ax.figure if isinstance(ax, Axes) else ax
     legend = draw(columns)
     if legend.get_window_extent().width <= 0.7 * part.bbox.width:
@@ -338,19 +338,19 @@ def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
-    """Draw short vertical lines at values of x, all at the same `height`, a share of the height of the axes."""
+    """Draw short vertical lines at values of x, all at the same `height`, as a share of the height of the axes."""
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
 def series() -> list[Any]:
-    """Return the colours of series. If the user changed `axes.prop_cycle`, the colours of this cycle are returned."""
+    """Return the colours of lines. If the user changed `axes.prop_cycle`, return the colours of this cycle."""
     cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
     return list(cycle) or COLOURS
 
 
 def further_shades(ax: Axes | None, count: int) -> list[Any]:
-    """Return colours for new series, which differ from the colours of the lines in the axes."""
+    """Return colours for new lines, which differ from the colours of the lines that the axes already have."""
     every = series()
     taken = [] if ax is None else [line.get_color() for line in ax.lines]
     free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every

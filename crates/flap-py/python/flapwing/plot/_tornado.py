@@ -59,8 +59,8 @@ def tornado(
     Raises
     ------
     ValueError
-        The same errors as for `sensitivities` and `rank_correlations`. There are no sensitivities, or the measure is
-        zero for the design.
+        The same errors as for `sensitivities` and `rank_correlations`. The list of sensitivities is empty, or the
+        measure is zero for the design.
     """
     if _is_table(design):
         names = None if parameters is None else list(parameters)
@@ -127,7 +127,7 @@ def tornado(
 
 
 def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Drawn:
-    """Draw bars of correlations, with the largest correlation at the top."""
+    """Draw rank correlations as bars, with the largest correlation at the top."""
     shown = found[:top]
     sizes = np.array([each.correlation for each in shown])
     places = np.arange(len(shown))
@@ -174,8 +174,8 @@ def _named(each: Sensitivity) -> str:
 
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
-    """Return the names of both changes in the legend. If the changes are equal for all parameters, the names have their
-    sizes.
+    """Return the names of the decrease and the increase of parameters for the legend. If the changes are equal for all
+    parameters, the names have the sizes of the changes.
     """
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)

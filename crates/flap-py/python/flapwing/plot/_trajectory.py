@@ -58,8 +58,8 @@ def trajectory(
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
         trajectories: a mapping of names to trajectories, or a list. Each design then has one colour.
     signals : str or sequence of str
-        The columns over time; columns with the same unit share axes. With several trajectories, each column has its own
-        axes. Default: stroke and pitch.
+        The columns to draw over time; columns with the same unit share axes. With several trajectories, each column has
+        its own axes. Default: stroke and pitch.
     portrait : sequence of str, optional
         The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
         table has no column for a rate, the rate is computed from the samples.
@@ -71,8 +71,8 @@ def trajectory(
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is above new
         axes, but inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes to draw signals of one unit in, without a portrait; of several trajectories, one signal. If they already
-        have motions, the colours continue and the legend has all lines.
+        Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
+        signal. If these axes already have motions, the colours continue and the legend has all lines.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def trajectory(
     ------
     ValueError
         An unknown column; a number of names that differs from the number of trajectories. With `ax`: signals of several
-        units, portraits, or another unit than the motions in it.
+        units, portraits, or another unit than the motions that are already in these axes.
 
     Examples
     --------
@@ -176,7 +176,7 @@ def trajectory(
 
 
 def _earlier(ax: Axes, unit: str) -> list[str]:
-    """Return the label of the vertical axis, if the axes already have motions in this unit."""
+    """Return the label of the vertical axis, if the axes already have motions in the unit `unit`."""
     told = ax.get_ylabel()
     if not told or not ax.lines:
         return []
@@ -196,14 +196,14 @@ def _factor(ax: Axes, time: Shown) -> float:
 
 
 def _numbered(label: str, ax: Axes) -> str:
-    """Return a label that no line of the axes has yet."""
+    """Return a label for a motion that no line of the axes has yet."""
     taken = [line.get_label() for line in ax.lines]
     numbers = (number for number in range(2, len(taken) + 2) if f"{label} ({number})" not in taken)
     return f"{label} ({next(numbers)})" if label in taken else label
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
-    """Return axes over time, one below the other, and axes of portraits beside them."""
+    """Return axes over time, one below the other, and the axes of phase portraits beside the axes over time."""
     rows = max(signals, portraits)
     height = 1.0 + 1.9 * rows
     if not portraits:
@@ -237,8 +237,8 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 
 
 def _common(words: list[str], unit: str) -> str:
-    """Return the label of an axis: "Angle" for degrees, the names of up to two signals, or the common last word of all
-    names.
+    """Return the label of an axis with several signals: "Angle" for degrees, the names of up to two signals, or the
+    last word of all names.
     """
     if unit == "°":
         return "Angle"

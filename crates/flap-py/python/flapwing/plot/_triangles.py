@@ -63,7 +63,7 @@ class Points:
         self.mesh = Triangulation(self.x.values, self.y.values, mesh.triangles, flat | unknown)
 
     def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
-        """Draw the triangles and the points, and return the coloured part."""
+        """Draw the triangles and the points, and return the coloured triangles."""
         values = np.nan_to_num(self.values)
         there = np.isfinite(self.values)
         look: Any = {"cmap": colours.cmap, "norm": colours.norm}
@@ -85,14 +85,14 @@ class Points:
         )
 
     def mark(self, ax: Axes, rows: np.ndarray, status: str) -> Line2D:
-        """Draw the points without a value in these rows, and return the entry of the legend."""
+        """Draw the points without a value in the rows `rows`, and return their entry of the legend."""
         look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
         label = f"{status} ({len(rows)})"
         (line,) = ax.plot(self.x.values[rows], self.y.values[rows], label=label, markersize=_style.size(0.7), **look)
         return line
 
     def finish(self, ax: Axes) -> None:
-        """Label the axes, and leave room around the points."""
+        """Label the axes of the map, and leave room around the points."""
         for shown, log, which in zip((self.x, self.y), self.logs, "xy"):
             low, high = float(shown.values.min()), float(shown.values.max())
             if log:
@@ -103,5 +103,5 @@ class Points:
             ax.set(**{f"{which}label": shown.label, f"{which}lim": ends})
 
     def place(self, row: int) -> tuple[float, float]:
-        """Return the place of a row."""
+        """Return the place of a row's point in the picture."""
         return float(self.x.values[row]), float(self.y.values[row])

@@ -72,9 +72,10 @@ def wing_path(
 ) -> WingPath:
     """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
 
-    The dot is the leading edge, which is up, and the line ends at the trailing edge. The length of the arrow shows the
-    lift; the arrow points down if the lift is negative. Below the wing, curves show stroke and pitch over the cycle.
-    Keep the returned object until you have saved or shown it: ``plot.wing_path(trajectory).save("cycle.gif")``.
+    The dot is the leading edge of the wing, which is up, and the line ends at the trailing edge. The length of the
+    arrow shows the lift; the arrow points down if the lift is negative. Below the wing, curves show stroke and pitch
+    over the cycle. Keep the returned object until you have saved or shown it:
+    ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
     ----------
@@ -83,12 +84,13 @@ def wing_path(
     frames : int
         Number of frames in the cycle. The frames are evenly spaced in time.
     frequency : float, optional
-        Cycles per second (Hz). Default: the rate at which the motion repeats.
+        Frequency of the cycles (Hz). Default: the rate at which the motion repeats.
     radius : float, optional
         Distance of the drawn chord from the stroke axis, in chords. Default: 3. If the peak-to-peak stroke is less than
         11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
     lift : str or None
-        The column that the arrow shows; None for no arrow. There is no arrow if the default column is missing.
+        The column that the arrow shows; None for no arrow. Without `lift`, the picture has no arrow if the default
+        column is missing.
     pitch_sign : {1, -1}, optional
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
         lags (1) or leads (-1). Default: the convention of the model of the table. For a table without a model, the
@@ -125,7 +127,7 @@ def wing_path(
 
 
 class _Cycle:
-    """The resampled last cycle of a trajectory. Phases are from 0 to 1."""
+    """The resampled last cycle of a trajectory. The phase rises from 0 to 1."""
 
     def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
         t, stroke, pitch = (data.numbers(name) for name in ("time_s", "stroke_deg", "pitch_deg"))
@@ -145,7 +147,7 @@ class _Cycle:
 
 
 class _Scene:
-    """The parts of the picture: fixed parts, and parts that move in every frame."""
+    """The parts of the animation: fixed parts, and parts that move in every frame."""
 
     def __init__(self, cycle: _Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
         self.cycle = cycle
@@ -218,7 +220,7 @@ class _Scene:
         return ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
 
     def draw(self, frame: int) -> list[Any]:
-        """Move all parts to a frame."""
+        """Move all parts of the animation to their places in a frame."""
         cycle = self.cycle
         spacing = max(1, round(_APART * cycle.frames))
         ago = [(frame - i * spacing) % cycle.frames for i in range(_PAST, 0, -1)]
