@@ -87,7 +87,7 @@ class Search:
         self.known: Any = None
 
     def row(self, x: Any) -> Any:
-        """[-lift per watt, room to each limit] and the derivatives of all by the shares."""
+        """[-lift per watt, room to each limit] and the derivatives of all with respect to the shares."""
         if self.at is None or not np.array_equal(self.at, x):
             table = rows(x[None, :], self.count, gradient=True)
             slopes = table.gradient[0] * np.array([BASE[name] for name in VARIABLES])

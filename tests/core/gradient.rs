@@ -63,8 +63,8 @@ fn gradient(model: &dyn Simulator, values: &[f64], row: &Row, indices: &[usize])
     model.motions().unwrap().gradient(&run, &row.state, &changes).unwrap()
 }
 
-/// Richardson's extrapolation of two-sided differences of converged orbits: the derivative by a share of the parameter, of each
-/// measure.
+/// Richardson's extrapolation of two-sided differences of converged orbits: the derivative of each measure with respect to
+/// a share of the parameter.
 fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usize) -> Option<Vec<f64>> {
     let designs = [1.0, -1.0, 0.5, -0.5, 0.25, -0.25].map(|share| moved(values, index, share * STEP));
     // From the orbit, lest motions from rest settle on another.
@@ -178,7 +178,8 @@ fn equal_extrema_of_both_half_strokes_have_a_kink() {
     }
 }
 
-/// A transmission whose ratio does not grow runs on fewer terms: its derivative by the growth is that of all terms.
+/// A transmission whose ratio does not grow runs on fewer terms: its derivative with respect to the growth is that of all
+/// terms.
 #[test]
 fn a_term_that_is_zero_has_a_derivative() {
     let (model, preset) = preset("jafferis2016").unwrap();

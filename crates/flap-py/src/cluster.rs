@@ -33,7 +33,7 @@ pub(crate) fn part<'py>(
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }
 
-/// Return the identity of this process: `build` (a hash of the sources) and `arithmetic`. It determines the bits of rows.
+/// Return the identity of this process: `build` (a hash of the sources) and `arithmetic`, which determine the bits of rows.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);

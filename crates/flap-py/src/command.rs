@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 /// The exit code of a panic in Rust programs.
 const PANICKED: u8 = 101;
 
-/// Run a command line and return the exit code. The first word is the name of the program.
+/// Run a command line and return its exit code. The first word of the line is the name of the program.
 #[pyfunction]
 pub(crate) fn command(py: Python<'_>, line: Vec<OsString>) -> u8 {
     py.detach(|| {

@@ -72,7 +72,7 @@ pub(crate) fn evaluate<'py>(
     sweep::into_columns(py, &plan, &options, progress, None)
 }
 
-/// Check that a design accepts these keywords and has these measures. The errors are the errors of `evaluate`.
+/// Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `evaluate`.
 #[pyfunction]
 #[pyo3(signature = (design, /, *, keywords, measures=None))]
 pub(crate) fn check(
@@ -125,7 +125,7 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the plan whose rows have derivatives by these parameters.
+/// Returns the plan whose rows have derivatives with respect to these parameters.
 fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let mut by = Vec::with_capacity(names.len());
     for name in names {

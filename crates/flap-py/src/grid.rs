@@ -125,8 +125,8 @@ impl Grid {
         self.plan.simulator().name()
     }
 
-    /// The axes; the last axis varies fastest. Each dictionary has the parameters that vary together along the axis, with
-    /// their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+    /// The axes of the grid; the last axis varies fastest. Each dictionary has the parameters that vary together along an axis,
+    /// with their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
     #[getter]
     pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         axes(py, &self.plan)
@@ -160,7 +160,7 @@ impl Grid {
 /// looked_at : int
 ///     Number of points for which the conditions were evaluated.
 /// excluded : int
-///     Number of these points that do not satisfy all conditions.
+///     Number of evaluated points that do not satisfy all conditions.
 /// unsatisfied : dict of str to int
 ///     Conditions, each with the number of points that do not satisfy this condition.
 #[pyclass(frozen, get_all, module = "flapwing")]

@@ -16,7 +16,7 @@ const MOST_LEVELS: usize = 64;
 /// The types that an entry of a grid can have, for messages.
 const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
-/// Return the text of a grid file with these entries.
+/// Return the text of a grid file with the entries `entries`.
 #[pyfunction]
 #[pyo3(signature = (entries, /))]
 pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {

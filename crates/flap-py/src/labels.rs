@@ -32,8 +32,8 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
 
 /// Return the unit of a column, or empty text if the unit is unknown.
 ///
-/// If a model has a parameter, measure or derivative with this name, its unit is returned. Otherwise the unit at the end of
-/// the name is returned.
+/// If `name` is a parameter, a measure or a derivative of a model, the unit of this quantity is returned. For all other names,
+/// the unit at the end of the name is returned.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {

@@ -38,13 +38,13 @@ impl LiveServer {
         Ok(LiveServer { server: Mutex::new(server) })
     }
 
-    /// The address of the page, with a secret token.
+    /// The address of the live page, with a secret token.
     #[getter]
     fn address(&self) -> String {
         self.lock().address().to_owned()
     }
 
-    /// Stop the server.
+    /// Stop the server of the live page.
     fn stop(&self, py: Python<'_>) {
         py.detach(|| self.lock().stop());
     }

@@ -16,7 +16,7 @@ pub(crate) struct Origins {
     sources: BTreeMap<String, String>,
 }
 
-/// Return the description of a design, which may be empty, and the sources of parameters by name.
+/// Return the description of a design, which may be empty, and the sources of its parameters by name.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
 pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<Origins> {

@@ -69,7 +69,7 @@ pub(crate) struct Ways {
 
 type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
 
-/// Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
+/// Return the bands in which the branches up and down differ, and the rows after which each branch jumps.
 ///
 /// `up` and `down` are the branches: arrays of the parameter, of the measure, and of the column `bistable`.
 #[pyfunction]

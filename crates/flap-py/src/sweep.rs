@@ -27,8 +27,8 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 
 /// Run a grid; see `flapwing.sweep`.
 ///
-/// `chunks` is a function that returns rows of other processes. Its argument is the number of points done, and it returns
-/// the bytes of the next chunk of rows.
+/// `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of points done, and
+/// the result is the next chunk of rows as bytes.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(

@@ -37,7 +37,7 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
-    /// Largest change of the state per drive period at which an orbit counts as settled
+    /// Largest change of the states in one drive period of a settled motion, relative to the states' typical sizes (see the manual, Grid files)
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 

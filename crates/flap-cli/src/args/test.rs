@@ -107,7 +107,7 @@ pub(crate) struct ImpulseArgs {
 }
 
 const IMPULSE_HELP: &str = "\
-During the motion, the drive voltage is constant. At this voltage, the wing can rest with zero stroke and pitch: see the manual, How to, Resonance.
+During the motion, the drive voltage is constant: the voltage at which a wing at rest has zero stroke and pitch (see the manual, How to, Resonance).
 
 Examples:
   flap test impulse ozaki2018-small

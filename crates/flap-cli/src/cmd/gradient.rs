@@ -28,7 +28,7 @@ pub(super) fn measure(chosen: &Chosen, column: &str) -> Result<usize, Failure> {
 /// Columns of the derivatives in csv and json.
 const NAMES: [&str; 5] = ["parameter", "value", "unit", "change_per_pct", "reason"];
 
-/// The derivatives of a measure by all parameters.
+/// The derivatives of a measure with respect to all parameters.
 pub(super) struct Gradient<'c> {
     column: &'c Column,
     /// The measure at the point.

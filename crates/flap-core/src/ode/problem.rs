@@ -39,7 +39,7 @@ pub trait Ode<const N: usize>: Sync {
         t.lit(f64::INFINITY)
     }
 
-    /// Returns the switching function and its derivative by time, at a state with derivative `dy`.
+    /// Returns the switching function and its derivative with respect to time, at a state with derivative `dy`.
     ///
     /// The function is continuous along a motion; its derivative may jump. For a friction torque against the rate `y[1]`,
     /// return `[y[1], dy[1]]`.

@@ -108,7 +108,8 @@ fn modes(plan: &Plan, values: &[f64]) -> Option<Vec<Mode>> {
     Some(modes.map(|mode| Mode { name: mode.name, frequency_hz: mode.frequency }).collect())
 }
 
-/// Returns the derivatives of a measure by all parameters that can change, or the reason why there are none.
+/// Returns the derivatives of a measure with respect to all parameters that can change, or the reason why the measure
+/// has no derivatives.
 fn slopes(plan: &Plan, run: &PointRun<'_>, row: &Row, measure: &str) -> Result<Vec<Slope>, String> {
     let columns = plan.simulator().columns();
     let place = columns.iter().position(|column| column.name == measure);

@@ -186,8 +186,8 @@ class Grid:
 
     @property
     def axes(self) -> list[dict[str, Any]]:
-        """The axes; the last axis varies fastest. Each dictionary has the parameters that vary together along the axis, with
-        their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+        """The axes of the grid; the last axis varies fastest. Each dictionary has the parameters that vary together along an axis,
+        with their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
         """
 
     @property
@@ -213,7 +213,7 @@ class Exclusions:
     looked_at : int
         Number of points for which the conditions were evaluated.
     excluded : int
-        Number of these points that do not satisfy all conditions.
+        Number of evaluated points that do not satisfy all conditions.
     unsatisfied : dict of str to int
         Conditions, each with the number of points that do not satisfy this condition.
     """
@@ -244,7 +244,7 @@ def uncertainty(design: Any, /) -> NativeUncertainty:
     """Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs of parameters."""
 
 def origins(design: Any, /) -> NativeOrigins:
-    """Return the description of a design, which may be empty, and the sources of parameters by name."""
+    """Return the description of a design, which may be empty, and the sources of its parameters by name."""
 
 def states(design: Any, /) -> list[str]:
     """Return the names of the states in the equations of motion of a design or a model. Each name ends with the unit."""
@@ -298,10 +298,10 @@ class LiveServer:
     ) -> LiveServer: ...
     @property
     def address(self) -> str:
-        """The address of the page, with a secret token."""
+        """The address of the live page, with a secret token."""
 
     def stop(self) -> None:
-        """Stop the server."""
+        """Stop the server of the live page."""
 
 def resonance(
     design: Any,
@@ -374,10 +374,10 @@ def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None =
     """Compute stroke and pitch of a filmed wing; see `flapwing.track_wing`."""
 
 def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
-    """Check that a design accepts these keywords and has these measures. The errors are the errors of `evaluate`."""
+    """Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `evaluate`."""
 
 def text_of(entries: dict[str, Any], /) -> str:
-    """Return the text of a grid file with these entries."""
+    """Return the text of a grid file with the entries `entries`."""
 
 def evaluate(
     design: Any,
@@ -445,18 +445,18 @@ def sweep(
 ) -> NativeTable:
     """Run a grid; see `flapwing.sweep`.
 
-    `chunks` is a function that returns rows of other processes. Its argument is the number of points done, and it returns
-    the bytes of the next chunk of rows.
+    `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of points done, and
+    the result is the next chunk of rows as bytes.
     """
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
     """Run the points from `begin` to before `end`. Return the rows as bytes, which the function `chunks` of `sweep` may return."""
 
 def identity() -> NativeIdentity:
-    """Return the identity of this process: `build` (a hash of the sources) and `arithmetic`. It determines the bits of rows."""
+    """Return the identity of this process: `build` (a hash of the sources) and `arithmetic`, which determine the bits of rows."""
 
 def command(line: list[str]) -> int:
-    """Run a command line and return the exit code. The first word is the name of the program."""
+    """Run a command line and return its exit code. The first word of the line is the name of the program."""
 
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable:
     """Read a result file; see `flapwing.read`."""
@@ -473,8 +473,8 @@ def scale(unit: str, largest: float, /) -> tuple[float, str]:
 def unit_of(name: str, /) -> str:
     """Return the unit of a column, or empty text if the unit is unknown.
 
-    If a model has a parameter, measure or derivative with this name, its unit is returned. Otherwise the unit at the end of
-    the name is returned.
+    If `name` is a parameter, a measure or a derivative of a model, the unit of this quantity is returned. For all other names,
+    the unit at the end of the name is returned.
     """
 
 def split_unit(name: str, /) -> tuple[str, str]:
@@ -507,7 +507,7 @@ def ways(
     down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     /,
 ) -> NativeWays:
-    """Return the bands in which the branches up and down differ, and the rows of each branch after which it jumps.
+    """Return the bands in which the branches up and down differ, and the rows after which each branch jumps.
 
     `up` and `down` are the branches: arrays of the parameter, of the measure, and of the column `bistable`.
     """

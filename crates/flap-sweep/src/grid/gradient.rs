@@ -1,4 +1,4 @@
-//! Section `[gradient]`: columns with the derivatives of measures by parameters.
+//! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;

@@ -33,9 +33,9 @@ crate::parameters! {
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
-        /// Length of the actuator. The value is assumed, and determines the force of the drive.
+        /// Length of the actuator, which determines the actuator force. The value is assumed.
         actuator_length: f64 = ("m", "L", Number(Positive)) 16e-3,
-        /// Width of the actuator, which is uniform. The value is assumed, and determines the force of the drive.
+        /// Width of the actuator, which is uniform and determines the actuator force. The value is assumed.
         actuator_width: f64 = ("m", "w", Number(Positive)) 18e-3,
         /// Thickness of the piezoelectric layer. The value is assumed: the thickness of a commercial sheet.
         piezo_thickness: f64 = ("m", "h_p", Number(Positive)) 127e-6,
@@ -61,8 +61,8 @@ crate::parameters! {
         /// Stiffness of the spring between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)) 1400.0,
 
-        /// Radius of the slider-crank on the input link. The value is assumed: the radius was adjusted to the first
-        /// resonance.
+        /// Radius of the slider-crank on the input link. The value is assumed: the radius is chosen so that the first
+        /// resonance agrees with the paper.
         crank_radius: f64 = ("m", "L_c", Number(Positive)) 3.285e-3,
         /// Length of the connecting rod of the slider-crank. The value is assumed.
         connecting_rod: f64 = ("m", "L_s", Number(Positive)) 5e-3,
@@ -130,8 +130,8 @@ crate::parameters! {
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Distance of the rotation axis from the leading edge, in chords.
         axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
-        /// Mass of the wing. The value is assumed: the mass of spar, veins and membrane, scaled to the second
-        /// resonance.
+        /// Mass of the wing. The value is assumed: the mass of spar, veins and membrane, chosen so that the second
+        /// resonance of the 75 Hz system agrees with the paper.
         wing_mass: f64 = ("kg", "m_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 9.577e-6,
         /// Distance of the wing's centre of mass from the stroke axis. The value is assumed.
         mass_centre_radius: f64 = ("m", "R_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 15.22e-3,

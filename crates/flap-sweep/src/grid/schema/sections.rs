@@ -92,7 +92,7 @@ pub(super) fn about(section: &str) -> &'static str {
         "derived" => "Parameters that follow from others by a formula in SI units.",
         "where" => "Conditions on the points: flap runs only points that satisfy all conditions.",
         "measure" => "Additional columns, computed from measures and parameters.",
-        "gradient" => "Columns with derivatives of measures by parameters.",
+        "gradient" => "Columns with derivatives of measures with respect to parameters.",
         "solver" => "Settings of the integrator and of the search for settled motions.",
         "output" => "The file for the rows, and the columns of this file.",
         _ => "",

@@ -62,7 +62,8 @@ pub struct Problem {
     pub(super) plan: Plan,
     /// The plan whose rows have the number and both sides of each limit behind their measures, and no conditions that are limits.
     pub(super) measured: Plan,
-    /// The same with derivatives of these measures by the parameters of the region; `None` if rows have no derivatives.
+    /// The same plan with derivatives of these measures with respect to the parameters of the region; `None` if rows have
+    /// no derivatives.
     pub(super) sloped: Option<Plan>,
     pub(super) region: Region,
     pub(super) aim: Aim,
