@@ -130,8 +130,8 @@ crate::parameters! {
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Distance of the rotation axis from the leading edge, in chords.
         axis_position: f64 = ("", "z_RA/c", Number(Any)) 0.25,
-        /// Mass of the wing. The value is assumed: the mass of spar, veins and membrane, chosen so that the second
-        /// resonance of the 75 Hz system agrees with the paper.
+        /// Mass of the wing: spar, veins and membrane. The value is assumed, so that the second resonance of the 75 Hz
+        /// system agrees with the paper.
         wing_mass: f64 = ("kg", "m_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 9.577e-6,
         /// Distance of the wing's centre of mass from the stroke axis. The value is assumed.
         mass_centre_radius: f64 = ("m", "R_CG", Number(Any), scales_with: &[("wing_length", 1.0)]) 15.22e-3,

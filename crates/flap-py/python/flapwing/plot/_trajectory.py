@@ -237,8 +237,8 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 
 
 def _common(words: list[str], unit: str) -> str:
-    """Return the label of an axis with several signals: "Angle" for degrees, the names of up to two signals, or the
-    last word of all names.
+    """Return the label of an axis with several signals: "Angle" for degrees, up to two names of signals, or the last
+    word of all names.
     """
     if unit == "°":
         return "Angle"
