@@ -37,7 +37,7 @@ pub(crate) fn print(effort: Effort) {
          | points per second, one thread | {} |\n| points per second, two threads | {} |\n| speed with two threads divided by speed with one thread | {} |\n\
          | time to write the CSV file, in % of the time of the sweep on one thread | {} |\n\
          | time to read the CSV file, in % of the time of the sweep on one thread | {} |\n\
-         | lanes in use during marching, integration of derivatives and measurement; lanes in use in all steps | {lane_use} |\n",
+         | share of lane steps that a point needed: during marching, responses and measuring; in all steps | {lane_use} |\n",
         plan.len(),
         Spread::of(one.iter().map(|seconds| plan.len() as f64 / seconds)),
         Spread::of(two.iter().map(|seconds| plan.len() as f64 / seconds)),
