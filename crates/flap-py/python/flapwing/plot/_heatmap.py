@@ -89,9 +89,10 @@ def heatmap(
         with ``reduce="min"``. Without these options, the best cell has the smallest value for costs such as power, and
         the largest value for other measures.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor selected nor reduced is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected nor reduced, the picture has only the rows at its middle value. A warning shows this
+        value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
         axes, but inside axes that you give.

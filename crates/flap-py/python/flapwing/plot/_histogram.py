@@ -44,9 +44,9 @@ def histogram(
     percentiles : iterable of float, optional
         Percentages from 0 to 100, each with a line. Default: 5, 50 and 95, as in ``flap plot``.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     legend : bool or str
         False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
         axes that you give. The legend contains the mean and the standard deviation.

@@ -54,9 +54,9 @@ def response(
         The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
         axis. If several results are given, each result has one line.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     label : sequence of str, optional
         The names of a list of results in the legend. Default: the numbers of the results.
     legend : bool or str
@@ -133,9 +133,9 @@ def response_panels(
         The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
         axis. If several results are given, each result has one line.
     where, **slices
-        Values that columns must have, which select a slice of the grid: numbers in SI units, text with units, or words.
-        Give these values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. An axis that is
-        neither drawn nor selected is fixed at its middle value, and a warning shows this value.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
+        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
     label : sequence of str, optional
         The names of a list of results in the legend. Default: the numbers of the results.
     legend : bool or str
