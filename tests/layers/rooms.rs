@@ -34,6 +34,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "resonance",
             "plan",
             "table",
+            "refine",
             "picture",
             "grid",
             "run",

@@ -9,6 +9,7 @@
 //! - [`resonance`]: rows of designs, each at its own resonance
 //! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections
 //! - [`table`]: columns of rows, rows as text, formats of files
+//! - [`refine`]: the points that a refined grid adds after the points of its axes
 //! - [`picture`]: choices that the pictures of the command and of Python share
 //! - [`grid`]: grid files to plans, with diagnostics
 //! - [`run`]: the parallel runner, which passes rows to sinks in the order of the points
@@ -21,6 +22,7 @@ pub mod input;
 pub mod notation;
 pub mod picture;
 pub mod plan;
+pub mod refine;
 pub mod resonance;
 pub mod run;
 pub mod study;

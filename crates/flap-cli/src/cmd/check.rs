@@ -9,6 +9,7 @@ use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axes::Values;
+use flap_sweep::plan::refine::{Error, Limit, Refine};
 use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::Range;
@@ -43,17 +44,25 @@ fn rows(plan: &Plan, args: &CheckArgs) -> Vec<Vec<String>> {
         vec![section.to_owned(), name.to_owned(), key.to_owned(), value]
     };
     let excluded = Excluded::of(plan);
-    let estimate = estimate::of(
-        plan,
-        args.shard.map_or(excluded.runs, |shard| excluded.runs.div_ceil(shard.of())),
-        args.threads,
-    );
+    let estimate = estimate::of(plan, excluded.runs, args.shard, args.threads);
     let mut rows = vec![
         row("sweep", "", "model", plan.simulator().name().to_owned()),
         row("sweep", "", "preset", plan.preset().to_owned()),
         row("sweep", "", "points", plan.len().to_string()),
         row("sweep", "", "points_run", excluded.runs.to_string()),
     ];
+    if let Some(refine) = plan.refine() {
+        for Limit { column, error } in &refine.measures {
+            rows.push(row("refine", column, "error", error_text(*error)));
+        }
+        for &along in &refine.along {
+            for parameter in names(plan, along) {
+                rows.push(row("refine", parameter, "along", (along + 1).to_string()));
+            }
+        }
+        rows.push(row("refine", "", "max_points", refine.max_points.to_string()));
+        rows.push(row("refine", "", "halvings", refine.halvings.to_string()));
+    }
     if let Some(path) = &plan.output().path {
         rows.push(row("sweep", "", "path", path.display().to_string()));
     }
@@ -105,6 +114,7 @@ fn page(plan: &Plan, args: &CheckArgs) -> String {
         page += "\n";
         page += &ends(plan);
     }
+    page += &plan.refine().map(|refine| refinement(plan, refine)).unwrap_or_default();
     page += &deviations(plan);
     page += &links(&linked::of(plan));
     if let Some(resonance) = plan.resonance() {
@@ -118,11 +128,7 @@ fn page(plan: &Plan, args: &CheckArgs) -> String {
     if let Some(path) = &plan.output().path {
         let _ = write!(page, "\nrows go to {}\n", path.display());
     }
-    let estimate = estimate::of(
-        plan,
-        args.shard.map_or(excluded.runs, |shard| excluded.runs.div_ceil(shard.of())),
-        args.threads,
-    );
+    let estimate = estimate::of(plan, excluded.runs, args.shard, args.threads);
     for line in estimate.line().into_iter().chain(estimate.invalid) {
         let _ = write!(page, "\n{}\n", wrapped(&line, 0));
     }
@@ -157,6 +163,37 @@ fn axes(plan: &Plan) -> String {
         }
     }
     table.text_within(console::width())
+}
+
+/// Returns a line about the points that the refinement may add.
+fn refinement(plan: &Plan, refine: &Refine) -> String {
+    let limits = refine.measures.iter().map(|Limit { column, error }| {
+        let of = if matches!(error, Error::Share(_)) { " of its range" } else { "" };
+        format!("{column} errs by at most {}{of}", error_text(*error))
+    });
+    let limits: Vec<String> = limits.collect();
+    let along: Vec<&str> = refine.along.iter().flat_map(|&along| names(plan, along)).collect();
+    let line = format!(
+        "[refine] adds points to these {} along {}, up to {} in total, until linear interpolation of {}",
+        text::count(plan.axes().points(), "uniform point"),
+        along.join(" and "),
+        refine.max_points,
+        limits.join(", and of ")
+    );
+    format!("\n{}\n", wrapped(&line, 0))
+}
+
+/// Returns the names of the parameters of an axis.
+fn names(plan: &Plan, axis: usize) -> impl Iterator<Item = &str> {
+    plan.axes().as_slice()[axis].parameters().iter().map(|(index, _)| plan.parameters()[*index].name)
+}
+
+/// Returns the largest error of a measure as text, in the form of a grid file.
+fn error_text(error: Error) -> String {
+    match error {
+        Error::Share(share) => format!("{} %", 100.0 * share),
+        Error::Absolute(error) => error.to_string(),
+    }
 }
 
 /// Returns a table of the parameters that differ from the preset; empty if none does.

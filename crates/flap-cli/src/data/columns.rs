@@ -15,6 +15,19 @@ pub(crate) struct Table {
     pub(crate) of: usize,
     /// Parameters of the sample, if the sidecar lists them.
     pub(crate) sample: Vec<String>,
+    /// Axes along which points were added between the values, if the sidecar lists them.
+    pub(crate) refined: Vec<RefinedAxis>,
+}
+
+/// An axis along which points were added between the values.
+#[derive(Clone)]
+#[cfg_attr(not(feature = "plots"), expect(dead_code, reason = "only pictures use it"))]
+pub(crate) struct RefinedAxis {
+    pub(crate) name: String,
+    /// True if its values have a constant ratio.
+    pub(crate) log: bool,
+    /// Number of cells between its values in the grid file.
+    pub(crate) cells: u64,
 }
 
 /// A column of a file.
@@ -92,7 +105,13 @@ pub(crate) mod tests {
         };
         let first = column("point", (0..rows).map(|row| row as f64).collect());
         let rest = columns.iter().map(|(name, values)| column(name, values.to_vec()));
-        Table { columns: std::iter::once(first).chain(rest).collect(), rows, of: rows, sample: Vec::new() }
+        Table {
+            columns: std::iter::once(first).chain(rest).collect(),
+            rows,
+            of: rows,
+            sample: Vec::new(),
+            refined: Vec::new(),
+        }
     }
 
     /// Returns a table with the axes `v` and `f` (fastest), a column that follows from `v`, and a constant column.

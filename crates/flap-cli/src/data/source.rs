@@ -13,7 +13,7 @@ use flap_sweep::plan::axes::Values;
 use flap_sweep::table::labels;
 use flap_sweep::table::layout::Layout;
 
-use super::columns::{self, Cells, Column, NO_WORD, Table};
+use super::columns::{self, Cells, Column, NO_WORD, RefinedAxis, Table};
 use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
@@ -27,6 +27,8 @@ pub(crate) struct Source {
     units: Units,
     /// Parameters of the sample, if the sidecar lists them.
     sample: Vec<String>,
+    /// Refined axes, if the sidecar lists them.
+    refined: Vec<RefinedAxis>,
     path: PathBuf,
     tells: bool,
 }
@@ -51,7 +53,8 @@ impl Source {
         let plan = plan_beside(path, sidecar.as_ref());
         let units = Units::of(plan.as_ref());
         let sample = plan.as_ref().map(sampled).unwrap_or_default();
-        Ok(Source { reader, units, sample, path: path.to_owned(), tells })
+        let refined = plan.as_ref().map(refined).unwrap_or_default();
+        Ok(Source { reader, units, sample, refined, path: path.to_owned(), tells })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -129,7 +132,7 @@ impl Source {
             let unit = self.units.of_column(&name);
             Column { name, unit, cells: gathered.cells }
         });
-        Ok(Table { columns: columns.collect(), rows, of, sample: self.sample })
+        Ok(Table { columns: columns.collect(), rows, of, sample: self.sample, refined: self.refined })
     }
 }
 
@@ -217,6 +220,18 @@ fn sampled(plan: &Plan) -> Vec<String> {
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
     let sampled = plan.axes().parameters().filter(|(_, values)| is_sampled(values));
     sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect()
+}
+
+/// Returns the axes along which the refinement of a plan adds points.
+fn refined(plan: &Plan) -> Vec<RefinedAxis> {
+    let along = plan.refine().map(|refine| refine.along.as_slice()).unwrap_or_default();
+    let parameters = along.iter().flat_map(|&axis| plan.axes().as_slice()[axis].parameters());
+    let axis = |(parameter, values): &(usize, Values)| RefinedAxis {
+        name: plan.parameters()[*parameter].name.to_owned(),
+        log: matches!(values, Values::Log { .. }),
+        cells: values.len() - 1,
+    };
+    parameters.map(axis).collect()
 }
 
 /// The units of columns: from the sidecar's plan, else from models and endings of names.

@@ -11,7 +11,7 @@ pub(crate) use flap_sweep::files::job::{Begin, to_resume};
 pub(crate) use make::{make, stdout};
 pub(crate) use open::{
     open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, require_own_sidecar, tell,
-    tell_missed,
+    tell_missed, with_refinement,
 };
 pub(crate) use run::{complete, run, run_and_summarize, work};
 pub(crate) use verdicts::{Lines, Verdicts};

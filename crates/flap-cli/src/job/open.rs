@@ -3,12 +3,15 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
+use csv::StringRecord;
 use flap_sweep::files::beside::{journal_of, sidecar_of};
 use flap_sweep::files::integrity::{self, Damage, Note, OnDamage, Opened};
 use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::sidecar::{PlanError, Sidecar, SidecarError, State};
 use flap_sweep::plan::Plan;
+use flap_sweep::refine;
+use flap_sweep::run::Summary;
 
 use crate::args::ReadArgs;
 use crate::console;
@@ -108,6 +111,30 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     let (plan, sidecar) = recorded(results, read.on_damage())?;
     require_own_sidecar(results, &sidecar)?;
     Ok((open(results, read)?, plan, sidecar))
+}
+
+/// Returns the plan of results with the points that its refinement added, if `point` is one of them.
+///
+/// These points follow from the rows.
+pub(crate) fn with_refinement(
+    plan: Plan,
+    results: &Path,
+    sidecar: &Sidecar,
+    point: Option<u64>,
+) -> Result<Plan, Failure> {
+    let Some(point) = point.filter(|point| plan.refine().is_some() && *point >= plan.len()) else {
+        return Ok(plan);
+    };
+    let done = sidecar.summary.as_ref().map_or(point + 1, Summary::done);
+    let unreadable =
+        |error| Failure::System(format!("cannot read {}: {error}", results.display()), Vec::new());
+    let mut reader = integrity::open(results, OnDamage::Refuse)?.reader;
+    let rows = std::iter::from_fn(|| {
+        let mut row = StringRecord::new();
+        reader.next(&mut row).map(|found| found.then_some(row)).transpose()
+    });
+    let replayed = refine::replay(&plan, done, rows).map_err(unreadable)?;
+    Ok(replayed.map_or(plan, |(plan, _)| plan))
 }
 
 /// Prints a warning about the rows of damaged results that were left out.

@@ -8,6 +8,7 @@ use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::count;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Selection;
+use flap_sweep::refine::Refined;
 use flap_sweep::run::{InvalidPoint, Warnings};
 use flap_sweep::table::layout::Layout;
 
@@ -29,6 +30,14 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     if summary.excluded > 0 {
         console::say(&exclusion::text(summary.excluded, &summary.unsatisfied));
     }
+    if let Some(refined) = &summary.refined {
+        console::say(&refinement(refined));
+    } else if plan.refine().is_some() && matches!(plan.selection(), Selection::Shard(_)) {
+        console::say(
+            "shards contain the points of the axes only: after `flap results merge`, \
+             `flap results resume` adds the points of [refine] to the merged file",
+        );
+    }
     // An interrupted sweep must be continued first.
     if !summary.is_interrupted() {
         report_warnings(plan, done);
@@ -42,6 +51,21 @@ pub(super) fn report(plan: &Plan, done: &Done) {
     } else {
         console::say(&format!("{} in {to}", count(summary.rows, "row")));
     }
+}
+
+/// Returns a line about the points that the refinement of a grid added.
+fn refinement(refined: &Refined) -> String {
+    let Refined { rounds, added, boxes, above, is_limited } = *refined;
+    let added = format!("{} added in {}", count(added, "point"), count(rounds, "round"));
+    if above == 0 {
+        return format!("{added}: the estimated interpolation error is below `error` in all {boxes} boxes");
+    }
+    let why = if is_limited {
+        "`max_points` is reached"
+    } else {
+        "they contain jumps and are halved `halvings` times"
+    };
+    format!("{added}: the estimated interpolation error is above `error` in {above} of {boxes} boxes ({why})")
 }
 
 /// Prints the numbers of rows with reduced accuracy or reliability, with advice.

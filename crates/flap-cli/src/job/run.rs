@@ -78,7 +78,8 @@ pub(crate) fn run_and_summarize(
             let are = if lost == 1 { "row is" } else { "rows are" };
             console::say(&format!("{lost} {are} missing from {place} and will be computed again"));
         }
-        console::say(&format!("{} of {} points of {place} are done", before.done(), plan.selected()));
+        let points = before.points.max(plan.selected());
+        console::say(&format!("{} of {points} points of {place} are done", before.done()));
     }
     let mut verdicts = Verdicts::of(plan, format, Lines::StdoutBesideFile);
     let ran = self::work(plan, &job.options.run, before, writing.sink(), verdicts.as_mut());
@@ -132,8 +133,7 @@ pub(crate) fn work(
     let (ended, bar) = match Responses::of(plan) {
         None => {
             let mut bar = Bar::new("points");
-            let run = run::rows(plan, options, output.done());
-            (write_rows(run, &mut output, &mut bar, &stop), bar)
+            (write_rounds(options, &mut output, &mut bar, &stop), bar)
         }
         Some(responses) => {
             let mut bar = Bar::new("curves");
@@ -144,6 +144,22 @@ pub(crate) fn work(
     let summary = output.finish(ended);
     bar.clear();
     summary
+}
+
+/// Writes the rows of all points, and of the points that the refinement of the plan adds.
+fn write_rounds(
+    options: &RunOptions,
+    output: &mut RowWriter<'_>,
+    bar: &mut Bar,
+    stop: &AtomicBool,
+) -> Result<(), RunError> {
+    loop {
+        let run = run::rows(output.plan(), options, output.done());
+        write_rows(run, output, bar, stop)?;
+        if stop.load(Ordering::Relaxed) || !output.next_round() {
+            return Ok(());
+        }
+    }
 }
 
 fn write_rows(

@@ -5,6 +5,7 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
 use flap_sweep::picture::colours;
+use flap_sweep::picture::nearest::nearest;
 
 use super::ink;
 use super::panel::{Axis, Panel};
@@ -12,7 +13,7 @@ use super::scale;
 use super::selection::{Columns, Selection};
 use super::shades::{self, Shades};
 use crate::args::Size;
-use crate::data::columns::Table;
+use crate::data::columns::{RefinedAxis, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
@@ -39,10 +40,14 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         return Err(Failure::Bug("a map without a colour".to_owned()));
     };
     let branch = table.columns.iter().position(|column| column.name == "branch");
-    let grid = match branch.map(|branch| branch + 1) {
-        Some(followed) if followed == x => curves(table, selection, [x, y], color)?,
-        Some(followed) if followed == y => curves(table, selection, [y, x], color)?.turned(),
-        _ => grid(table, selection, color)?,
+    let followed = branch.map(|branch| branch + 1);
+    // Parameters whose values differ from line to line.
+    let [free_x, free_y] = [x, y].map(|column| followed == Some(column) || axis_of(table, column).is_some());
+    let grid = match (free_x, free_y) {
+        (true, true) => scattered(table, selection, color)?,
+        (true, false) => curves(table, selection, [x, y], color)?,
+        (false, true) => curves(table, selection, [y, x], color)?.turned(),
+        (false, false) => grid(table, selection, color)?,
     };
     let label = table.label(color);
     let Some(range) = scale::range(grid.cells.iter().map(|cell| cell.value)) else {
@@ -75,6 +80,92 @@ impl Grid {
     }
 }
 
+/// Returns the refined axis of a column, if it has one.
+fn axis_of(table: &Table, column: usize) -> Option<&RefinedAxis> {
+    table.refined.iter().find(|axis| axis.name == table.columns[column].name)
+}
+
+/// Returns the cells of points that form no grid: every place has the colour of the nearest point.
+///
+/// The unit of distances along an axis is a cell between the values of the grid file.
+fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
+    let columns = [selection.columns.x, selection.columns.y];
+    let [across, up] = columns.map(|column| {
+        let (label, log) = (table.label(column), axis_of(table, column).is_some_and(|axis| axis.log));
+        let places = table.numbers(column)?;
+        let places: Vec<f64> = selection.rows.iter().map(|&row| places[row] * label.factor).collect();
+        let range = scale::range(places.iter().copied()).unwrap_or((0.0, 1.0));
+        Ok::<_, Failure>((places, Axis { log: log && range.0 > 0.0, ..Axis::linear(label.text(), range) }))
+    });
+    let ((x, across), (y, up)) = (across?, up?);
+    let mut numbers: Vec<(u64, u64)> = x.iter().zip(&y).map(|(x, y)| (x.to_bits(), y.to_bits())).collect();
+    numbers.sort_unstable();
+    if numbers.windows(2).any(|two| two[0] == two[1]) {
+        return Err(several(table, selection));
+    }
+    let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [share(&across, *x), share(&up, *y)]).collect();
+    let (colours, factor) = (table.numbers(color)?, table.label(color).factor);
+    let cells = columns.map(|column| axis_of(table, column).map_or(1.0, |axis| axis.cells as f64));
+    let owners = nearest(&points, cells, RASTER);
+    let cell = |rectangle: Rectangle| Cell {
+        x: rectangle.columns.map(|column| place(&across, column as f64 / RASTER[0] as f64)),
+        y: rectangle.rows.map(|row| place(&up, row as f64 / RASTER[1] as f64)),
+        value: colours[selection.rows[rectangle.owner]] * factor,
+    };
+    let cells = rectangles(&owners, RASTER[0]).into_iter().map(cell).collect();
+    Ok(Grid { cells, x: across, y: up })
+}
+
+/// Number of places of a raster across and up: a little more than the pixels of a picture of the usual size.
+const RASTER: [usize; 2] = [720, 480];
+
+/// Returns the position of a value along an axis, from 0 to 1.
+fn share(axis: &Axis, value: f64) -> f64 {
+    let to = |value: f64| if axis.log { value.ln() } else { value };
+    let (low, high) = (to(axis.range.0), to(axis.range.1));
+    if high > low { (to(value) - low) / (high - low) } else { 0.5 }
+}
+
+/// Returns the value at a position along an axis, from 0 to 1.
+fn place(axis: &Axis, share: f64) -> f64 {
+    let (low, high) = axis.range;
+    if axis.log { low * (high / low).powf(share) } else { low + (high - low) * share }
+}
+
+/// Places of a raster with the same nearest point: from the first to before the second column and row.
+#[derive(Clone, Debug, PartialEq)]
+struct Rectangle {
+    columns: [usize; 2],
+    rows: [usize; 2],
+    owner: usize,
+}
+
+/// Joins the places of a raster with equal owners to rectangles. A raster has `columns` places in each row.
+fn rectangles(owners: &[usize], columns: usize) -> Vec<Rectangle> {
+    let mut done: Vec<Rectangle> = Vec::new();
+    // Rectangles that may continue in the next row, by their first column.
+    let mut open: Vec<Rectangle> = Vec::new();
+    for (row, owners) in owners.chunks(columns).enumerate() {
+        let mut next = Vec::new();
+        let mut first = 0;
+        for run in owners.chunk_by(|a, b| a == b) {
+            let (sides, owner) = ([first, first + run.len()], run[0]);
+            first += run.len();
+            let above = open.iter().position(|other| other.columns == sides && other.owner == owner);
+            let mut rectangle = match above {
+                Some(above) => open.swap_remove(above),
+                None => Rectangle { columns: sides, rows: [row, row], owner },
+            };
+            rectangle.rows[1] = row + 1;
+            next.push(rectangle);
+        }
+        done.append(&mut open);
+        open = next;
+    }
+    done.append(&mut open);
+    done
+}
+
 /// Returns the cells of a grid, in which every value of `x` is combined with every value of `y`.
 fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let [across, up] =
@@ -103,7 +194,7 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
 
 /// Returns the cells of curves along the first of `columns`, one curve for each value of the second.
 ///
-/// Each curve has its own values, and its cells end halfway between them.
+/// The values of the first differ from curve to curve in responses, and if it alone is refined. Each curve has its own values, and its cells end halfway between them.
 fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
     let side = side(table, selection, across)?;
@@ -208,6 +299,29 @@ fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shad
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn equal_neighbours_form_rectangles() {
+        let found = rectangles(&[1, 1, 2, 1, 1, 2, 1, 3, 3], 3);
+        let rectangle = |columns, rows, owner| Rectangle { columns, rows, owner };
+        for expected in [
+            rectangle([0, 2], [0, 2], 1),
+            rectangle([2, 3], [0, 2], 2),
+            rectangle([0, 1], [2, 3], 1),
+            rectangle([1, 3], [2, 3], 3),
+        ] {
+            assert!(found.contains(&expected), "{expected:?} in {found:?}");
+        }
+        assert_eq!(found.len(), 4);
+    }
+
+    #[test]
+    fn positions_along_axes_are_shares() {
+        let log = Axis { log: true, ..Axis::linear(String::new(), (1.0, 100.0)) };
+        assert!((share(&log, 10.0) - 0.5).abs() < 1e-12 && (place(&log, 0.5) - 10.0).abs() < 1e-12);
+        let linear = Axis::linear(String::new(), (40.0, 240.0));
+        assert_eq!((share(&linear, 90.0), place(&linear, 0.25)), (0.25, 90.0));
+    }
 
     #[test]
     fn cells_end_halfway() {

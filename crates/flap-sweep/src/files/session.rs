@@ -8,7 +8,8 @@
 //! complete.
 
 use std::fs::File;
-use std::io::{self, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -23,7 +24,7 @@ use crate::files::results::{
 };
 use crate::plan::Plan;
 use crate::run::identity::Identity;
-use crate::run::{RunOptions, Sink, Summary};
+use crate::run::{RunOptions, Sink, Summary, Written};
 use crate::table::layout::Cell;
 
 /// Options of a session.
@@ -44,6 +45,8 @@ pub struct Session {
     results: File,
     rows: TextRows,
     provenance: Provenance,
+    /// Rows of earlier runs: their file, its format, and the number of bytes that contain them.
+    earlier: Option<(PathBuf, Format, u64)>,
     /// Checksum of a Parquet file, once rows have been converted to columns.
     columns: Option<FileSum>,
     journal: Journal,
@@ -163,6 +166,7 @@ impl Session {
         let rows = TextRows::after(rows_file, format, (hash, bytes), text).map_err(refused)?;
         let mut session = Session::new(results, (path, format), rows, plan, options, journal);
         session.add_seconds(checkpoint.seconds);
+        session.earlier = Some((rows_path, session.text_format(), bytes));
         Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, unlocked })
     }
 
@@ -182,6 +186,7 @@ impl Session {
             results,
             rows,
             provenance: Provenance::of(plan, &Identity::of(plan, &options.run)),
+            earlier: None,
             columns: None,
             journal,
             checkpoint: options.checkpoint,
@@ -194,6 +199,29 @@ impl Session {
     /// Adds the running time of earlier sessions.
     fn add_seconds(&mut self, seconds: f64) {
         self.seconds_before += seconds;
+    }
+
+    /// Returns the format of the file that contains the rows until they are complete.
+    fn text_format(&self) -> Format {
+        if self.format.is_columnar() { Format::CsvZstd } else { self.format }
+    }
+
+    /// Writes all rows of the complete results at `path`, which belong to the same plan, as the first rows. `summary`
+    /// counts them.
+    ///
+    /// # Errors
+    /// The error of the operating system if a file cannot be read or written.
+    pub(crate) fn take_over(&mut self, path: &Path, summary: &Summary, seconds: f64) -> io::Result<()> {
+        let format = Format::of(path).map_err(io::Error::other)?;
+        let mut reader = Reader::new(File::open(path)?, format)?;
+        self.begin()?;
+        let mut row = StringRecord::new();
+        while reader.next(&mut row)? {
+            self.rows.row(&row)?;
+        }
+        self.add_seconds(seconds);
+        self.earlier = Some((path.to_owned(), format, u64::MAX));
+        if self.rows.may_be_cut() { self.note(summary) } else { Ok(()) }
     }
 
     /// Returns the running time of all sessions so far (s).
@@ -250,6 +278,19 @@ impl Session {
 }
 
 impl Sink for Session {
+    fn written(&self) -> io::Result<Written> {
+        let Some((path, format, bytes)) = &self.earlier else { return Ok(Box::new(iter::empty())) };
+        let file = File::open(path)?;
+        let mut reader = match format {
+            Format::Parquet => Reader::new(file, *format)?,
+            _ => Reader::of_text(file.take(*bytes), *format)?,
+        };
+        Ok(Box::new(iter::from_fn(move || {
+            let mut row = StringRecord::new();
+            reader.next(&mut row).map(|found| found.then_some(row)).transpose()
+        })))
+    }
+
     fn begin(&mut self) -> io::Result<()> {
         let names = self.provenance.columns.iter().map(|column| &column.name);
         if self.rows.extent().bytes == 0 { self.rows.header(names) } else { Ok(()) }

@@ -13,6 +13,7 @@ mod output;
 mod parse;
 mod problems;
 mod range;
+mod refine;
 mod resonance;
 mod sample;
 pub mod schema;

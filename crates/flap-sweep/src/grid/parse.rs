@@ -16,7 +16,7 @@ use super::lookup::Lookup;
 use super::problems::{self, Problems};
 use super::table::{self, Entry};
 use super::vehicle::{self, VehicleSettings};
-use super::{axes, gradient, output, resonance, sample, solver};
+use super::{axes, gradient, output, refine, resonance, sample, solver};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
@@ -77,6 +77,11 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let gradient = gradient::read(gradient, simulator, &names, &derived, resonance.is_some(), &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
+    let refine = table::find(&root, "refine").and_then(|section| {
+        let rows = refine::Rows { columns: &columns, own: &names.own, output: &output };
+        let mut lookup = Lookup { simulator, models: reader.models, problems: &mut problems };
+        refine::read(section, &axes, table::find(&root, "sample"), &rows, &mut lookup)
+    });
 
     if !problems.is_empty() {
         return Err(problems.into_mistakes());
@@ -96,6 +101,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         uncertainty: base.uncertainty,
         devices: base.devices,
         axes,
+        refine,
         points_file: sample_file,
         derived,
         conditions,

@@ -9,7 +9,7 @@ use super::problems::Problems;
 use crate::grid::diagnostic::Diagnostic;
 
 /// Keys at the top of a grid file.
-pub(super) const KEYS: [&str; 16] = [
+pub(super) const KEYS: [&str; 17] = [
     "description",
     "preset",
     "device",
@@ -20,6 +20,7 @@ pub(super) const KEYS: [&str; 16] = [
     "axes",
     "zip",
     "sample",
+    "refine",
     "derived",
     "where",
     "measure",

@@ -107,6 +107,34 @@ impl Values {
             },
         }
     }
+
+    /// Returns the value at a position along the axis, from 0 to [`Values::len`] less 1. At whole numbers it equals
+    /// [`Values::get`].
+    ///
+    /// Values between others continue the spacing of the axis. Between points of a sample there are none: it returns
+    /// the earlier one.
+    pub(crate) fn at(&self, position: f64) -> f64 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a position is not negative"
+        )]
+        let below = position as u64;
+        let share = position - below as f64;
+        if share == 0.0 {
+            return self.get(below);
+        }
+        match *self {
+            Values::Linear { from, to, count } => decimal(from + (to - from) * position / (count - 1) as f64),
+            Values::Step { from, step, .. } => decimal(from + step * position),
+            Values::Log { from, to, count } => from * libm::pow(to / from, position / (count - 1) as f64),
+            Values::List(_) => {
+                let [low, high] = [self.get(below), self.get(below + 1)];
+                decimal(low + (high - low) * share)
+            }
+            Values::Unchecked(_) | Values::Sampled { .. } | Values::Correlated { .. } => self.get(below),
+        }
+    }
 }
 
 /// Returns `x` rounded to 15 significant digits. 60e-6 + 10e-6 then gives 70e-6 and not 7.000000000000001e-5.
@@ -240,6 +268,21 @@ impl Axes {
                 values[*parameter] = along.get(position);
             }
         }
+    }
+
+    /// Writes the values at these positions into `values`: one position for each axis, from 0 to its length less 1.
+    pub(crate) fn fill_between(&self, positions: &[f64], values: &mut [f64]) {
+        for (axis, position) in self.axes.iter().zip(positions) {
+            for (parameter, along) in axis.parameters() {
+                values[*parameter] = along.at(*position);
+            }
+        }
+    }
+
+    /// Returns true if there are points at these positions: one for each axis, from 0 to its length less 1.
+    pub(crate) fn contain(&self, positions: &[f64]) -> bool {
+        let within = |(axis, position): (&Axis, &f64)| (0.0..=(axis.len() as f64 - 1.0)).contains(position);
+        positions.len() == self.axes.len() && self.axes.iter().zip(positions).all(within)
     }
 }
 

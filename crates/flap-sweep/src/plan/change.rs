@@ -1,5 +1,7 @@
 //! Changes of a plan that keep it valid.
 
+use std::sync::Arc;
+
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
 use flap_core::vehicle::of_all_wings;
@@ -173,7 +175,7 @@ impl Plan {
         }
         self.begins = states;
         self.selection = Selection::All;
-        Ok(self)
+        Ok(self.without_refinement())
     }
 
     /// Returns the plan whose rows contain the state at the beginning of a drive period, at which other motions can
@@ -234,8 +236,7 @@ impl Plan {
         let parameters =
             parameters.into_iter().map(|(parameter, list)| (parameter, Values::Unchecked(list))).collect();
         self.space.axes = self.space.axes.crossed_with(Axis::new(parameters))?;
-        self.selection = Selection::All;
-        Ok(self)
+        Ok(self.with_new_axes())
     }
 
     /// Returns the plan without the axis that varies `parameter` alone, and the values of this axis; `None` if there
@@ -245,8 +246,7 @@ impl Plan {
     pub fn without_axis(mut self, parameter: usize) -> (Plan, Option<Values>) {
         let (axes, values) = self.space.axes.without(parameter);
         self.space.axes = axes;
-        self.selection = Selection::All;
-        (self, values)
+        (self.with_new_axes(), values)
     }
 
     /// Returns the plan whose points are designs, each with a curve of rows along which a parameter rises and falls.
@@ -302,9 +302,8 @@ impl Plan {
     pub(crate) fn at(mut self, varied: &[(usize, f64)]) -> Result<Plan, ChangeError> {
         let values = varied.iter().map(|(parameter, value)| (*parameter, Values::Unchecked(vec![*value])));
         self.space.axes = Axes::new(vec![Axis::new(values.collect())])?;
-        self.selection = Selection::All;
         self.begins = Vec::new();
-        Ok(self)
+        Ok(self.with_new_axes())
     }
 
     /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A parameter that
@@ -320,8 +319,40 @@ impl Plan {
         self.space.derived = Derived::default();
         self.space.conditions = Vec::new();
         self.space.resonance = None;
-        self.selection = Selection::All;
         self.begins = Vec::new();
+        self.with_new_axes()
+    }
+
+    /// Returns the plan that runs all points of changed axes. A refinement refers to the earlier axes and is removed.
+    fn with_new_axes(mut self) -> Plan {
+        self.space.refine = None;
+        self.added = Arc::default();
+        self.selection = Selection::All;
+        self
+    }
+
+    /// Returns the plan without its refinement: the points are the points of the axes.
+    #[must_use]
+    pub fn without_refinement(mut self) -> Plan {
+        self.space.refine = None;
+        self.added = Arc::default();
+        self
+    }
+
+    /// Returns the plan with more points after the others, each as a position along each axis.
+    ///
+    /// # Errors
+    /// [`ChangeError::NoPoint`] with the index of the first point that is outside the axes.
+    pub fn with_added(self, more: Vec<Vec<f64>>) -> Result<Plan, ChangeError> {
+        if let Some(place) = more.iter().position(|positions| !self.axes().contain(positions)) {
+            return Err(ChangeError::NoPoint(self.len() + place as u64));
+        }
+        Ok(self.followed_by(more))
+    }
+
+    /// Returns the plan with more points, which must be within the axes, after the others.
+    pub(crate) fn followed_by(mut self, more: Vec<Vec<f64>>) -> Plan {
+        Arc::make_mut(&mut self.added).extend(more);
         self
     }
 

@@ -5,6 +5,7 @@
 //! - [`sample`]: points spread over a design space
 //! - [`formula`]: derived parameters, conditions, the user's measures
 //! - [`gradient`]: derivatives of measures
+//! - [`refine`]: refinement of a grid
 //! - [`uncertainty`]: standard errors of parameters
 //! - [`selection`]: points to run
 
@@ -13,6 +14,7 @@ pub mod axes;
 mod change;
 pub mod formula;
 pub mod gradient;
+pub mod refine;
 pub mod sample;
 pub mod selection;
 mod space;

@@ -1,6 +1,7 @@
 //! A checked design space: the model or vehicle of its points, and its input and output files.
 //!
-//! The points of a plan are not stored: [`Plan::point`] computes any point in constant time.
+//! The points of the axes are not stored: [`Plan::point`] computes any point in constant time. Only points that a
+//! refinement adds are stored.
 
 use std::ops::Deref;
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::axes::{Along, Axes};
 use super::formula::{Condition, Derived, OwnMeasure};
 use super::gradient::Gradient;
+use super::refine::Refine;
 use super::selection::Selection;
 use super::uncertainty::Uncertainty;
 use super::value::{Value, WithUnits};
@@ -32,6 +34,8 @@ pub struct Plan {
     pub(super) begins: Vec<Option<Vec<f64>>>,
     /// Names of the state's components in rows; empty if rows contain no state.
     pub(super) states: Vec<String>,
+    /// Points that follow the points of the axes: a position along each axis.
+    pub(super) added: Arc<Vec<Vec<f64>>>,
 }
 
 /// Contents of a checked grid file.
@@ -53,6 +57,8 @@ pub(crate) struct Space {
     pub(crate) devices: Vec<Source>,
     /// Varied parameters.
     pub(crate) axes: Axes,
+    /// Refinement of the grid of the axes, if there is one.
+    pub(crate) refine: Option<Refine>,
     /// File that lists the points of the sample, if there is one.
     pub(crate) points_file: Option<PointsFile>,
     /// Parameters computed from others.
@@ -76,7 +82,14 @@ pub(crate) struct Space {
 impl Plan {
     /// Returns the plan that runs all points of a design space.
     pub(crate) fn new(space: Space) -> Plan {
-        Plan { space, selection: Selection::All, followed: None, begins: Vec::new(), states: Vec::new() }
+        Plan {
+            space,
+            selection: Selection::All,
+            followed: None,
+            begins: Vec::new(),
+            states: Vec::new(),
+            added: Arc::default(),
+        }
     }
 
     /// Returns the simulator of the points: a model or a vehicle.
@@ -142,6 +155,18 @@ impl Plan {
         &self.space.axes
     }
 
+    /// Returns the refinement of the grid, if there is one. Curves are not refined.
+    pub fn refine(&self) -> Option<&Refine> {
+        self.space.refine.as_ref().filter(|_| self.followed().is_none())
+    }
+
+    /// Returns the points that follow the points of the axes, each as a position along each axis.
+    ///
+    /// Position 1.5 is between the second and the third value.
+    pub fn added(&self) -> &[Vec<f64>] {
+        &self.added
+    }
+
     /// Returns the file that lists the points of the sample, if there is one.
     pub fn points_file(&self) -> Option<&PointsFile> {
         self.space.points_file.as_ref()
@@ -203,9 +228,14 @@ impl Plan {
         &self.states
     }
 
-    /// Returns the number of points.
+    /// Returns the number of points: of the axes, and of the refinement so far.
     pub fn len(&self) -> u64 {
-        self.axes().points()
+        self.axes().points() + self.added.len() as u64
+    }
+
+    /// Returns the largest number of points that the plan can have after its refinement.
+    pub fn most_points(&self) -> u64 {
+        self.refine().map_or(0, |refine| refine.max_points).max(self.len())
     }
 
     /// Returns true if there are no points.
@@ -228,7 +258,11 @@ impl Plan {
 
     fn values(&self, index: u64, change: Option<(usize, &dyn Fn(f64) -> f64)>) -> Vec<f64> {
         let mut values: Vec<f64> = self.base().iter().map(|value| value.in_point()).collect();
-        self.axes().fill(index, &mut values);
+        let beyond = index.checked_sub(self.axes().points()).and_then(|place| usize::try_from(place).ok());
+        match beyond.and_then(|place| self.added.get(place)) {
+            Some(positions) => self.axes().fill_between(positions, &mut values),
+            None => self.axes().fill(index, &mut values),
+        }
         if let Some((parameter, moved)) = change {
             values[parameter] = moved(values[parameter]);
         }

@@ -44,7 +44,7 @@ pub use points::{Outcome, alone, rows};
 pub use summary::{Counts, InvalidPoint, Summary, Unsatisfied, Warnings};
 pub use workers::Run;
 pub(crate) use workers::Worker;
-pub use writer::{RowWriter, Sink};
+pub use writer::{RowWriter, Sink, Written};
 
 /// Options of a run. They do not change the output, except for the arithmetic class of the instruction set.
 #[derive(Clone, Copy, Debug)]

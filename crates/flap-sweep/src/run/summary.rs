@@ -6,6 +6,7 @@ use flap_core::simulate::{Column, Row, Status};
 use serde::{Deserialize, Serialize};
 
 use crate::plan::Plan;
+use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 
 /// Number of rows with each status. In files it is a table.
@@ -91,6 +92,9 @@ pub struct Summary {
     pub unsatisfied: Vec<Unsatisfied>,
     /// The first few invalid points.
     pub invalid: Vec<InvalidPoint>,
+    /// Result of the refinement of the grid, once it has ended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refined: Option<Refined>,
 }
 
 impl Summary {

@@ -1,12 +1,15 @@
 //! Writes the rows of a run to a sink, in order, and computes their summary.
 
+use std::borrow::Cow;
 use std::io;
 
+use csv::StringRecord;
 use flap_core::simulate::Row;
 
 use super::summary::{Limits, Summary};
 use super::{Outcome, RunError};
 use crate::plan::Plan;
+use crate::refine::{self, Refinement};
 use crate::table::layout::{Cell, Layout};
 
 /// A table that receives rows in order.
@@ -20,6 +23,14 @@ pub trait Sink {
     /// The error of writing it.
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
+    }
+
+    /// Returns the rows that earlier runs have written, as text, in their order. A refinement needs them.
+    ///
+    /// # Errors
+    /// The error of opening them.
+    fn written(&self) -> io::Result<Written> {
+        Ok(Box::new(std::iter::empty()))
     }
 
     /// Writes the next row: one cell per column.
@@ -56,9 +67,14 @@ pub trait Sink {
     }
 }
 
+/// Rows as text, in their order.
+pub type Written = Box<dyn Iterator<Item = io::Result<StringRecord>>>;
+
 /// Writer of the rows of a plan to a sink, which also counts them. Its errors are [`RunError::Sink`].
 pub struct RowWriter<'a> {
-    plan: &'a Plan,
+    /// Plan with the points of all rounds so far.
+    plan: Cow<'a, Plan>,
+    refinement: Option<Refinement>,
     layout: Layout<'a>,
     limits: Limits,
     summary: Summary,
@@ -74,8 +90,39 @@ impl<'a> RowWriter<'a> {
         // The header is written at once, even if the first row takes long.
         sink.begin()?;
         sink.flush()?;
-        let summary = Summary::after(before, plan);
-        Ok(RowWriter { plan, layout: Layout::of(plan), limits: Limits::of(plan), summary, sink })
+        let replayed = match before.done() {
+            0 => Refinement::of(plan).map(|refinement| (plan.clone(), refinement)),
+            done if plan.refine().is_some() => refine::replay(plan, done, sink.written()?)?,
+            _ => None,
+        };
+        let (layout, limits) = (Layout::of(plan), Limits::of(plan));
+        let (plan, refinement) = match replayed {
+            Some((plan, refinement)) => (Cow::Owned(plan), Some(refinement)),
+            None => (Cow::Borrowed(plan), None),
+        };
+        let summary = Summary::after(before, &plan);
+        Ok(RowWriter { plan, refinement, layout, limits, summary, sink })
+    }
+
+    /// Returns the plan with the points of all rounds of its refinement so far.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Adds the points of the next round of the refinement to the plan, after the rows of all its points are written.
+    ///
+    /// Returns false if there are none: the plan has no refinement, the refinement has ended, or rows are missing.
+    pub fn next_round(&mut self) -> bool {
+        let Some(refinement) = &mut self.refinement else { return false };
+        if self.summary.is_interrupted() || self.summary.refined.is_some() {
+            return false;
+        }
+        let before = self.plan.len();
+        self.plan = Cow::Owned(refine::grown(self.plan.clone().into_owned(), refinement));
+        self.summary.points = self.plan.selected();
+        let has_more = self.plan.len() > before;
+        self.summary.refined = (!has_more).then(|| refinement.refined());
+        has_more
     }
 
     /// Returns the columns of the rows.
@@ -97,9 +144,17 @@ impl<'a> RowWriter<'a> {
             Outcome::Ran(row) => {
                 let point = self.plan.selected_point(self.done());
                 let cells = self.layout.cells(&point, row);
+                if let Some(refinement) = &mut self.refinement {
+                    refinement.add(|column| number(&cells[column]));
+                }
                 self.write_rows(point.index, [(cells, row)])
             }
-            Outcome::Excluded(unsatisfied) => self.exclude(unsatisfied),
+            Outcome::Excluded(unsatisfied) => {
+                if let Some(refinement) = &mut self.refinement {
+                    refinement.add(|_| f64::NAN);
+                }
+                self.exclude(unsatisfied)
+            }
         }
     }
 
@@ -143,10 +198,17 @@ impl<'a> RowWriter<'a> {
     ///
     /// # Errors
     /// The error of the run, or [`RunError::Sink`].
-    pub fn finish(self, ended: Result<(), RunError>) -> Result<Summary, RunError> {
+    pub fn finish(mut self, ended: Result<(), RunError>) -> Result<Summary, RunError> {
+        // A run that is interrupted between two rounds has points left.
+        self.next_round();
         if !matches!(ended, Err(RunError::Sink(_))) {
             self.sink.finish()?;
         }
         ended.map(|()| self.summary)
     }
+}
+
+/// Returns the number in a cell; NaN if there is none.
+fn number(cell: &Cell<'_>) -> f64 {
+    if let Cell::Number(number) = cell { *number } else { f64::NAN }
 }

@@ -10,6 +10,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, Row, Status};
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::notation::text::count;
+use flap_sweep::plan::selection::Shard;
 use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::run::{RunOptions, Sink};
 use flap_sweep::study::survey::spread;
@@ -47,6 +48,8 @@ pub(super) struct Estimate {
     pub(super) threads: usize,
     /// Number of points that were run.
     pub(super) tried: usize,
+    /// Largest number of points of a refined grid.
+    most_points: Option<u64>,
 }
 
 impl Estimate {
@@ -61,7 +64,8 @@ impl Estimate {
         let threads = count(self.threads as u64, "thread");
         let points = count(self.tried as u64, "point");
         let size = self.bytes.map_or_else(String::new, |bytes| format!(" and {} of CSV", size(bytes)));
-        Some(format!("estimate: {time} on {threads}{size}, from runs of {points} spread over the grid"))
+        let most = self.most_points.map_or(String::new(), |most| format!(" for {}", count(most, "point")));
+        Some(format!("estimate: {time}{most} on {threads}{size}, from runs of {points} spread over the grid"))
     }
 }
 
@@ -74,7 +78,14 @@ fn size(bytes: f64) -> String {
 }
 
 /// Runs some points of `plan` to estimate the time of `points` points on `threads` threads, by default one per core.
-pub(super) fn of(plan: &Plan, points: u64, threads: Option<NonZeroUsize>) -> Estimate {
+///
+/// The estimate of a whole plan contains all points that its refinement may add. A shard adds none.
+pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option<NonZeroUsize>) -> Estimate {
+    let most_points = plan.refine().map(|refine| refine.max_points).filter(|_| shard.is_none());
+    let points = match shard {
+        Some(shard) => points.div_ceil(shard.of()),
+        None => points + plan.most_points() - plan.len(),
+    };
     let cores = RunOptions::default().threads;
     let threads = threads.unwrap_or(cores).get();
     let mut trial = Trial::run(plan, cores.get());
@@ -93,6 +104,7 @@ pub(super) fn of(plan: &Plan, points: u64, threads: Option<NonZeroUsize>) -> Est
         is_complete: trial.is_complete(),
         threads,
         tried: trial.works.len(),
+        most_points,
     }
 }
 

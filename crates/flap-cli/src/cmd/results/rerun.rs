@@ -28,6 +28,7 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let accuracy = args.inaccurate.then_some(plan.solver().accuracy);
     let wanted = Wanted { statuses: args.status.clone(), accuracy };
     let list = rerun::points(&mut source.reader, &wanted, &plan, rows).map_err(unreadable)?;
+    let plan = job::with_refinement(plan, &args.results, &sidecar, list.last().copied())?;
     job::tell_missed(&args.results, &source.reader);
     let statuses = wanted.words();
     if list.is_empty() {

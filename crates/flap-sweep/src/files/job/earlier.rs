@@ -5,10 +5,12 @@ use std::path::Path;
 use super::{Begun, Job, JobError, Target, Writing, write_sidecar};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
+use crate::files::output::LockedFile;
 use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
 use crate::files::sidecar::{Sidecar, SidecarError, State};
 use crate::files::{disk, journal, output, replacement};
+use crate::plan::selection::Selection;
 use crate::run::Summary;
 use crate::run::identity::Identity;
 
@@ -24,6 +26,13 @@ impl<'a> Job<'a> {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
             drop(held);
             return self.resume_at(&self.out);
+        }
+        if !has_checkpoint(&new)
+            && let Some(sidecar) = self.without_refinement()
+        {
+            replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
+            drop(held);
+            return self.continue_merged(&sidecar);
         }
         let mut begun = self.resume_at(&new)?;
         if let Begun::Writing(writing) = &mut begun {
@@ -43,6 +52,9 @@ impl<'a> Job<'a> {
             && sidecar.state == State::Complete
             && !is_alone
         {
+            if !has_journal && place == self.out && self.lacks_refinement(sidecar) {
+                return self.continue_merged(sidecar);
+            }
             return self.is_complete(place, sidecar, has_journal);
         }
         if !has_journal {
@@ -97,6 +109,37 @@ impl<'a> Job<'a> {
         sound(rows, sidecar)
     }
 
+    /// Returns true if these complete results contain the points of the axes only, although the grid is refined.
+    ///
+    /// Merged shards are such results: no shard contains points of the refinement.
+    fn lacks_refinement(&self, sidecar: &Sidecar) -> bool {
+        let is_refined = sidecar.summary.as_ref().is_some_and(|summary| summary.refined.is_some());
+        self.plan.refine().is_some() && *self.plan.selection() == Selection::All && !is_refined
+    }
+
+    /// Returns the sidecar of complete results without the points of the refinement, if the results are such.
+    fn without_refinement(&self) -> Option<Sidecar> {
+        let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok()?;
+        (sidecar.state == State::Complete && self.lacks_refinement(&sidecar)).then_some(sidecar)
+    }
+
+    /// Begins at the first point of the refinement, after the rows of complete results that contain the points of the
+    /// axes.
+    ///
+    /// The rows are copied into a file that replaces the results in the end.
+    fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
+        self.compared(&self.out, sidecar)?;
+        let format = Format::of(&self.out)?;
+        let LockedFile { file, unlocked } = output::create(&self.out, true)?;
+        let mut target = self.start_beside(format)?;
+        let before = sidecar.summary.clone().unwrap_or_default();
+        if let Target::Session(session, _) = &mut target {
+            let taken = session.take_over(&self.out, &before, sidecar.seconds.unwrap_or_default());
+            taken.map_err(|error| JobError::write(session.path(), error, true))?;
+        }
+        Ok(Writing { lost: Some(0), unlocked, held: Some(file), ..self.writing(target, before) }.into())
+    }
+
     /// Returns true if this build on this machine can continue the sweep of the unfinished results at `place` from
     /// their sidecar.
     fn continues(&self, place: &Path) -> bool {
@@ -132,6 +175,12 @@ impl<'a> Job<'a> {
         let of_grid = difference(&before.grid.text, &self.plan.source().text, "the grid");
         of_grid.or_else(|| of_devices.find_map(|difference| difference))
     }
+}
+
+/// Returns true if the journal of the results at `place` has a checkpoint.
+fn has_checkpoint(place: &Path) -> bool {
+    let past = journal::read(&journal_of(place)).ok().flatten();
+    past.is_some_and(|past| !past.checkpoints.is_empty())
 }
 
 /// Ends the job if the results at `rows` contain the rows of this job and are undamaged.

@@ -134,6 +134,13 @@ impl<'a> Job<'a> {
             let target = self.start_at((&self.out, format), file, false)?;
             return Ok(Writing { unlocked, ..self.writing(target, Summary::default()) }.into());
         }
+        let target = self.start_beside(format)?;
+        let held = Some(file);
+        Ok(Writing { unlocked, held, ..self.writing(target, Summary::default()) }.into())
+    }
+
+    /// Begins with an empty file beside the earlier results, which gets their name in the end.
+    fn start_beside(&self, format: Format) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
         let created = output::create(&new, false).map_err(|error| match error {
             CreateError::Exists(path) | CreateError::Unfinished(path) => {
@@ -141,9 +148,7 @@ impl<'a> Job<'a> {
             }
             error => error,
         })?;
-        let target = self.start_at((&new, format), created.file, true)?;
-        let held = Some(file);
-        Ok(Writing { unlocked, held, ..self.writing(target, Summary::default()) }.into())
+        self.start_at((&new, format), created.file, true)
     }
 
     /// Begins with the empty `file` at `place`. If it `replaces` earlier results, it gets their name in the end.

@@ -107,8 +107,8 @@ impl RowCheck {
         RowCheck {
             columns,
             status,
+            points: if matches!(selection, Selection::Shard(_)) { plan.len() } else { plan.most_points() },
             selection,
-            points: plan.len(),
             rows,
             next: 0,
             seen: 0,

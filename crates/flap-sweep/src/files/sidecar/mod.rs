@@ -100,13 +100,16 @@ pub struct Origin {
 }
 
 /// Points of a rerun.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rerun {
     /// Earlier results.
     #[serde(flatten)]
     pub origin: Origin,
     /// Indices of the points, such as `3,17,20-31`.
     pub points: String,
+    /// Points of the refinement, each as a position along each axis.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub added: Vec<Vec<f64>>,
 }
 
 /// Parameter that rises and falls in a response, see [`Along`].
@@ -146,7 +149,7 @@ impl Sidecar {
             Selection::Shard(shard) => (Some(shard.to_string()), None),
             Selection::Listed(list) => {
                 let (origin, points) = (origin.unwrap_or_default(), selection::list_text(list));
-                (None, Some(Rerun { origin, points }))
+                (None, Some(Rerun { origin, points, added: plan.added().to_vec() }))
             }
         };
         Sidecar {
@@ -179,6 +182,9 @@ impl Sidecar {
     pub fn finish(&mut self, summary: &Summary, finished: String, seconds: f64) {
         self.state = if summary.is_interrupted() { State::Interrupted } else { State::Complete };
         self.summary = Some(summary.clone());
+        if summary.refined.is_some() {
+            self.points = summary.points;
+        }
         self.finished = Some(finished);
         self.seconds = Some(seconds);
     }

@@ -62,6 +62,7 @@ impl Sidecar {
             None => plan,
         };
         if let Some(rerun) = &self.rerun {
+            let plan = plan.with_added(rerun.added.clone()).map_err(|_| PlanError::Points)?;
             let list = selection::read_list(&rerun.points, plan.len()).ok_or(PlanError::Points)?;
             return plan.with_points(list).map_err(|_| PlanError::Points);
         }

@@ -36,6 +36,7 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
         "resonance" => sections::resonance(),
         "where" => sections::conditions(),
         "measure" => sections::measures(),
+        "refine" => sections::refine(),
         "solver" => sections::solver(),
         _ => either(key, models),
     });

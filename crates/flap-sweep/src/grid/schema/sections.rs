@@ -4,9 +4,10 @@ use flap_core::simulate::{SettingKind, Simulator, SolverSettings};
 use flap_core::vehicle::MOST_WINGS;
 use serde_json::{Map, Value, json};
 
-use crate::grid::resonance;
 use crate::grid::uncertainty::VALUE_KEYS;
 use crate::grid::vehicle::{KEYS, PLANE_KEYS, WING_KEYS};
+use crate::grid::{refine, resonance};
+use crate::plan::refine::Refine;
 use crate::resonance::{Objective, Range};
 
 /// Returns a reference to a definition.
@@ -89,6 +90,7 @@ pub(super) fn about(section: &str) -> &'static str {
         }
         "zip" => "Parameters that vary together along one axis.",
         "sample" => "Points that are spread over the design space, or listed in a file.",
+        "refine" => "Points that are added where interpolation between the rows of the axes errs.",
         "derived" => "Parameters that follow from others by a formula in SI units.",
         "where" => "Conditions on the points: flap runs only points that satisfy all conditions.",
         "measure" => "Additional columns, computed from measures and parameters.",
@@ -119,6 +121,39 @@ pub(super) fn resonance() -> Value {
         _ => positive(&tolerance, true),
     });
     table(about("resonance"), keys)
+}
+
+pub(super) fn refine() -> Value {
+    let name = text("The name of a measure.");
+    let error =
+        positive("A share of the range of the measure, such as \"1 %\", or a number in its unit.", false);
+    let one_or_more = |description: &str, one: &Value, items: Value| json!({"description": description, "anyOf": [one, items]});
+    let halvings = format!(
+        "Largest number of halvings of a cell of the axes along each axis. Default: {}.",
+        Refine::HALVINGS
+    );
+    let keys = properties(refine::KEYS, |key| match key {
+        "measure" => one_or_more(
+            "The measure whose interpolation error is limited, or several.",
+            &name,
+            list("Names of measures.", &name),
+        ),
+        "error" => {
+            let errors = json!({"type": "array", "items": error, "minItems": 1});
+            one_or_more("The largest error of interpolation, for all measures or for each.", &error, errors)
+        }
+        "max_points" => {
+            count("The largest number of points, including the points of the axes.", Refine::MOST_POINTS)
+        }
+        "along" => list(
+            "Parameters along whose axes points are added. Default: all axes of numbers.",
+            &text("A parameter."),
+        ),
+        _ => count(&halvings, u64::from(Refine::MOST_HALVINGS)),
+    });
+    let mut table = table(about("refine"), keys);
+    table["required"] = json!(["measure", "error", "max_points"]);
+    table
 }
 
 pub(super) fn conditions() -> Value {

@@ -1,0 +1,267 @@
+//! Section `[refine]`: adaptive refinement of the grid of the axes.
+
+use flap_core::parameter::Parameter;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::axes::Placed;
+use super::lookup::Lookup;
+use super::problems::Problems;
+use super::table::{self, Entry};
+use super::value;
+use crate::notation::expression;
+use crate::notation::text::count;
+use crate::plan::Output;
+use crate::plan::formula::OwnMeasure;
+use crate::plan::refine::{Error, Limit, NotRefined, Refine, not_refined};
+use crate::table::layout::split_unit;
+
+pub(super) const KEYS: [&str; 5] = ["measure", "error", "max_points", "along", "halvings"];
+
+/// Rows that a refinement uses: names of the model's measures, the user's measures, and the selected columns.
+pub(super) struct Rows<'r> {
+    pub(super) columns: &'r [String],
+    pub(super) own: &'r [OwnMeasure],
+    pub(super) output: &'r Output,
+}
+
+/// Returns the refinement of the grid of these axes.
+pub(super) fn read(
+    section: &Entry<'_>,
+    axes: &[Placed],
+    sample: Option<&Entry<'_>>,
+    rows: &Rows<'_>,
+    lookup: &mut Lookup<'_>,
+) -> Option<Refine> {
+    let entries = table::section(section, lookup.problems);
+    table::check_keys(&entries, &KEYS, "in [refine]", lookup.problems);
+    if let Some(sample) = sample {
+        lookup
+            .problems
+            .report(section.key_span.clone(), "[refine] adds points between axes, but the grid has a sample")
+            .related(sample.key_span.clone(), "the sample")
+            .help("vary the parameters of the sample under [axes], or remove [refine]");
+        return None;
+    }
+    for key in ["measure", "error", "max_points"] {
+        if table::find(&entries, key).is_none() {
+            let example = match key {
+                "measure" => "measure = \"lift_mean_mn\"",
+                "error" => "error = \"1 %\"",
+                _ => "max_points = 2000",
+            };
+            let message = format!("[refine] lacks `{key}`");
+            lookup
+                .problems
+                .report(section.key_span.clone(), message)
+                .help(format!("write {example} under [refine]"));
+        }
+    }
+    let along = along(section, table::find(&entries, "along"), axes, lookup);
+    let halvings = table::find(&entries, "halvings")
+        .map_or(Some(u64::from(Refine::HALVINGS)), |entry| {
+            value::count("halvings", u64::from(Refine::MOST_HALVINGS), entry.value, lookup.problems)
+        })
+        .and_then(|halvings| u32::try_from(halvings).ok());
+    let max_points =
+        table::find(&entries, "max_points").and_then(|entry| max_points(entry, axes, lookup.problems));
+    let measures = table::find(&entries, "measure").map(|entry| measures(entry, rows, lookup));
+    let errors = table::find(&entries, "error").zip(measures.as_ref());
+    let errors = errors.map(|(entry, measures)| errors_of(entry, measures, lookup.problems));
+    let limits = measures?.into_iter().zip(errors?);
+    let measures = limits.filter_map(|(column, error)| error.map(|error| Limit { column, error })).collect();
+    Some(Refine { measures, along: along?, max_points: max_points?, halvings: halvings? })
+}
+
+/// Returns the indices of the refined axes: those of the listed parameters, or all that can be refined.
+fn along(
+    section: &Entry<'_>,
+    listed: Option<&Entry<'_>>,
+    axes: &[Placed],
+    lookup: &mut Lookup<'_>,
+) -> Option<Vec<usize>> {
+    let parameters = lookup.simulator.parameters();
+    let mut along = if let Some(entry) = listed {
+        listed_axes(entry, axes, lookup)
+    } else {
+        let refined = |place: &usize| not_refined(&axes[*place].axis, parameters).is_none();
+        (0..axes.len()).filter(refined).collect()
+    };
+    along.sort_unstable();
+    let span = listed.map_or(section.key_span.clone(), |entry| entry.value.span());
+    if along.is_empty() && listed.is_none() {
+        lookup
+            .problems
+            .report(span, "[refine] has no axis along which it can add points")
+            .note("it needs an axis of one numeric parameter, with two or more rising or falling values")
+            .help("add such an axis under [axes], or remove [refine]");
+        return None;
+    }
+    if along.len() > Refine::MOST_AXES {
+        let message =
+            format!("[refine] adds points along at most {} axes, not {}", Refine::MOST_AXES, along.len());
+        let help = "list fewer parameters: along = [\"drive_voltage_pp\", \"drive_frequency\"]";
+        lookup.problems.report(span, message).help(help);
+        return None;
+    }
+    Some(along)
+}
+
+/// Returns the axes of the parameters in the list `along`.
+fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> Vec<usize> {
+    let Some(list) = entry.value.get_ref().as_array().filter(|list| !list.is_empty()) else {
+        lookup
+            .problems
+            .report(entry.value.span(), "`along` must be a list of parameters under [axes]")
+            .help("remove `along` to add points along all axes of numbers");
+        return Vec::new();
+    };
+    let mut along = Vec::new();
+    for item in list {
+        let Some(name) = value::text("along", item, lookup.problems) else { continue };
+        let Some((index, parameter)) = lookup.named(name, item.span()) else { continue };
+        let name = parameter.name;
+        let varies = |placed: &Placed| placed.axis.parameters().iter().any(|(varied, _)| *varied == index);
+        let Some(place) = axes.iter().position(varies) else {
+            lookup
+                .problems
+                .report(item.span(), format!("`{name}` has no axis"))
+                .help(format!("vary `{name}` under [axes]"));
+            continue;
+        };
+        if along.contains(&place) {
+            let message = format!("`{name}` is listed twice");
+            lookup.problems.report(item.span(), message).help("keep one of them");
+        }
+        if let Some(reason) = not_refined(&axes[place].axis, lookup.simulator.parameters()) {
+            report_not_refined(name, item, &axes[place], reason, lookup.problems);
+        }
+        along.push(place);
+    }
+    along
+}
+
+fn report_not_refined(
+    name: &str,
+    item: &Spanned<DeValue<'_>>,
+    placed: &Placed,
+    reason: NotRefined,
+    problems: &mut Problems,
+) {
+    let why = match reason {
+        NotRefined::Zip => "it varies together with other parameters",
+        NotRefined::Choice => "its values are options",
+        NotRefined::Whole => "its values are whole numbers",
+        NotRefined::Order => "its axis needs two or more values that rise or fall",
+        NotRefined::Sample => "it is sampled",
+    };
+    problems
+        .report(item.span(), format!("no points can be added along `{name}`: {why}"))
+        .related(placed.span.clone(), "its axis")
+        .help(format!("remove `{name}`: each of its values then gets a map of its own"));
+}
+
+/// Returns the largest number of points, which must be more than the axes have.
+fn max_points(entry: &Entry<'_>, axes: &[Placed], problems: &mut Problems) -> Option<u64> {
+    let most = value::count("max_points", Refine::MOST_POINTS, entry.value, problems)?;
+    let points = axes.iter().try_fold(1_u64, |points, placed| points.checked_mul(placed.axis.len()))?;
+    if most > points {
+        return Some(most);
+    }
+    let message = format!("`max_points` must be more than the {} of the axes", count(points, "point"));
+    problems.report(entry.value.span(), message).help(
+        "raise `max_points`, or give the axes fewer values: [refine] adds points where they are needed",
+    );
+    None
+}
+
+/// Returns the names of the measures.
+fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<String> {
+    let items: Vec<&Spanned<DeValue<'_>>> = match entry.value.get_ref() {
+        DeValue::Array(list) if !list.is_empty() => list.iter().collect(),
+        DeValue::String(_) => vec![entry.value],
+        _ => {
+            let message = "`measure` must be the name of a measure, or a list of names";
+            lookup.problems.report(entry.value.span(), message);
+            return Vec::new();
+        }
+    };
+    let mut names: Vec<String> = Vec::new();
+    for item in items {
+        let Some(name) = value::text("measure", item, lookup.problems) else { continue };
+        if names.iter().any(|known| known == name) {
+            let message = format!("`{name}` is listed twice");
+            lookup.problems.report(item.span(), message).help("keep one of them");
+        }
+        check_measure(name, item, rows, lookup);
+        names.push(name.to_owned());
+    }
+    names
+}
+
+/// Checks that rows contain a measure, and that it is a number.
+fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
+    let problems = &mut *lookup.problems;
+    let Some(index) = rows.columns.iter().position(|known| known == name) else {
+        if Parameter::index(lookup.simulator.parameters(), name).is_some() {
+            problems.report(item.span(), format!("`{name}` is a parameter, not a measure"));
+            return;
+        }
+        let model = lookup.simulator.name();
+        problems
+            .report(item.span(), format!("model `{model}` has no measure `{name}`"))
+            .label("unknown measure")
+            .note(format!("measures: {}", rows.columns.join(", ")))
+            .did_you_mean(name, rows.columns.iter().map(String::as_str));
+        return;
+    };
+    let own = rows.own.iter().find(|own| own.name == name);
+    if own.is_some_and(|own| own.kind() != expression::Kind::Number) {
+        problems
+            .report(item.span(), format!("`{name}` is true or false, and cannot be interpolated"))
+            .help("name a measure that is a number");
+    }
+    if rows.output.columns.as_ref().is_some_and(|chosen| !chosen.contains(&index)) {
+        problems
+            .report(item.span(), format!("`{name}` is not among the `columns` of [output]"))
+            .note("an interrupted sweep reads its measures from the rows")
+            .help(format!("add \"{name}\" to `columns`"));
+    }
+}
+
+/// Returns the largest errors: one for all measures, or a list with one for each.
+fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) -> Vec<Option<Error>> {
+    let DeValue::Array(list) = entry.value.get_ref() else {
+        return measures.iter().map(|measure| error(measure, entry.value, problems)).collect();
+    };
+    if list.len() != measures.len() {
+        let message = format!(
+            "`error` has {}, but `measure` has {}",
+            count(list.len() as u64, "value"),
+            measures.len()
+        );
+        problems.report(entry.value.span(), message).help("give one error for all measures, or one for each");
+        return vec![None; measures.len()];
+    }
+    measures.iter().zip(list).map(|(measure, item)| error(measure, item, problems)).collect()
+}
+
+/// Returns the largest error of a measure: a share, such as `"1 %"`, or a number in the unit of the column.
+fn error(measure: &str, item: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<Error> {
+    let is_share = item.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
+    if item.get_ref().as_str().is_some() && !is_share {
+        let (_, unit) = split_unit(measure);
+        let unit = if unit.is_empty() { "without a unit".to_owned() } else { format!("in {unit}") };
+        problems
+            .report(item.span(), "`error` is a share such as \"1 %\", or a bare number")
+            .help(format!("write \"1 %\" for a share of the range of `{measure}`, or a number {unit}"));
+        return None;
+    }
+    let number = value::quantity("error", "", item, problems)?;
+    if number > 0.0 && number.is_finite() && !(is_share && number >= 1.0) {
+        return Some(if is_share { Error::Share(number) } else { Error::Absolute(number) });
+    }
+    let allowed = if is_share { "more than 0 % and less than 100 %" } else { "more than zero" };
+    problems.report(item.span(), format!("`error` must be {allowed}"));
+    None
+}

@@ -1,0 +1,87 @@
+//! Adaptive refinement of a grid: settings of [`crate::refine`].
+
+use flap_core::parameter::{Kind, Parameter, Range};
+
+use super::axes::{Axis, Values};
+
+/// Refinement of a grid: after the points of its axes, points are added where interpolation of their rows errs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refine {
+    /// Measures whose interpolation error is limited; at least one.
+    pub measures: Vec<Limit>,
+    /// Indices of the refined axes, ascending; at least one. Every combination of the other axes is a map of its own.
+    pub along: Vec<usize>,
+    /// Largest number of points, including the points of the axes.
+    pub max_points: u64,
+    /// Largest number of halvings of a cell of the axes along each axis.
+    pub halvings: u32,
+}
+
+impl Refine {
+    /// Largest accepted number of points. All of them are held in memory.
+    pub const MOST_POINTS: u64 = 1_000_000;
+
+    /// Largest number of refined axes: a box between axes has 2^6 corners.
+    pub const MOST_AXES: usize = 6;
+
+    /// Largest accepted number of halvings.
+    pub const MOST_HALVINGS: u32 = 20;
+
+    /// Default number of halvings: to 1/64 of a cell.
+    pub const HALVINGS: u32 = 6;
+}
+
+/// A measure and the largest allowed error of its interpolation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// Name of the column.
+    pub column: String,
+    /// Largest error.
+    pub error: Error,
+}
+
+/// Largest error of an interpolated measure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Error {
+    /// Share of the range of the measure over all rows.
+    Share(f64),
+    /// Number in the unit of the column.
+    Absolute(f64),
+}
+
+/// Reason why points cannot be added along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotRefined {
+    /// It varies several parameters together.
+    Zip,
+    /// Its values are options.
+    Choice,
+    /// Its values are whole numbers.
+    Whole,
+    /// Its values do not form intervals: there is one, or they neither rise nor fall.
+    Order,
+    /// It is a sample.
+    Sample,
+}
+
+/// Returns the reason why points cannot be added along an axis; `None` if they can.
+pub fn not_refined(axis: &Axis, parameters: &[Parameter<'_>]) -> Option<NotRefined> {
+    let [(parameter, values)] = axis.parameters() else { return Some(NotRefined::Zip) };
+    match parameters[*parameter].kind {
+        Kind::Choice(_) => return Some(NotRefined::Choice),
+        Kind::Number(Range::Whole(..)) | Kind::Following(Range::Whole(..), _) => {
+            return Some(NotRefined::Whole);
+        }
+        Kind::Number(_) | Kind::Following(..) => {}
+    }
+    match values {
+        Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_) => Some(NotRefined::Sample),
+        Values::List(list) => {
+            let ordered = list.is_sorted_by(|a, b| a < b) || list.is_sorted_by(|a, b| a > b);
+            (list.len() < 2 || !ordered).then_some(NotRefined::Order)
+        }
+        Values::Linear { .. } | Values::Step { .. } | Values::Log { .. } => {
+            (values.len() < 2).then_some(NotRefined::Order)
+        }
+    }
+}

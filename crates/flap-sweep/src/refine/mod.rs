@@ -1,0 +1,213 @@
+//! Refinement of a grid: the points that follow the points of the axes.
+//!
+//! Points of the axes are the corners of boxes. When their rows exist, the error of a multilinear interpolation within
+//! each box is estimated (`estimate`). Boxes with large errors are halved, and the middles of their edges are the next
+//! points (`mesh`). Points are added in rounds until all estimates are small enough or there are enough points.
+//!
+//! A round depends on the settings and on the rows of earlier rounds, as they are written. A resumed run reads the
+//! rows from its file and gets the same points.
+
+mod estimate;
+mod mesh;
+
+use std::collections::VecDeque;
+use std::io;
+
+use csv::StringRecord;
+use serde::{Deserialize, Serialize};
+
+use crate::plan::axes::{Axis, Values};
+use crate::plan::refine::{Error, Limit, Refine};
+use crate::plan::selection::Selection;
+use crate::plan::{Admission, Plan};
+use crate::table::layout::Layout;
+use estimate::Tolerance;
+use mesh::{Mesh, Place, Side};
+
+/// The rows of a refined grid so far, and the choice of the points after them.
+#[derive(Clone, Debug)]
+pub struct Refinement {
+    refine: Refine,
+    /// For each axis of the plan its length, and its index among the refined axes.
+    axes: Vec<(u64, Option<usize>)>,
+    /// Columns of the measures in a row.
+    columns: Vec<usize>,
+    mesh: Mesh,
+    /// Points without a row, in their order.
+    waiting: VecDeque<Place>,
+    points: u64,
+    rounds: u64,
+}
+
+/// Result of a refinement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refined {
+    /// Number of rounds.
+    pub rounds: u64,
+    /// Number of points that follow the points of the axes.
+    pub added: u64,
+    /// Number of boxes between points.
+    pub boxes: u64,
+    /// Number of boxes whose estimated error is too large.
+    pub above: u64,
+    /// True if points were left out because of `max_points`.
+    pub is_limited: bool,
+}
+
+impl Refinement {
+    /// Returns the refinement of `plan` before its first row.
+    ///
+    /// `None` if the plan has none, selects only part of its points, or leaves a measure out of its rows.
+    pub fn of(plan: &Plan) -> Option<Refinement> {
+        let refine = plan.refine().filter(|_| *plan.selection() == Selection::All)?.clone();
+        let names = Layout::of(plan).names();
+        let column = |limit: &Limit| names.iter().position(|name| *name == limit.column);
+        let columns: Vec<usize> = refine.measures.iter().map(column).collect::<Option<_>>()?;
+        let all = plan.axes().as_slice();
+        let refined = |axis: usize| refine.along.iter().position(|along| *along == axis);
+        let axes: Vec<_> = all.iter().enumerate().map(|(place, axis)| (axis.len(), refined(place))).collect();
+        let sides = refine.along.iter().map(|&along| side(&all[along])).collect();
+        let maps = axes.iter().filter(|(_, refined)| refined.is_none()).map(|(length, _)| length).product();
+        let mesh = Mesh::new(sides, maps, refine.halvings, columns.len());
+        let mut refinement =
+            Refinement { refine, axes, columns, mesh, waiting: VecDeque::new(), points: 0, rounds: 0 };
+        refinement.points = plan.axes().points();
+        refinement.waiting = (0..refinement.points).map(|index| refinement.place(index)).collect();
+        Some(refinement)
+    }
+
+    /// Receives the row of the next point. `cell` returns the number in a column; NaN if it is unknown or the point is
+    /// excluded.
+    pub(crate) fn add(&mut self, cell: impl Fn(usize) -> f64) {
+        let measures: Vec<f64> = self.columns.iter().map(|&column| cell(column)).collect();
+        if let Some(place) = self.waiting.pop_front() {
+            self.mesh.add(place, &measures);
+        }
+    }
+
+    /// Returns the points of the next round, each as a position along each axis; none if the refinement has ended, or
+    /// a row of the earlier points is missing.
+    pub fn next_round(&mut self) -> Vec<Vec<f64>> {
+        if !self.waiting.is_empty() {
+            return Vec::new();
+        }
+        let room = self.refine.max_points.saturating_sub(self.points);
+        // Large enough to fill the lanes of all threads, and small enough that later points use earlier rows.
+        let wanted = (self.points / 4).max(64).min(room);
+        let places = self.mesh.next_round(&self.tolerances(), (wanted, room));
+        self.rounds += u64::from(!places.is_empty());
+        self.points += places.len() as u64;
+        let positions = places.iter().map(|place| self.positions(place)).collect();
+        self.waiting = places.into();
+        positions
+    }
+
+    /// Returns the result so far.
+    pub fn refined(&self) -> Refined {
+        let added = self.points - self.axes.iter().map(|(length, _)| length).product::<u64>();
+        let [boxes, above, open] = self.mesh.count(&self.tolerances());
+        Refined { rounds: self.rounds, added, boxes, above, is_limited: open > 0 }
+    }
+
+    fn tolerances(&self) -> Vec<Tolerance> {
+        let limits = self.refine.measures.iter().zip(self.mesh.ranges());
+        let tolerance = |(limit, range): (&Limit, f64)| match limit.error {
+            Error::Share(share) => Tolerance { error: share * range, range },
+            Error::Absolute(error) => Tolerance { error, range },
+        };
+        limits.map(tolerance).collect()
+    }
+
+    /// Returns the place of a point of the axes.
+    fn place(&self, index: u64) -> Place {
+        let mut place = Place { map: 0, at: vec![0; self.refine.along.len()] };
+        let (mut rest, mut maps) = (index, 1);
+        for (length, refined) in self.axes.iter().rev() {
+            let position = rest % length;
+            rest /= length;
+            if let Some(axis) = refined {
+                place.at[*axis] = position << self.refine.halvings;
+            } else {
+                place.map += position * maps;
+                maps *= length;
+            }
+        }
+        place
+    }
+
+    /// Returns the position of a place along each axis of the plan.
+    fn positions(&self, place: &Place) -> Vec<f64> {
+        let whole = (1_u64 << self.refine.halvings) as f64;
+        let mut rest = place.map;
+        let mut positions: Vec<f64> = Vec::with_capacity(self.axes.len());
+        for (length, refined) in self.axes.iter().rev() {
+            positions.push(if let Some(axis) = refined {
+                place.at[*axis] as f64 / whole
+            } else {
+                let position = rest % length;
+                rest /= length;
+                position as f64
+            });
+        }
+        positions.reverse();
+        positions
+    }
+}
+
+/// Returns the coordinates along a refined axis.
+fn side(axis: &Axis) -> Side {
+    match axis.parameters().first() {
+        Some((_, Values::List(list))) => Side::Listed(list.clone()),
+        _ => Side::Even(axis.len()),
+    }
+}
+
+/// Returns the plan with the points of all rounds that begin within the first `done` points, and the refinement after
+/// these points. `rows` are the written rows of the plan, in their order.
+///
+/// `None` if the plan has no refinement.
+///
+/// # Errors
+/// - [`io::ErrorKind::InvalidData`] if a row is not the next row of the plan, or rows are missing
+/// - the error of reading a row
+pub fn replay(
+    plan: &Plan,
+    done: u64,
+    mut rows: impl Iterator<Item = io::Result<StringRecord>>,
+) -> io::Result<Option<(Plan, Refinement)>> {
+    let Some(mut refinement) = Refinement::of(plan) else { return Ok(None) };
+    let mut plan = plan.clone();
+    for index in 0..done {
+        if index >= plan.len() {
+            plan = grown(plan, &mut refinement);
+        }
+        if index >= plan.len() {
+            return Err(not_next(index));
+        }
+        let row = match plan.judge(&plan.point(index).values) {
+            Admission::Excluded(_) => None,
+            Admission::Runs | Admission::Invalid(_) => {
+                let row = rows.next().ok_or_else(|| not_next(index))??;
+                if row.get(0) != Some(index.to_string().as_str()) {
+                    return Err(not_next(index));
+                }
+                Some(row)
+            }
+        };
+        refinement.add(|column| {
+            let cell = row.as_ref().and_then(|row| row.get(column));
+            cell.and_then(|cell| cell.parse().ok()).unwrap_or(f64::NAN)
+        });
+    }
+    Ok(Some((plan, refinement)))
+}
+
+/// Returns the plan with the points of the next round.
+pub(crate) fn grown(plan: Plan, refinement: &mut Refinement) -> Plan {
+    plan.followed_by(refinement.next_round())
+}
+
+fn not_next(index: u64) -> io::Error {
+    let message = format!("the row of point {index} is missing, or belongs to another grid");
+    io::Error::new(io::ErrorKind::InvalidData, message)
+}
