@@ -28,6 +28,7 @@ mod mistakes;
 mod optimise;
 mod plot;
 mod point;
+mod refine;
 mod replaced;
 mod rerun;
 mod resonance;

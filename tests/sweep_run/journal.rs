@@ -14,25 +14,25 @@ use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Shard;
 use flap_sweep::run::identity::Identity;
-use flap_sweep::run::{InvalidPoint, RunError, Sink, Summary};
+use flap_sweep::run::{InvalidPoint, RunError, Sink, Summary, Written};
 use flap_sweep::table::layout::Cell;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan, plan_with, resume};
 
 /// Checkpoints wherever there may be one.
-fn often() -> SessionOptions {
+pub(crate) fn often() -> SessionOptions {
     SessionOptions { run: options(2, 100), checkpoint: Duration::ZERO }
 }
 
-fn start(path: &Path, plan: &Plan) -> Session {
+pub(crate) fn start(path: &Path, plan: &Plan) -> Session {
     let file = output::create(path, false).unwrap().file;
     Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), ("2026-01-02".to_owned(), false))
         .unwrap()
 }
 
 /// Runs until `stop_at` rows are written, as if the machine lost its power then.
-fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_at: u64) -> Option<Summary> {
+pub(crate) fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_at: u64) -> Option<Summary> {
     let mut sink = Crash { session, stop_at };
     match resume(plan, &often().run, before, &mut sink, &AtomicBool::new(false), &mut |_| {}) {
         Ok(summary) => {
@@ -51,6 +51,10 @@ struct Crash<'a> {
 }
 
 impl Sink for Crash<'_> {
+    fn written(&self) -> std::io::Result<Written> {
+        self.session.written()
+    }
+
     fn begin(&mut self) -> std::io::Result<()> {
         self.session.begin()
     }

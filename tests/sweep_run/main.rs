@@ -10,5 +10,6 @@ mod files;
 mod formulas;
 mod journal;
 mod layout;
+mod refine;
 mod rows;
 mod support;

@@ -71,18 +71,23 @@ pub(crate) fn resume(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
     let mut output = RowWriter::begin(plan, before, sink)?;
-    let mut run = run::rows(plan, options, output.done());
     let mut pull = || {
         loop {
-            if stop.load(Ordering::SeqCst) {
-                run.stop();
+            let mut run = run::rows(output.plan(), options, output.done());
+            loop {
+                if stop.load(Ordering::SeqCst) {
+                    run.stop();
+                }
+                let Some(batch) = run.next_batch()? else { break };
+                for row in &batch {
+                    output.write(row)?;
+                }
+                output.flush()?;
+                progress(run.progress());
             }
-            let Some(batch) = run.next_batch()? else { return Ok(()) };
-            for row in &batch {
-                output.write(row)?;
+            if stop.load(Ordering::SeqCst) || !output.next_round() {
+                return Ok(());
             }
-            output.flush()?;
-            progress(run.progress());
         }
     };
     let ended = pull();

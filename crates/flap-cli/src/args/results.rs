@@ -69,6 +69,9 @@ flap continues after the last row of FILE that the journal FILE.journal records.
 interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if another build of flap or another kind \
 of machine started the sweep, or if complete results are damaged.
 
+Merged shards of a grid with [refine] contain the points of the axes. For such a FILE, flap runs the points that \
+[refine] adds.
+
 Example:
   flap results resume results/run1.csv";
 

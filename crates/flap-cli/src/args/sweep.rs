@@ -30,6 +30,7 @@ pub(crate) struct SweepArgs {
     /// Run part I of N equal parts, so that several machines can share a sweep
     ///
     /// `flap results merge` joins the parts. Without --out, flap writes the rows to a file such as grid.2of8.csv.
+    /// The parts do not contain points of [refine]: `flap results resume` adds these points to the merged file.
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
 
@@ -89,7 +90,8 @@ flap shows the range of each axis, the number of points that [where] excludes, t
 of the time of the sweep and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. \
 The command also lists the parameters that differ from the preset, and parameters that stay the same although they usually \
 change with a varied parameter. flap warns if a value is more than a hundred times larger or smaller than the value of the \
-preset. If a grid has more than a million points, flap counts the excluded points in a sample of a million.
+preset. If a grid has more than a million points, flap counts the excluded points in a sample of a million. \
+If the grid has [refine], the estimates are for `max_points` points.
 
 Examples:
   flap check grid.toml

@@ -73,7 +73,7 @@ pub(super) fn read(
     Some(Refine { measures, along: along?, max_points: max_points?, halvings: halvings? })
 }
 
-/// Returns the indices of the refined axes: those of the listed parameters, or all that can be refined.
+/// Returns the indices of the refined axes: the axes of the listed parameters, or all that can be refined.
 fn along(
     section: &Entry<'_>,
     listed: Option<&Entry<'_>>,
@@ -158,7 +158,7 @@ fn report_not_refined(
     problems
         .report(item.span(), format!("no points can be added along `{name}`: {why}"))
         .related(placed.span.clone(), "its axis")
-        .help(format!("remove `{name}`: each of its values then gets a map of its own"));
+        .help(format!("remove `{name}`: each of its values then gets a separate map"));
 }
 
 /// Returns the largest number of points, which must be more than the axes have.

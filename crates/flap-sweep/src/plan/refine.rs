@@ -9,7 +9,7 @@ use super::axes::{Axis, Values};
 pub struct Refine {
     /// Measures whose interpolation error is limited; at least one.
     pub measures: Vec<Limit>,
-    /// Indices of the refined axes, ascending; at least one. Every combination of the other axes is a map of its own.
+    /// Indices of the refined axes, ascending; at least one. Every combination of the other axes is a separate map.
     pub along: Vec<usize>,
     /// Largest number of points, including the points of the axes.
     pub max_points: u64,

@@ -9,6 +9,9 @@ pub(super) struct Tolerance {
     pub(super) range: f64,
 }
 
+/// Ratio of the errors of two parabolas above which only one of them contains a jump or a kink.
+const MOST_APART: f64 = 8.0;
+
 /// An edge of a box, with the nearest points on its line.
 pub(super) struct Edge {
     pub(super) before: Option<Sample>,
@@ -24,9 +27,10 @@ impl Edge {
     /// If the measure is known at one end only, the estimate is half of the range of the measure. If it is unknown at
     /// both ends, there is nothing to interpolate.
     ///
-    /// The estimate is that of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two such
-    /// parabolas. Beside a jump or a kink, only one of them contains it, so the smaller estimate counts. Whole edges
-    /// take the larger one, because nothing between their ends is known.
+    /// The estimate is the error of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two
+    /// such parabolas, and the mean of their errors counts. Beside a jump or a kink, only one parabola contains it. The
+    /// larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges the larger error counts,
+    /// because nothing between their ends is known.
     ///
     /// If the measure changes more than twice as much as beside the edge, it may jump: the estimate is half of the
     /// change.
@@ -59,7 +63,13 @@ impl Edge {
         }
         let bends = beside
             .map(|(other, distance)| ((slope - other) * length * length / (4.0 * (length + distance))).abs());
-        let bend = if self.is_whole { bends.reduce(f64::max) } else { bends.reduce(f64::min) };
+        let ends = bends.clone().reduce(f64::min).zip(bends.reduce(f64::max));
+        let bend =
+            ends.map(
+                |(smaller, larger)| {
+                    if self.is_whole { larger } else { 0.5 * (smaller + larger.min(MOST_APART * smaller)) }
+                },
+            );
         bend.unwrap_or(0.0)
     }
 }
@@ -74,4 +84,71 @@ pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize>
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));
     let axes = (0..errors.len()).filter(|&axis| halvings[axis] < most && errors[axis] > share);
     axes.reduce(|best, axis| if weight(axis) > weight(best) { axis } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn size(before: Option<Sample>, ends: [Sample; 2], after: Option<Sample>, is_whole: bool) -> f64 {
+        Edge { before, ends, after, is_whole }.size(10.0)
+    }
+
+    #[test]
+    fn the_error_of_a_parabola_is_exact() {
+        // Between 4 and 6 the chord of x² is 1 above it in the middle, at any distance of the neighbours.
+        let square = |x: f64| (x, x * x);
+        for (before, after) in [(3.5, 9.0), (1.0, 6.25)] {
+            let (before, after) = (Some(square(before)), Some(square(after)));
+            for (before, after) in [(before, after), (before, None), (None, after)] {
+                assert!((size(before, [square(4.0), square(6.0)], after, false) - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn beside_a_kink_only_whole_edges_are_in_doubt() {
+        let bend = |x: f64| (x, x.abs());
+        let edge = |is_whole| size(Some(bend(-1.0)), [bend(0.0), bend(1.0)], Some(bend(2.0)), is_whole);
+        // The slopes -1 and 1 give a parabola with h² f″ / 8 = 2 / 8.
+        assert_eq!((edge(false), edge(true)), (0.0, 0.25));
+        // Slopes of 0, 1 and 3 give parabolas with 1 / 8 and 2 / 8.
+        let uneven = size(Some((-1.0, 0.0)), [(0.0, 0.0), (1.0, 1.0)], Some((2.0, 4.0)), false);
+        assert_eq!(uneven, 0.1875);
+        // Of 0.01 / 8 and 3.01 / 8, the second counts 8 times the first at most.
+        let kink = size(Some((-1.0, -1.0)), [(0.0, 0.0), (1.0, 1.01)], Some((2.0, 5.03)), false);
+        assert!((kink - 4.5 * 0.01 / 8.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_jump_errs_by_half_of_its_height() {
+        let flat = |x: f64, height: f64| (x, height);
+        let jump = [flat(0.0, 1.0), flat(1.0, 5.0)];
+        assert_eq!(size(Some(flat(-1.0, 1.0)), jump, Some(flat(2.0, 5.5)), false), 2.0);
+        assert_eq!(size(Some(flat(-1.0, f64::NAN)), jump, Some(flat(2.0, 5.5)), false), 2.0);
+        // Beside the jump nothing changes.
+        let beside = [flat(1.0, 5.0), flat(2.0, 5.0)];
+        assert_eq!(size(Some(flat(0.0, 1.0)), beside, Some(flat(3.0, 5.0)), false), 0.0);
+        // Two values alone.
+        assert_eq!(size(None, jump, None, true), 1.0);
+    }
+
+    #[test]
+    fn where_a_measure_ends_half_of_its_range_is_in_doubt() {
+        assert_eq!(size(None, [(0.0, 1.0), (1.0, f64::NAN)], None, true), 5.0);
+        assert_eq!(size(Some((-1.0, 2.0)), [(0.0, f64::NAN), (1.0, f64::NAN)], None, true), 0.0);
+        let edge = Edge { before: None, ends: [(0.0, 1.0), (1.0, f64::NAN)], after: None, is_whole: true };
+        assert_eq!(edge.error(&Tolerance { error: 0.1, range: 10.0 }), 50.0);
+        assert_eq!(edge.error(&Tolerance { error: 0.0, range: 0.0 }), 0.0);
+    }
+
+    #[test]
+    fn boxes_are_halved_along_the_axis_of_the_largest_error() {
+        assert_eq!(axis(&[3.0, 2.0], &[0, 0], 6), Some(0));
+        // A jump that crosses both axes: they take turns.
+        assert_eq!(axis(&[3.0, 2.9], &[1, 0], 6), Some(1));
+        // An axis is left out if it is halved often enough, or its error does not matter.
+        assert_eq!(axis(&[3.0, 0.6], &[6, 0], 6), Some(1));
+        assert_eq!(axis(&[3.0, 0.4], &[6, 0], 6), None);
+    }
 }

@@ -255,3 +255,155 @@ impl Mesh {
         (0..self.sides.len()).map(along).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HALVINGS: u32 = 6;
+
+    /// Adds the rows of `measure` over the unit square, at the points of the axes and then in rounds.
+    fn refined(side: u64, most: usize, share: f64, measure: impl Fn(f64, f64) -> f64) -> (Mesh, usize) {
+        let mut mesh = Mesh::new(vec![Side::Even(side), Side::Even(side)], 1, HALVINGS, 1);
+        let whole = ((side - 1) << HALVINGS) as f64;
+        let value = |place: &Place| measure(place.at[0] as f64 / whole, place.at[1] as f64 / whole);
+        let mut places: Vec<Place> = (0..side * side)
+            .map(|index| Place { map: 0, at: vec![index / side << HALVINGS, index % side << HALVINGS] })
+            .collect();
+        while !places.is_empty() {
+            for place in places {
+                let value = value(&place);
+                mesh.add(place, &[value]);
+            }
+            let tolerances = tolerances(&mesh, share);
+            let room = (most - mesh.numbers.len()) as u64;
+            places = mesh.next_round(&tolerances, (64.min(room), room));
+        }
+        let points = mesh.numbers.len();
+        (mesh, points)
+    }
+
+    fn tolerances(mesh: &Mesh, share: f64) -> Vec<Tolerance> {
+        mesh.ranges().into_iter().map(|range| Tolerance { error: share * range, range }).collect()
+    }
+
+    /// Returns the largest error of the bilinear interpolation of `measure` in boxes, given by their lower corner and
+    /// their sides.
+    fn largest_error(
+        boxes: impl Iterator<Item = ([f64; 2], [f64; 2])>,
+        measure: impl Fn(f64, f64) -> f64,
+    ) -> f64 {
+        let mut largest = 0.0_f64;
+        for ([x, y], [width, height]) in boxes {
+            let corner = |right: f64, up: f64| measure(x + right * width, y + up * height);
+            let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(1.0, 1.0)];
+            for place in 0..81 {
+                let (right, up) = (f64::from(place % 9) / 8.0, f64::from(place / 9) / 8.0);
+                let low = corners[0] + (corners[1] - corners[0]) * right;
+                let high = corners[2] + (corners[3] - corners[2]) * right;
+                largest = largest.max((low + (high - low) * up - corner(right, up)).abs());
+            }
+        }
+        largest
+    }
+
+    fn boxes(mesh: &Mesh) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
+        let whole = ((mesh.sides[0].len() - 1) << HALVINGS) as f64;
+        let corner = move |cell: &Cell| [0, 1].map(|axis| cell.low.at[axis] as f64 / whole);
+        mesh.cells
+            .iter()
+            .map(move |cell| (corner(cell), [0, 1].map(|axis| mesh.length(cell, axis) as f64 / whole)))
+    }
+
+    fn even_boxes(side: u32) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+        let step = 1.0 / f64::from(side - 1);
+        let corner =
+            move |index: u32| [index / (side - 1), index % (side - 1)].map(|at| f64::from(at) * step);
+        (0..(side - 1) * (side - 1)).map(move |index| (corner(index), [step, step]))
+    }
+
+    /// A narrow peak of height 1.
+    fn peak(x: f64, y: f64) -> f64 {
+        1.0 / (1.0 + 60.0 * ((x - 0.31).powi(2) + (y - 0.64).powi(2)))
+    }
+
+    #[test]
+    fn interpolation_of_a_smooth_measure_errs_as_estimated() {
+        let share = 0.01;
+        let (mesh, points) = refined(9, 5000, share, peak);
+        let error = largest_error(boxes(&mesh), peak);
+        let allowed = tolerances(&mesh, share)[0].error;
+        assert!(error < 1.2 * allowed, "{error} of {allowed}, with {points} points");
+        assert!(error > 0.3 * allowed, "too many points: {points} give {error} of {allowed}");
+        // As many points, or half as many again, on a uniform grid.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+        let side = (points as f64 * 1.5).sqrt() as u32;
+        let uniform = largest_error(even_boxes(side), peak);
+        assert!(uniform > 4.0 * error, "{points} points: {error}; {side} times {side}: {uniform}");
+        assert_eq!(mesh.count(&tolerances(&mesh, share))[1], 0);
+    }
+
+    #[test]
+    fn the_boxes_cover_the_square_once() {
+        let (mesh, _) = refined(5, 400, 0.01, peak);
+        let area: f64 = boxes(&mesh).map(|(_, [width, height])| width * height).sum();
+        assert!((area - 1.0).abs() < 1e-12);
+        for cell in &mesh.cells {
+            for axis in [0, 1] {
+                for low in mesh.edges(cell, axis) {
+                    let high = low.moved(axis, low.at[axis] + mesh.length(cell, axis));
+                    assert!(mesh.numbers.contains_key(&low) && mesh.numbers.contains_key(&high));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_at_a_jump_are_the_smallest() {
+        let jump = |x: f64, y: f64| if x + 0.4 * y > 0.71 { 1.0 } else { 0.0 };
+        let (mesh, points) = refined(5, 20_000, 0.01, jump);
+        let crossed = |[x, y]: [f64; 2], [width, height]: [f64; 2]| jump(x, y) != jump(x + width, y + height);
+        let width: Vec<f64> =
+            boxes(&mesh).filter(|(low, sides)| crossed(*low, *sides)).map(|(_, sides)| sides[0]).collect();
+        let smallest = 0.25 / f64::from(1 << HALVINGS);
+        assert!(width.len() > 256 && width.iter().all(|width| *width == smallest), "{}", width.len());
+        // Points are at the line only: a uniform grid with such boxes has 66,049.
+        assert!(points < 3000, "{points}");
+        let [_, above, open] = mesh.count(&tolerances(&mesh, 0.01));
+        assert!(above > 256 && open == 0);
+    }
+
+    #[test]
+    fn a_limit_of_points_is_kept_and_used() {
+        for most in [100, 101, 333] {
+            let (mesh, points) = refined(9, most, 1e-4, peak);
+            assert!((most - 1..=most).contains(&points), "{points} of {most}");
+            assert!(mesh.count(&tolerances(&mesh, 1e-4))[2] > 0);
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_measure_is_found() {
+        // Unknown in a quarter of a disc.
+        let known = |x: f64, y: f64| if x.hypot(y) < 0.6 { f64::NAN } else { x };
+        let (mesh, _) = refined(5, 20_000, 0.01, known);
+        let smallest = 0.25 / f64::from(1 << HALVINGS);
+        let mixed = boxes(&mesh).filter(|([x, y], [width, height])| {
+            known(*x, *y).is_nan() != known(x + width, y + height).is_nan()
+        });
+        let mixed: Vec<[f64; 2]> = mixed.map(|(_, sides)| sides).collect();
+        // Along an axis whose edges do not cross the circle, a box is not halved.
+        assert!(
+            mixed.len() > 100 && mixed.iter().all(|sides| sides[0].min(sides[1]) == smallest),
+            "{mixed:?}"
+        );
+    }
+
+    #[test]
+    fn listed_values_are_coordinates() {
+        let side = Side::Listed(vec![1.0, 3.0, 11.0]);
+        let at = |steps| side.coordinate(steps, 64);
+        assert_eq!([at(0), at(32), at(64), at(80), at(128)], [1.0, 2.0, 3.0, 5.0, 11.0]);
+        assert_eq!(Side::Even(3).coordinate(80, 64), 1.25);
+    }
+}

@@ -85,8 +85,9 @@ impl Refinement {
         }
     }
 
-    /// Returns the points of the next round, each as a position along each axis; none if the refinement has ended, or
-    /// a row of the earlier points is missing.
+    /// Returns the points of the next round, each as a position along each axis.
+    ///
+    /// There are none if the refinement has ended, or a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {
         if !self.waiting.is_empty() {
             return Vec::new();
@@ -162,8 +163,10 @@ fn side(axis: &Axis) -> Side {
     }
 }
 
-/// Returns the plan with the points of all rounds that begin within the first `done` points, and the refinement after
-/// these points. `rows` are the written rows of the plan, in their order.
+/// Returns the plan with the points of all rounds that begin within the first `done` points. Also returns the
+/// refinement after these points.
+///
+/// `rows` are the written rows of the plan, in their order.
 ///
 /// `None` if the plan has no refinement.
 ///
