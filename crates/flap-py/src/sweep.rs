@@ -9,7 +9,9 @@ use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_sweep::files::job::{self, Begin, Begun, Job};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
+use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::gradient::{Gradient, Per, column_name};
+use flap_sweep::plan::refine::Refine;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::{self, Chunk, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
@@ -86,8 +88,8 @@ pub(crate) fn into_columns<'py>(
     } else {
         py.detach(|| work(plan, options, Summary::default(), &mut sink, &mut watch, chunks))
     };
-    if ran.is_ok() {
-        watch.done(plan.selected());
+    if let Ok(summary) = &ran {
+        watch.done(summary.points);
     }
     watch.ended()?;
     let summary = ran.map_err(|error| error::run(&error))?;
@@ -125,8 +127,8 @@ fn into_file<'py>(
             format!("{out} cannot be locked ({error}): make sure that no other run writes to this file");
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
     }
-    if ran.is_ok() {
-        watch.done(job.plan.selected());
+    if let Ok(done) = &ran {
+        watch.done(done.as_ref().map_or(job.plan.selected(), |done| done.summary.points));
     }
     watch.ended()?;
     let outcome = ran.map_err(|error| error::job(&error))?;
@@ -152,20 +154,30 @@ fn work(
 ) -> Result<Summary, RunError> {
     let mut output = RowWriter::begin(plan, before, sink)?;
     let ended = match chunks {
-        None => run_here(plan, options, &mut output, watch),
+        None => Ok(()),
         Some(chunks) => fetch(plan, options, &mut output, watch, chunks),
     };
+    // Points of a refinement follow from the rows, so they run here.
+    let ended = ended.and_then(|()| match chunks {
+        Some(_) if !output.next_round() => Ok(()),
+        _ => run_rounds(options, &mut output, watch),
+    });
     output.finish(ended)
 }
 
+/// Runs the points in this process, and the points that the refinement of the plan adds.
+fn run_rounds(options: &RunOptions, output: &mut RowWriter<'_>, watch: &mut Watch) -> Result<(), RunError> {
+    loop {
+        run_here(options, output, watch)?;
+        if watch.is_stopped() || !output.next_round() {
+            return Ok(());
+        }
+    }
+}
+
 /// Runs the points in this process, until the interpreter interrupts the run.
-fn run_here(
-    plan: &Plan,
-    options: &RunOptions,
-    output: &mut RowWriter<'_>,
-    watch: &mut Watch,
-) -> Result<(), RunError> {
-    let mut run = run::rows(plan, options, output.done());
+fn run_here(options: &RunOptions, output: &mut RowWriter<'_>, watch: &mut Watch) -> Result<(), RunError> {
+    let mut run = run::rows(output.plan(), options, output.done());
     while let Some(batch) = run.next_batch()? {
         for row in &batch {
             output.write(row)?;
@@ -223,6 +235,18 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
     Ok(dict)
 }
 
+/// Returns for each refined parameter the number of cells between its values in the grid, and whether the values have a
+/// constant ratio.
+fn refined<'py>(py: Python<'py>, plan: &Plan, refine: &Refine) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (parameter, values) in refine.along.iter().flat_map(|&axis| plan.axes().as_slice()[axis].parameters())
+    {
+        let is_log = matches!(values, Values::Log { .. });
+        dict.set_item(plan.parameters()[*parameter].name, (values.len() - 1, is_log))?;
+    }
+    Ok(dict)
+}
+
 /// Returns the origin of rows as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
@@ -243,6 +267,9 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
     dict.set_item("grid", &plan.source().text)?;
+    if let Some(refine) = plan.refine() {
+        dict.set_item("refined", refined(py, plan, refine)?)?;
+    }
     if let Some(along) = plan.followed() {
         dict.set_item("parameter", plan.parameters()[along.parameter].name)?;
     }

@@ -29,6 +29,11 @@ impl Watch {
         self.error.is_some()
     }
 
+    /// Returns true if an exception has ended the work.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.error.is_some()
+    }
+
     /// If [`INTERVAL`] has passed, checks for signals and reports progress. An exception of a signal handler or of the callback
     /// ends the work.
     pub(crate) fn look(&mut self, done: u64, all: u64) {

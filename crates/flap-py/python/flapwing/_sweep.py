@@ -57,7 +57,7 @@ def sweep(
         client of a Dask cluster. The workers must have the same build of flapwing. The rows have the same order and the
         same bytes as without `client`. If a worker dies, other workers of a Dask cluster run its points again; with
         other executors, an error is raised. A worker whose processor has another arithmetic is an error, because its
-        rows could differ.
+        rows could differ. The process of the caller runs the points of ``[refine]``.
     points_per_task : int, optional
         Number of points in a task of `client`, 1 or more. Default: at most 2,048 for each thread of a task, some
         seconds of work. If each task is a job of a queue, set a larger number.
