@@ -268,7 +268,7 @@ mod tests {
         let whole = ((side - 1) << HALVINGS) as f64;
         let value = |place: &Place| measure(place.at[0] as f64 / whole, place.at[1] as f64 / whole);
         let mut places: Vec<Place> = (0..side * side)
-            .map(|index| Place { map: 0, at: vec![index / side << HALVINGS, index % side << HALVINGS] })
+            .map(|index| Place { map: 0, at: vec![(index / side) << HALVINGS, (index % side) << HALVINGS] })
             .collect();
         while !places.is_empty() {
             for place in places {
