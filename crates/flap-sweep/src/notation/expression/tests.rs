@@ -192,7 +192,7 @@ fn mistakes_say_what_and_where() {
             "width / 2",
             &[(
                 "width",
-                "`width` is not set; it follows others (half of the length): set `width` under [params] to use it here",
+                "`width` is not set; it follows other parameters (half of the length): set `width` under [params] to use it here",
             )],
         ),
     ];

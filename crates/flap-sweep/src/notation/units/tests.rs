@@ -79,7 +79,7 @@ fn mistakes_say_what_and_where() {
             "fast",
             "the value must start with a number; write a bare number, or a number with its unit such as \"200 V\"",
         ),
-        ("nan V", "V", "nan", "the value cannot be `nan`: values are finite"),
+        ("nan V", "V", "nan", "the value cannot be `nan`: values must be finite"),
         ("1e400 V", "V", "1e400", "`1e400` is too large for the value (largest about 1.8e308)"),
         (
             "1e-330 V",
