@@ -164,7 +164,7 @@ fn impossible(AlongError { message, help }: AlongError) -> PyErr {
     PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
 }
 
-/// Follow the edges of hysteresis; see `flapwing.edges`.
+/// Follow the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a step.
 #[pyfunction]
 #[pyo3(signature = (design, first, second, /, *, first_range, second_range, tolerance=None, threads=None, keywords=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
