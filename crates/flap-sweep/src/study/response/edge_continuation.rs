@@ -157,7 +157,7 @@ struct Plane<'a> {
 struct Solution {
     place: DVector<f64>,
     period: Period,
-    /// Derivatives of the equations by state and parameters. There is one row less than columns.
+    /// Derivatives of the equations with respect to state and parameters. There is one row less than columns.
     jacobian: DMatrix<f64>,
     tangent: DVector<f64>,
     iterations: usize,
