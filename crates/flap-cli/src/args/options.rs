@@ -37,7 +37,7 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
-    /// Largest change of the states in one drive period of a settled motion, relative to the states' typical sizes (see the manual, Grid files)
+    /// A motion is settled if its states change by at most this share of their typical sizes from one drive period to the next
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 
@@ -57,7 +57,7 @@ pub(crate) struct WorkArgs {
     #[arg(long)]
     pub(crate) strict: bool,
 
-    /// Time between checkpoints; after a crash, a sweep repeats at most the work of this time
+    /// Time between checkpoints, such as `60 s`; after a crash, flap repeats at most the work since the last checkpoint
     #[arg(long, value_name = "TIME", default_value = "1 s", value_parser = interval)]
     pub(crate) checkpoint: Duration,
 }

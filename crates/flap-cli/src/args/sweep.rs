@@ -70,7 +70,7 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// Number of threads for which the time is estimated, as fast as the threads of this machine [default: one per core]
+    /// Number of threads for which flap estimates the time; each is as fast as a thread of this machine [default: one per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
