@@ -178,7 +178,7 @@ fn equal_extrema_of_both_half_strokes_have_a_kink() {
     }
 }
 
-/// A transmission whose ratio does not grow runs on fewer terms: its derivative with respect to the growth is that of all
+/// If the transmission ratio does not grow, flap leaves out terms. The derivative with respect to the growth contains all
 /// terms.
 #[test]
 fn a_term_that_is_zero_has_a_derivative() {

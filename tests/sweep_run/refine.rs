@@ -136,7 +136,7 @@ fn a_run_that_stops_between_two_rounds_is_unfinished() {
     assert!(summary.is_interrupted() && summary.refined.is_none(), "{summary:?}");
 }
 
-/// The shards of a refined grid are those of its axes.
+/// The shards of a refined grid contain only the points of its axes.
 #[test]
 fn shards_contain_no_points_of_a_refinement() {
     let plan = refined("").with_shard("2/3".parse().unwrap());

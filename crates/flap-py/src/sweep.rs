@@ -9,9 +9,7 @@ use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_sweep::files::job::{self, Begin, Begun, Job};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::gradient::{Gradient, Per, column_name};
-use flap_sweep::plan::refine::Refine;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::{self, Chunk, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
@@ -235,18 +233,6 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
     Ok(dict)
 }
 
-/// Returns for each refined parameter the number of cells between its values in the grid, and whether the values have a
-/// constant ratio.
-fn refined<'py>(py: Python<'py>, plan: &Plan, refine: &Refine) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    for (parameter, values) in refine.along.iter().flat_map(|&axis| plan.axes().as_slice()[axis].parameters())
-    {
-        let is_log = matches!(values, Values::Log { .. });
-        dict.set_item(plan.parameters()[*parameter].name, (values.len() - 1, is_log))?;
-    }
-    Ok(dict)
-}
-
 /// Returns the origin of rows as a dictionary: versions, model, solver settings, and the text of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
@@ -267,9 +253,6 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
     dict.set_item("grid", &plan.source().text)?;
-    if let Some(refine) = plan.refine() {
-        dict.set_item("refined", refined(py, plan, refine)?)?;
-    }
     if let Some(along) = plan.followed() {
         dict.set_item("parameter", plan.parameters()[along.parameter].name)?;
     }

@@ -29,7 +29,8 @@ pub(crate) struct TopArgs {
 const TOP_HELP: &str = "\
 flap lists the best rows: their varied and derived parameters, the column that ranks the rows, and their status. The table \
 shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking column is \
-empty are left out. Rows with equal values keep their order. If FILE is unfinished, flap ranks the rows up to the last \
+empty are left out. Rows with equal values keep their order. If the best row is at the end of an axis, flap prints a note: \
+rows beyond this value may be better. If FILE is unfinished, flap ranks the rows up to the last \
 checkpoint.
 
 Examples:
@@ -48,7 +49,7 @@ pub(crate) struct DescribeArgs {
 
     /// Columns to summarize, separated by commas [default: all columns after the parameters]
     ///
-    /// For a column with numbers, flap prints percentiles. For a column with text, such as true and false, flap counts how often
+    /// For a column with numbers, flap prints mean, standard deviation and percentiles. For a column with text, such as true and false, flap counts how often
     /// each text occurs.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
@@ -58,8 +59,9 @@ pub(crate) struct DescribeArgs {
 }
 
 const DESCRIBE_HELP: &str = "\
-flap prints three kinds of tables. The first table has the number of rows of each status. The second table has the smallest \
-value, the 5th, 50th and 95th percentile and the largest value of each measure. The third kind of table shows the best value \
+flap prints three kinds of tables. The first table has the number of rows of each status. The second table has the mean, \
+the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the largest value of each measure; csv and \
+json also have the standard error of the mean. The third kind of table shows the best value \
 of each axis for one main measure. For each axis, this table has the value in the best row, and the range of values in the \
 best tenth of the rows. If the range of the best tenth is wide, the axis has little influence. `at the end` means that the best value is at \
 an end of the axis: a wider axis may contain better designs. An axis is a varied parameter; in results of `flap respond`, \

@@ -5,9 +5,9 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
 use flap_sweep::picture::colours;
-use flap_sweep::picture::nearest::nearest;
 
 use super::ink;
+use super::nearest::nearest;
 use super::panel::{Axis, Panel};
 use super::scale;
 use super::selection::{Columns, Selection};

@@ -7,6 +7,7 @@ mod ink;
 mod label;
 mod map;
 mod matrix;
+mod nearest;
 mod page;
 mod panel;
 mod pareto;

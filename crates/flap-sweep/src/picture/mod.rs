@@ -4,5 +4,4 @@
 pub mod branches;
 pub mod colours;
 pub mod measures;
-pub mod nearest;
 pub mod sample;

@@ -324,11 +324,8 @@ impl Plan {
     }
 
     /// Returns the plan that runs all points of changed axes. A refinement refers to the earlier axes and is removed.
-    fn with_new_axes(mut self) -> Plan {
-        self.space.refine = None;
-        self.added = Arc::default();
-        self.selection = Selection::All;
-        self
+    fn with_new_axes(self) -> Plan {
+        Plan { selection: Selection::All, ..self.without_refinement() }
     }
 
     /// Returns the plan without its refinement: the points are the points of the axes.

@@ -130,8 +130,10 @@ struct Trial<'a> {
     work: f64,
     /// Number of valid points.
     valid: u64,
-    /// The rows of the valid points as CSV.
+    layout: Layout<'a>,
+    /// The rows of the sample as CSV, and their number.
     rows: CsvSink<Vec<u8>>,
+    written: u64,
     /// Index and reason of the first invalid point.
     first_reason: Option<(u64, String)>,
 }
@@ -151,7 +153,9 @@ impl Trial<'_> {
             done: 0,
             work: 0.0,
             valid: 0,
+            layout: Layout::of(plan),
             rows: CsvSink::new(Vec::new(), Vec::new()),
+            written: 0,
             first_reason: None,
         });
         thread::scope(|scope| {
@@ -194,7 +198,7 @@ impl Trial<'_> {
     /// Returns the mean size of a row as CSV (bytes); none if no point was run.
     fn bytes_of_row(&mut self) -> Option<f64> {
         let _ = self.rows.flush();
-        (self.valid > 0).then(|| self.rows.target().len() as f64 / self.valid as f64)
+        (self.written > 0).then(|| self.rows.target().len() as f64 / self.written as f64)
     }
 
     /// True if all points of the sample have rows.
@@ -248,11 +252,12 @@ impl Trial<'_> {
             || self.started.elapsed() >= LONGEST_BEGIN;
     }
 
-    fn done(&mut self, number: u64, mut row: Row) {
+    fn done(&mut self, number: u64, row: Row) {
         let work = row.rhs_evals as f64;
         self.done += 1;
         self.work += work;
-        if self.running.remove(&number) {
+        let in_sample = self.running.remove(&number);
+        if in_sample {
             self.works.push(work);
             if self.is_complete() {
                 self.took = self.started.elapsed();
@@ -262,11 +267,19 @@ impl Trial<'_> {
             self.note_invalid(number, row.reason.unwrap_or_default());
         } else {
             self.valid += 1;
-            let point = self.plan.point(self.index(number));
-            self.plan.add_own_measures(&point.values, &mut row.measures);
-            // A row without derivatives is shorter than a row of the sweep.
-            let _ = self.rows.write(&Layout::of(self.plan).cells(&point, &row));
+            if in_sample {
+                self.write(number, row);
+            }
         }
+    }
+
+    /// Writes the row of point `number` as a sweep does, but without derivatives.
+    fn write(&mut self, number: u64, mut row: Row) {
+        let point = self.plan.point(self.index(number));
+        self.plan.add_own_measures(&point.values, &mut row.measures);
+        // A vector of bytes takes all rows.
+        let _ = self.rows.write(&self.layout.cells(&point, &row));
+        self.written += 1;
     }
 
     /// Records checked point `number` as invalid.

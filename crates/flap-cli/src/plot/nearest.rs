@@ -4,12 +4,7 @@
 ///
 /// `points` are in the unit square. The places are the middles of `columns` times `rows` equal cells of the square, row
 /// by row from the bottom. `weights` are the factors of distances across and up. Without points the result is empty.
-///
-/// ```
-/// use flap_sweep::picture::nearest::nearest;
-/// assert_eq!(nearest(&[[0.1, 0.5], [0.9, 0.5]], [1.0, 1.0], [4, 1]), [0, 0, 1, 1]);
-/// ```
-pub fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [usize; 2]) -> Vec<usize> {
+pub(super) fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [usize; 2]) -> Vec<usize> {
     if points.is_empty() {
         return Vec::new();
     }
@@ -115,6 +110,11 @@ mod tests {
             let least = (0..points.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap();
             assert!(distance(found) <= distance(least) * (1.0 + 1e-12), "place {place}");
         }
+    }
+
+    #[test]
+    fn each_place_has_its_nearest_point() {
+        assert_eq!(nearest(&[[0.1, 0.5], [0.9, 0.5]], [1.0, 1.0], [4, 1]), [0, 0, 1, 1]);
     }
 
     #[test]
