@@ -3,9 +3,8 @@
 use core::ops::ControlFlow;
 use std::hint::black_box;
 
-use flap_core::drive::Drive;
 use flap_core::model::Model;
-use flap_core::model::direct_drive::{Constants, DirectDrive, FlowDirection};
+use flap_core::model::direct_drive::{Constants, DirectDrive};
 use flap_core::num::{Backend, Kernel, Lanes, PerLane, Simd, Vector};
 use flap_core::ode::step::Step;
 use flap_core::ode::{Ode, Start, Tolerances};
@@ -13,7 +12,7 @@ use flap_core::simulate::{Jobs, Point, Row, SolverSettings, preset};
 
 use crate::counting::allocations;
 
-pub(crate) const MODEL: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
+pub(crate) const MODEL: DirectDrive = DirectDrive::SINE;
 pub(crate) const TOLERANCES: Tolerances = Tolerances { rtol: 1e-4, atol: 1e-6, max_steps: 20_000 };
 
 fn values() -> Vec<f64> {

@@ -11,6 +11,7 @@
 
 mod accuracy;
 mod bimorph;
+mod body;
 mod by_name;
 mod continued;
 mod data;

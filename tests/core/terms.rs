@@ -14,12 +14,13 @@ use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, pres
 use crate::data::assert_close;
 
 /// True if a parameter with this value in a preset is one of these terms, or belongs to a table of chords, which no preset
-/// has. Random designs leave them out: they are those of the papers' models.
+/// has, or to the motion of the body. Random designs leave them out: they are those of the papers' models.
 pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
     let is_absent = value == 0.0 || value.is_nan() || parameter.name == "plate_ratio";
     let chord = parameter.name.strip_prefix("chord_");
     let of_table = chord.is_some_and(|rest| rest == "table" || rest.parse::<u32>().is_ok());
-    of_table || (TERMS.contains(&parameter.name) && is_absent)
+    let of_body = parameter.group == "body motion" || parameter.name == "wing_radius_1";
+    of_table || of_body || (TERMS.contains(&parameter.name) && is_absent)
 }
 
 const TERMS: [&str; 11] = [

@@ -7,7 +7,7 @@
 //! - [`num`]: number types of models and integrators: scalars and SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
 //! - [`parameter`]: names, units, ranges and descriptions of a design point's numbers
-//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`aero`], [`modes`]: components that several models use
+//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`body`], [`aero`], [`modes`]: components that several models use
 //! - [`model`]: the published models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, for any model
 //! - [`simulate`]: design points in, rows out
@@ -15,6 +15,7 @@
 //! - [`vehicle`]: several wings, whose forces and torques add up
 
 pub mod aero;
+pub mod body;
 pub mod drive;
 mod experiments;
 pub mod linkage;

@@ -4,7 +4,6 @@ mod counted;
 mod dual;
 mod responses;
 
-use flap_core::drive::Drive;
 use flap_core::model::bimorph::{Bimorph, Law};
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
 use flap_core::model::four_bar::FourBar;
@@ -12,9 +11,9 @@ use flap_core::simulate::preset;
 
 const BIMORPH: Bimorph = Bimorph::SINE;
 const GROWING_BIMORPH: Bimorph = Bimorph { law: Law::Square, ..Bimorph::SINE };
-const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
-const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
-const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };
+const DIRECT_DRIVE: DirectDrive = DirectDrive::SINE;
+const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { flow: FlowDirection::Blade, ..DirectDrive::SINE };
+const FOUR_BAR: FourBar = FourBar::SINE;
 
 /// The values of a preset.
 fn values(name: &str) -> Vec<f64> {

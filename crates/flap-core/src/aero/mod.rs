@@ -1,11 +1,13 @@
 //! Aerodynamics that several models use: strips of the wing, the chord table, the wing's outline and mass.
 
 mod chord_table;
+mod oblique;
 mod strips;
 mod wing;
 
 pub(crate) use chord_table::chord_table;
 pub use chord_table::{ChordTable, STATIONS, Tabulated};
+pub use oblique::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
 pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};
 pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};

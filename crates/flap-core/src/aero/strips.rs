@@ -1,5 +1,6 @@
 //! Strips of a wing, and sums over them.
 
+use super::oblique::ObliqueStrip;
 use crate::num::{Lanes, PerLane, Real};
 use crate::parameter::Invalid;
 use crate::quadrature::Node;
@@ -84,6 +85,21 @@ pub struct StripSums<R> {
 }
 
 impl<R: Real, const MAX: usize> Strips<R, MAX> {
+    /// Returns the strips for oblique flow, with velocities taken `behind` chords (κ) behind the pitch axis.
+    #[inline(always)]
+    pub(crate) fn oblique(&self, behind: R) -> impl Iterator<Item = ObliqueStrip<R>> + '_ {
+        self.strips[..self.count.min(MAX)].iter().map(
+            #[inline(always)]
+            move |&[stroke, _, radius, chord]| {
+                let zero = radius.lit(0.0);
+                // Surplus strips of a lane have no radius.
+                let known = zero.lt(radius);
+                let root = R::select(known, stroke / R::select(known, radius, radius + 1.0), zero);
+                ObliqueStrip { weight: root * root, radius, lever: radius, behind: behind * chord, chord }
+            },
+        )
+    }
+
     /// Returns the sums at a stroke rate and a sweep rate, both in rad/s. The sweep rate is the pitch rate times the
     /// cosine of the pitch.
     ///

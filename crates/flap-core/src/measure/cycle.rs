@@ -231,19 +231,7 @@ fn impulse<M: Model<N>, R: Lanes, const N: usize>(
 ) -> [R; 6] {
     attempt.h.outlined(
         #[inline(always)]
-        || {
-            let Attempt { t, h, side, step } = *attempt;
-            let mut sums = [h.lit(0.0); 6];
-            for stage in [0, 2, 3, 4, 5] {
-                let u = input(model, c, h.mul_add(h.lit(C[stage]), t));
-                let load = model.load(c, Instant { input: &u, side, y: &step.y[stage], dy: &step.k[stage] });
-                let load = load.at_shoulder();
-                for i in 0..6 {
-                    sums[i] = load[i].mul_add(h * B[stage], sums[i]);
-                }
-            }
-            sums
-        },
+        || model.impulse(c, attempt),
     )
 }
 

@@ -6,8 +6,9 @@ use super::signals::{SignalSet, SignalsOf};
 use super::totals::Totals;
 use crate::aero::Wing;
 use crate::drive::DriveConstants;
-use crate::num::Real;
-use crate::ode::{Ode, Start};
+use crate::num::{Lanes, Real};
+use crate::ode::step::Attempt;
+use crate::ode::{Ode, Start, input};
 use crate::parameter::{Invalid, Parameter, Preset};
 
 /// Name, description and parameters of a model.
@@ -127,11 +128,12 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         self.clone()
     }
 
-    /// Returns the variant with the most terms among variants of equal choices.
+    /// Returns this variant with the additional terms of `other`.
     ///
-    /// If the additional terms are zero, its equations equal the equations of this variant. Derivatives with respect
-    /// to these terms use it.
-    fn with_all_terms(&self) -> Self {
+    /// Terms are additional if, where they are zero, the equations equal the equations without them. Derivatives with
+    /// respect to terms that are zero at a point use such a variant.
+    fn with_terms_of(&self, other: &Self) -> Self {
+        let _ = other;
         self.clone()
     }
 
@@ -192,6 +194,27 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     fn load<R: Real>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
         let _ = c;
         Load::unknown(at.side)
+    }
+
+    /// Returns the time integral of the load at the wing's shoulder (N·s, N·m·s) over a step, see [`Load::at_shoulder`]. Override
+    /// it if the load jumps within steps.
+    #[inline(always)]
+    fn impulse<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
+        let Attempt { side, step, .. } = *attempt;
+        attempt.integral(
+            #[inline(always)]
+            |stage, at| {
+                let input = input(self, c, at);
+                let instant = Instant { input: &input, side, y: &step.y[stage], dy: &step.k[stage] };
+                self.load(c, instant).at_shoulder()
+            },
+        )
+    }
+
+    /// Returns false if measures of this variant jump within steps at times that depend on the parameters. Then they have no
+    /// derivatives on fixed steps.
+    fn has_slopes(&self) -> bool {
+        true
     }
 
     /// Returns the number of parts into which each step is divided to find extrema of the signals.

@@ -1,5 +1,6 @@
 //! Numbers in the equations of models.
 
+use super::functions::angle_over;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or one real number per SIMD lane, with all operations that a model's equations need.
@@ -80,6 +81,13 @@ pub trait Real:
     #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
+    }
+
+    /// Returns the angle of the point (`x`, `self`) above the x axis (rad), for two numbers of zero or more; zero if
+    /// both are zero. Its errors are below 10^-15.
+    #[inline(always)]
+    fn angle_over(self, x: Self) -> Self {
+        angle_over(self, x)
     }
 
     /// Returns [`Real::exp`] of a number from −708 to 709. Beyond this range, which is not checked, the result is

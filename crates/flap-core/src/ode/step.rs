@@ -1,7 +1,7 @@
 //! One step of the method: stages, new state, error estimate. It contains no step-size control and does not allocate.
 
 use super::Ode;
-use super::tableau::{self, A, C, E, STAGES};
+use super::tableau::{self, A, B, C, E, STAGES};
 use super::variation::{Varied, slopes};
 use crate::num::Real;
 
@@ -27,6 +27,23 @@ pub struct Attempt<'a, R, const N: usize> {
     pub side: R,
     /// Stages of the step.
     pub step: &'a Step<R, N>,
+}
+
+impl<R: Real, const N: usize> Attempt<'_, R, N> {
+    /// Returns the time integral over the step of quantities at a stage and its time, with the weights of the method.
+    #[inline(always)]
+    pub fn integral<const M: usize>(&self, value: impl Fn(usize, R) -> [R; M]) -> [R; M] {
+        let Attempt { t, h, .. } = *self;
+        let mut sums = [h.lit(0.0); M];
+        // Stages 2 and 7 have weight zero.
+        for stage in [0, 2, 3, 4, 5] {
+            let values = value(stage, h.mul_add(h.lit(C[stage]), t));
+            for i in 0..M {
+                sums[i] = values[i].mul_add(h * B[stage], sums[i]);
+            }
+        }
+        sums
+    }
 }
 
 impl<R: Real, const N: usize> Step<R, N> {

@@ -157,8 +157,8 @@ impl<M: Model<N>, const N: usize> Question<M, N> for GradientAt<'_> {
     type Answer = Result<Gradient, Unfinished>;
 
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
-        let changes_terms = self.changes.iter().any(|change| model.variant(&change.ahead) != *model);
-        let model = &if changes_terms { model.with_all_terms() } else { model.clone() };
+        let changed = self.changes.iter().flat_map(|change| [&change.ahead, &change.behind]);
+        let model = &changed.fold(model.clone(), |model, values| model.with_terms_of(&model.variant(values)));
         let mut start = begin(model, run.values, Some(self.state))?;
         start.tolerance_factor = tolerance_factor(run.solver.rtol);
         let (recording, outcome) =
@@ -199,7 +199,7 @@ type Sides<C> = Option<[Side<C>; 2]>;
 /// Returns the points on both sides of a point.
 fn sides<M: Model<N>, const N: usize>(model: &M, change: &Change) -> Sides<M::Constants<f64>> {
     let side = |values: &[f64]| {
-        let has_equal_choices = model.variant(values).with_all_terms() == model.with_all_terms();
+        let has_equal_choices = model.variant(values).with_terms_of(model) == *model;
         let possible = in_range(M::DESCRIPTION.parameters, values) && has_equal_choices;
         let start = model.start(values).ok().filter(|_| possible)?;
         Some((start.constants, start.span))
@@ -364,8 +364,11 @@ impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
         let slopes = self.sides.iter().zip(self.changes).enumerate().map(|(i, (side, change))| {
             let [ahead, behind] = [2 * i + 1, 2 * i + 2];
             let meets = cycles[0].meets && cycles[ahead].meets && cycles[behind].meets;
+            let jumps = || !self.model.variant(&change.ahead).has_slopes();
             let trouble = if change.is_none() {
                 Some(NoSlope::Zero)
+            } else if !self.model.has_slopes() || jumps() {
+                Some(NoSlope::Kink)
             } else if side.is_none() {
                 Some(NoSlope::Edge)
             } else if !meets {

@@ -39,16 +39,14 @@ pub(crate) use single::{Question, ask};
 
 pub use crate::ode::{Interrupt, never};
 
-use crate::drive::Drive;
 use crate::model::bimorph::Bimorph;
-use crate::model::direct_drive::{DirectDrive, FlowDirection};
+use crate::model::direct_drive::DirectDrive;
 use crate::model::four_bar::FourBar;
 use crate::parameter::Preset;
 
 static BIMORPH: Runner<Bimorph, 4> = Runner::with_experiments(Bimorph::SINE);
-static DIRECT_DRIVE: Runner<DirectDrive, 4> =
-    Runner::with_experiments(DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform });
-static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar { drive: Drive::SINE });
+static DIRECT_DRIVE: Runner<DirectDrive, 4> = Runner::with_experiments(DirectDrive::SINE);
+static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar::SINE);
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
 /// Returns every model, in the order of `flap models`.

@@ -2,8 +2,9 @@
 
 use super::geometry::{FORCES, TORQUES, Wrench};
 use super::mount::Mount;
+use super::parameters::MassProperties;
+use crate::model::OverWings;
 use crate::model::readings::{efficiency, grams_force};
-use crate::model::{GRAVITY, OverWings};
 use crate::simulate::Column;
 
 /// Columns, and their sources.
@@ -65,13 +66,13 @@ impl Columns {
     }
 
     /// Returns the values of a vehicle's columns, from its wrench and the measures of its wings.
-    pub(super) fn values(&self, wrench: &Wrench, total_mass: f64, wings: &[&[f64]]) -> Vec<f64> {
+    pub(super) fn values(&self, wrench: &Wrench, body: &MassProperties, wings: &[&[f64]]) -> Vec<f64> {
         let Wrench { force, torque } = wrench;
         let sum = |column: usize| wings.iter().map(|measures| measures[column]).sum::<f64>();
         let value = |source: &Source| match *source {
             Source::Wrench(i) if i < 3 => force[i] * 1e3,
             Source::Wrench(i) => torque[i - 3] * 1e6,
-            Source::LiftToWeight => force[2] / (total_mass * GRAVITY),
+            Source::LiftToWeight => force[2] / (body.mass * body.gravity),
             Source::Efficiency(power) => efficiency(grams_force(force[2]), sum(power) * 1e-3),
             Source::Sum(column) => sum(column),
             Source::Wing(wing, column) => wings[wing][column],

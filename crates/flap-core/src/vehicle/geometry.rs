@@ -17,6 +17,34 @@ pub(super) struct Place {
     pub(super) plane: [f64; 3],
 }
 
+impl Place {
+    /// Returns the rotation of the stroke plane, Q = R_z(yaw) R_y(pitch) R_x(roll).
+    fn turned(&self) -> Rotation3<f64> {
+        let [roll, pitch, yaw] = self.plane;
+        Rotation3::from_euler_angles(roll, pitch, yaw)
+    }
+
+    /// Returns velocity and angular velocity of the shoulder in the axes of the wing, for a motion of the body (m/s and
+    /// rad/s) whose velocity is that of the point `about` (m).
+    ///
+    /// ```text
+    /// V = Qᵀ (v + Ω × (p − a))     Ω_wing = Qᵀ Ω
+    /// ```
+    ///
+    /// A mirrored wing has the mirrored motion about the mirrored point.
+    pub(super) fn motion(&self, body: &[f64; 6], about: [f64; 3], mirrored: bool) -> [f64; 6] {
+        let [u, v, w, p, q, r] = *body;
+        let side = if mirrored { -1.0 } else { 1.0 };
+        let velocity = Vector3::new(u, side * v, w);
+        let rate = Vector3::new(side * p, q, side * r);
+        let [x, y, z] = about;
+        let arm = Vector3::from(self.position) - Vector3::new(x, side * y, z);
+        let back = self.turned().inverse();
+        let (velocity, rate) = (back * (velocity + rate.cross(&arm)), back * rate);
+        [velocity.x, velocity.y, velocity.z, rate.x, rate.y, rate.z]
+    }
+}
+
 /// A force (N) and a torque (N·m).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wrench {
@@ -37,8 +65,7 @@ impl Wrench {
     ///
     /// A mirrored wing is the mirror image of this wing in the x-z plane.
     pub(super) fn of_wing(load: &[f64; 6], place: &Place, mirrored: bool) -> Wrench {
-        let [roll, pitch, yaw] = place.plane;
-        let turned = Rotation3::from_euler_angles(roll, pitch, yaw);
+        let turned = place.turned();
         let force = turned * Vector3::new(load[0], load[1], load[2]);
         let torque =
             turned * Vector3::new(load[3], load[4], load[5]) + Vector3::from(place.position).cross(&force);

@@ -3,7 +3,7 @@
 use super::columns::Columns;
 use super::geometry::Wrench;
 use super::mount::{Mount, VehicleError, check};
-use super::parameters::{self, Table};
+use super::parameters::{self, MassProperties, Table};
 use crate::parameter::Parameter;
 use crate::simulate::{Gradients, Simulator};
 
@@ -47,6 +47,16 @@ impl Vehicle {
         &self.mounts
     }
 
+    /// Returns the reference point of torques and body motion (m).
+    pub fn about(&self, values: &[f64]) -> [f64; 3] {
+        self.table.about(values)
+    }
+
+    /// Returns the mass properties of the whole vehicle.
+    pub fn mass_properties(&self, values: &[f64]) -> MassProperties {
+        self.table.mass_properties(values)
+    }
+
     /// Returns the index, in the vehicle's table, of a wing's own parameter, such as `drive_voltage_pp` or
     /// `position_x`.
     pub fn own_parameter(&self, wing: usize, name: &str) -> Option<usize> {
@@ -63,7 +73,7 @@ impl Vehicle {
             wrench = wrench + Wrench::of_wing(&load, &self.table.place(values, i), mount.mirrored);
         }
         let wrench = wrench.about(self.table.about(values));
-        self.columns.values(&wrench, self.table.total_mass(values), wings)
+        self.columns.values(&wrench, &self.table.mass_properties(values), wings)
     }
 
     /// Returns true if wings may have different values of this parameter of the model: all numbers except the drive

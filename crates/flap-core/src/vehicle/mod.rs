@@ -4,8 +4,8 @@
 //! model for all wings, the parameters of single wings, and the positions of the wings. Its rows contain the mean
 //! force and torque of the air in the body axes.
 //!
-//! Wings do not interact, and the body is fixed. Each wing is therefore an independent design point, and the mean of
-//! its inertial reaction over a period is zero.
+//! Wings do not interact, and the body is at rest or moves steadily through still air. Each wing is therefore an
+//! independent design point, and the mean of its inertial reaction over a period is zero.
 //!
 //! Body axes: x forward, y to the left, z up.
 
@@ -20,4 +20,4 @@ mod rows;
 pub use geometry::{FORCES, TORQUES};
 pub use layout::Vehicle;
 pub use mount::{DIFFERENCE, MOST_WINGS, Mount, VehicleError};
-pub use parameters::{of_all_wings, standing};
+pub use parameters::{MassProperties, of_all_wings, standing};

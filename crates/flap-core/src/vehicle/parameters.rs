@@ -5,6 +5,8 @@ use self_cell::self_cell;
 
 use super::geometry::Place;
 use super::mount::{DIFFERENCE, Mount, VehicleError};
+use crate::body::BodyParameters;
+use crate::model::GRAVITY;
 use crate::parameter::Range::{Any, Positive};
 use crate::parameter::{Invalid, Kind, Parameter};
 
@@ -23,7 +25,8 @@ const PLACE: [(&str, &str, &str); 6] = [
 ];
 
 /// Parameters of the vehicle as a whole.
-const WHOLE: [Parameter<'static>; 4] = [
+#[rustfmt::skip]
+const WHOLE: [Parameter<'static>; 9] = [
     about("about_x", "Forward position of the reference point of the torques, such as the centre of mass."),
     about("about_y", "Position to the left of the reference point of the torques."),
     about("about_z", "Upward position of the reference point of the torques."),
@@ -34,10 +37,43 @@ const WHOLE: [Parameter<'static>; 4] = [
             "kg",
             "",
             Kind::Following(Positive, "not known"),
-            "Mass of the whole vehicle, which determines the column lift_to_weight.",
+            "Mass of the whole vehicle, for the column lift_to_weight and for hover.",
         )
     },
+    inertia("body_inertia_roll", "Moment of inertia of the whole vehicle about the x axis through its centre of mass."),
+    inertia("body_inertia_pitch", "Moment of inertia of the whole vehicle about the y axis through its centre of mass."),
+    inertia("body_inertia_yaw", "Moment of inertia of the whole vehicle about the z axis through its centre of mass."),
+    Parameter {
+        group: VEHICLE,
+        default: 0.0,
+        ..Parameter::new("body_inertia_product", "kg*m^2", "", Kind::Number(Any), "Product of inertia of the whole vehicle, the integral of x z dm about the centre of mass.")
+    },
+    Parameter {
+        group: VEHICLE,
+        default: GRAVITY,
+        ..Parameter::new("gravity", "m/s^2", "g", Kind::Number(Positive), "Gravitational acceleration.")
+    },
 ];
+
+/// Mass properties of a vehicle, in the order of their parameters; NaN if they are not set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moments of inertia about the x, y and z axes through the centre of mass (kg·m²).
+    pub inertia: [f64; 3],
+    /// Product of inertia ∫ x z dm (kg·m²).
+    pub product: f64,
+    /// Gravitational acceleration (m/s²).
+    pub gravity: f64,
+}
+
+const fn inertia(name: &'static str, doc: &'static str) -> Parameter<'static> {
+    Parameter {
+        group: VEHICLE,
+        ..Parameter::new(name, "kg*m^2", "", Kind::Following(Positive, "not known"), doc)
+    }
+}
 
 const fn about(name: &'static str, doc: &'static str) -> Parameter<'static> {
     Parameter { group: VEHICLE, default: 0.0, ..Parameter::new(name, "m", "", Kind::Number(Any), doc) }
@@ -85,11 +121,14 @@ pub(super) struct Table {
     wings: usize,
     mirrored: Vec<bool>,
     has_differences: bool,
+    /// Indices of the body's velocity and rates, if the model has them.
+    motion: Option<[usize; 6]>,
 }
 
 /// Returns true if wings may have different values of this parameter of the model.
 pub(super) fn may_differ(parameter: &Parameter<'_>) -> bool {
-    !matches!(parameter.kind, Kind::Choice(_)) && parameter.name != "drive_frequency"
+    let shared = parameter.name == "drive_frequency" || BodyParameters::MOTION.contains(&parameter.name);
+    !matches!(parameter.kind, Kind::Choice(_)) && !shared
 }
 
 impl Table {
@@ -149,7 +188,9 @@ impl Table {
         let named = Named::new(owned, |owned| {
             model.iter().chain(&WHOLE).copied().chain(owned.iter().map(Own::parameter)).collect()
         });
-        Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences })
+        let motion = BodyParameters::MOTION.map(|name| Parameter::index(model, name));
+        let motion = motion.iter().all(Option::is_some).then(|| motion.map(Option::unwrap_or_default));
+        Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences, motion })
     }
 
     /// Returns all parameters: of the model, of the vehicle, of its wings, and differences.
@@ -167,9 +208,10 @@ impl Table {
         core::array::from_fn(|i| values[self.model.len() + i])
     }
 
-    /// Returns the mass of the whole vehicle (kg); NaN if it is not set.
-    pub(super) fn total_mass(&self, values: &[f64]) -> f64 {
-        values[self.model.len() + 3]
+    /// Returns the mass properties of the whole vehicle.
+    pub(super) fn mass_properties(&self, values: &[f64]) -> MassProperties {
+        let [mass, x, y, z, product, gravity] = core::array::from_fn(|i| values[self.model.len() + 3 + i]);
+        MassProperties { mass, inertia: [x, y, z], product, gravity }
     }
 
     /// Returns the position of a wing.
@@ -211,7 +253,23 @@ impl Table {
                 Invalid::unless_within(parameter.name, *value, range)?;
             }
         }
+        self.turn_motion(values, wing, &mut own_values);
         Ok(own_values)
+    }
+
+    /// Replaces the motion of the body in a wing's values by the motion of its shoulder.
+    fn turn_motion(&self, values: &[f64], wing: usize, own_values: &mut [f64]) {
+        let Some(motion) = self.motion else { return };
+        let body: [f64; 6] = core::array::from_fn(|i| values[motion[i]]);
+        // A body at rest has no motion at any wing, not even one of -0.
+        if body.iter().all(|component| *component == 0.0) {
+            return;
+        }
+        let shoulder = self.place(values, wing).motion(&body, self.about(values), self.mirrored[wing]);
+        for (index, component) in motion.into_iter().zip(shoulder) {
+            // Adding zero turns -0 into 0, so that equal wings stay equal to the last bit.
+            own_values[index] = component + 0.0;
+        }
     }
 }
 

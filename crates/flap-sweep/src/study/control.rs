@@ -1,5 +1,6 @@
 //! Control effectiveness of a vehicle: the change of mean force and torque with each input. Also trims.
 
+use flap_core::body::BodyParameters;
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{
@@ -417,12 +418,14 @@ impl Flight<'_> {
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
         let mut matrix = DMatrix::zeros(6, inputs.len());
         for (j, (input, slopes)) in inputs.iter().zip(&gradient.slopes).enumerate() {
-            for (i, of) in COMPONENTS.into_iter().enumerate() {
-                let slope = slopes[self.place(of)];
-                let by = || input.name.clone();
-                matrix[(i, j)] =
-                    slope.map_err(|reason| ControlError::NoSlope { of, by: by(), reason })? * input.factor;
-            }
+            let slopes = COMPONENTS.map(|name| slopes[self.place(name)]);
+            let column = match self.motion_step(input) {
+                Some(step) if slopes.contains(&Err(NoSlope::Kink)) => {
+                    self.differences(&values, input, step, &row)?
+                }
+                _ => self.slopes(&changes[j].ahead, input, slopes)?,
+            };
+            matrix.column_mut(j).copy_from_slice(&column.map(|slope| slope * input.factor));
         }
         Ok(Effectiveness {
             values: inputs.iter().map(|input| values[input.parameter] / input.factor).collect(),
@@ -433,6 +436,63 @@ impl Flight<'_> {
         })
     }
 }
+
+impl Flight<'_> {
+    /// Returns the derivatives of the components, if all are known. `ahead` is the changed point.
+    fn slopes(
+        &self,
+        ahead: &[f64],
+        input: &Input,
+        slopes: [Result<f64, NoSlope>; 6],
+    ) -> Result<[f64; 6], ControlError> {
+        let Some(i) = slopes.iter().position(Result::is_err) else {
+            return Ok(slopes.map(Result::unwrap_or_default));
+        };
+        let reason = slopes[i].err().unwrap_or(NoSlope::Missing);
+        // If the changed point is impossible, its row says why.
+        let row = (reason == NoSlope::Edge).then(|| self.row(ahead, None));
+        match row.filter(|row| row.status == Status::Invalid) {
+            Some(Row { status, reason, .. }) => Err(ControlError::NotPeriodic { status, reason }),
+            None => Err(ControlError::NoSlope { of: COMPONENTS[i], by: input.name.clone(), reason }),
+        }
+    }
+
+    /// Returns the step (m/s, rad/s) for differences with respect to an input that is a motion of the body.
+    fn motion_step(&self, input: &Input) -> Option<f64> {
+        let name = parameters(self.vehicle)[input.parameter].name;
+        let component = BodyParameters::MOTION.iter().position(|component| *component == name)?;
+        Some(if component < 3 { VELOCITY_STEP } else { RATE_STEP })
+    }
+
+    /// Returns the central differences of the components with respect to an input.
+    ///
+    /// They replace exact derivatives where the lift jumps strip by strip, in the four-bar model.
+    fn differences(
+        &self,
+        values: &[f64],
+        input: &Input,
+        step: f64,
+        row: &Row,
+    ) -> Result<[f64; 6], ControlError> {
+        let side = |by: f64| {
+            let mut values = values.to_vec();
+            values[input.parameter] += by;
+            let row = self.row(&values, Some(&row.state));
+            match row.status {
+                Status::Periodic => Ok(self.wrench(&row)),
+                status => Err(ControlError::NotPeriodic { status, reason: row.reason }),
+            }
+        };
+        let (ahead, behind) = (side(step)?, side(-step)?);
+        Ok(core::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * step)))
+    }
+}
+
+/// Change of a velocity of the body in differences (m/s).
+const VELOCITY_STEP: f64 = 0.01;
+
+/// Change of a rate of the body in differences (rad/s).
+const RATE_STEP: f64 = 1.0;
 
 /// Returns the values, with the values of all wings in place of unset parameters of one wing.
 fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {

@@ -4,6 +4,7 @@
 //! `docs/models/bimorph.md`. Products of constants that the equations of motion use are computed here.
 
 use super::actuator::Actuator;
+use super::moving::Moving;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
@@ -117,6 +118,8 @@ crate::per_lane! {
         pub surface_strain_ratio: R,
         /// Mass of the vehicle (kg).
         pub vehicle_mass: R,
+        /// Motion of the body, and the strips on which it acts.
+        pub moving: Moving<R>,
     }
 }
 
@@ -124,7 +127,7 @@ crate::per_lane! {
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 impl Constants<f64> {
-    /// Returns the constants of a point.
+    /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
     /// If the actuator's width is zero at one end, a transition is too steep to compute, or a constant is not finite.
@@ -222,6 +225,7 @@ impl Constants<f64> {
             strain_per_tip: actuator.strain_per_tip,
             surface_strain_ratio: actuator.surface_strain_ratio,
             vehicle_mass: p.vehicle_mass,
+            moving: Moving::REST,
         };
         // L → σ₀ u for small u.
         let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;

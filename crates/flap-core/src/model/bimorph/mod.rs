@@ -9,6 +9,7 @@
 mod actuator;
 mod constants;
 mod model;
+mod moving;
 mod params;
 mod rhs;
 mod transmission;

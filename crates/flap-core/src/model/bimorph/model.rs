@@ -3,6 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::constants::Constants;
+use super::moving::{self, Air, Moving, air_at};
 use super::params::{CentreOfPressure, Params};
 use super::rhs::{
     Plate, charging_power, currents, derivative, double_angle, leakage, lift_and_drag, load, plate_forces,
@@ -10,6 +11,7 @@ use super::rhs::{
 };
 use super::transmission::{Law, Transmission, stroke};
 use crate::aero::Wing;
+use crate::body::BodyTerms;
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::Measure::{Peak, PeakToPeak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -159,6 +161,39 @@ fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
     plates.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
+/// Forces of the air on the wing that are signals, and the powers lost to them.
+struct Losses<R> {
+    lift: R,
+    drag: R,
+    power_drag: R,
+    power_rotational: R,
+}
+
+impl<R: Real> Losses<R> {
+    /// Returns forces and powers with the body at rest. `rate` is the stroke rate over T.
+    #[inline(always)]
+    fn at_rest(c: &Constants<R>, rate: R, [sin_2psi, cos_2psi]: [R; 2], psi_dot: R) -> Losses<R> {
+        let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+        Losses {
+            lift,
+            drag,
+            power_drag: tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
+            power_rotational: c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+        }
+    }
+
+    /// Returns forces and powers on a moving body.
+    #[inline(always)]
+    fn moving(c: &Constants<R>, air: &Air<R>, rate: R, psi_dot: R) -> Losses<R> {
+        Losses {
+            lift: air.load.lift,
+            drag: air.load.drag,
+            power_drag: air.load.drag_moment * (c.ratio * rate),
+            power_rotational: -(air.rotation_moment * psi_dot),
+        }
+    }
+}
+
 /// Variant of the bimorph model: the choices on which its equations branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bimorph {
@@ -168,12 +203,18 @@ pub struct Bimorph {
     pub law: Law,
     /// Attack angle on which the centre of pressure depends.
     pub centre_of_pressure: CentreOfPressure,
+    /// Terms of the body's motion.
+    pub body: BodyTerms,
 }
 
 impl Bimorph {
     /// Sinusoidal drive, constant transmission ratio, and (11) with the folded attack angle.
-    pub const SINE: Bimorph =
-        Bimorph { drive: Drive::SINE, law: Law::Constant, centre_of_pressure: CentreOfPressure::Folded };
+    pub const SINE: Bimorph = Bimorph {
+        drive: Drive::SINE,
+        law: Law::Constant,
+        centre_of_pressure: CentreOfPressure::Folded,
+        body: BodyTerms::None,
+    };
 }
 
 impl Default for Bimorph {
@@ -199,6 +240,9 @@ impl Ode<4> for Bimorph {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
+        if self.body == BodyTerms::All {
+            return moving::derivative(c, self.law, self.centre_of_pressure, plates, y);
+        }
         derivative(c, self.law, self.centre_of_pressure, plates, y)
     }
 }
@@ -228,16 +272,19 @@ impl Model<4> for Bimorph {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        let Params { waveform, transmission_growth, centre_of_pressure, .. } = Params::from_values(values);
+        let Params { waveform, transmission_growth, centre_of_pressure, body, .. } =
+            Params::from_values(values);
         Bimorph {
             drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
             law: if transmission_growth == 0.0 { Law::Constant } else { Law::Square },
             centre_of_pressure,
+            body: body.terms(),
         }
     }
 
-    fn with_all_terms(&self) -> Bimorph {
-        Bimorph { law: Law::Square, ..self.clone() }
+    fn with_terms_of(&self, other: &Bimorph) -> Bimorph {
+        let law = if other.law == Law::Square { Law::Square } else { self.law };
+        Bimorph { law, body: self.body.or(other.body), ..self.clone() }
     }
 
     /// Returns a start at rest.
@@ -247,18 +294,19 @@ impl Model<4> for Bimorph {
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants::derive(&params)?;
+        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
         let DriveConstants { rate, .. } = constants.drive;
         let tip = 0.1 / params.transmission_ratio;
         let scale = [tip, tip * rate, 0.3, 0.3 * rate];
         Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
     }
 
-    /// The symmetry is about the origin. It requires equal plates with mirrored voltages.
+    /// The symmetry is about the origin. It requires equal plates with mirrored voltages, and a body at rest.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [f_1, f_2] = c.force_per_stress;
         let is_symmetric = f_1 == f_2
             && c.half_offset == 0.0
+            && self.body == BodyTerms::None
             && self.centre_of_pressure != CentreOfPressure::Literal
             && self.drive.is_symmetric(&c.drive);
         is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
@@ -303,7 +351,11 @@ impl Model<4> for Bimorph {
         let (sin_2psi, cos_2psi) = double_angle(sin, cos);
         let transmission = Transmission::at(c, self.law, x);
         let rate = transmission.times(x_dot);
-        let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+        let air = if self.body == BodyTerms::All {
+            Losses::moving(c, &air_at(c, self.law, self.centre_of_pressure, *y), rate, psi_dot)
+        } else {
+            Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot)
+        };
         let [f_1, f_2] = plate_forces(c, plates, x);
         let [i_1, i_2] = currents(c, plates, x, x_dot);
         let [leak_1, leak_2] = leakage(c, plates, self.mean_voltages(c));
@@ -313,14 +365,14 @@ impl Model<4> for Bimorph {
         Signals {
             stroke: stroke(c, self.law, x),
             pitch: psi,
-            lift,
-            drag,
+            lift: air.lift,
+            drag: air.drag,
             power: power_1 + power_2,
             power_plate_1: power_1,
             power_plate_2: power_2,
             power_mechanical: (f_1 - f_2) * x_dot,
-            power_drag: tip_drag(c, cos_2psi) * rate * rate * rate.abs(),
-            power_rotational: c.c_c * psi_dot * psi_dot * psi_dot.abs(),
+            power_drag: air.power_drag,
+            power_rotational: air.power_rotational,
             power_stroke_damping: stroke_damping(c, &transmission, x_dot, rate) * x_dot,
             power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
             power_dielectric: v_1 * leak_1 + v_2 * leak_2,
@@ -346,6 +398,9 @@ impl Model<4> for Bimorph {
 
     #[inline(always)]
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
+        if self.body != BodyTerms::None {
+            return air_at(c, self.law, self.centre_of_pressure, *at.y).load;
+        }
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
         load(c, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])

@@ -1,8 +1,9 @@
 //! Parameters of the bimorph model and their published values.
 
+use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, WaveformParameters};
 use crate::linkage::{FLEXURE, HingeParameters};
-use crate::parameter::Kind::{Choice, Number};
+use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
 use crate::piezo::ElectricalParameters;
@@ -45,6 +46,9 @@ crate::parameters! {
         wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
+        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius determines
+        /// the chord along the span for body motion. Jafferis et al. (2016) do not use this parameter.
+        wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
         /// Radius of the second moment of the wing area about the hinge's axis, divided by wing_width.
@@ -140,6 +144,8 @@ crate::parameters! {
         plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
+        /// Motion of the body.
+        body: BodyParameters = (flatten) BodyParameters::REST,
 
         ["vehicle"]
         /// Total capacitance of the two actuators of a vehicle, which have four plates.

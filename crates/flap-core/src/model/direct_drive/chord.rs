@@ -65,6 +65,6 @@ pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
 }
 
 /// Returns the wing cut into blade elements.
-fn elements(p: &Params) -> Vec<Cut> {
+pub(super) fn elements(p: &Params) -> Vec<Cut> {
     cut(&gauss_legendre(BLADES), p.root_radius(), p.wing_length, |x| p.chord(x))
 }

@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::chord::{BLADES, blades};
+use super::moving::Moving;
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
 use crate::drive::DriveConstants;
@@ -99,11 +100,13 @@ crate::per_lane! {
         pub piezo_thickness: R,
         /// Strain of the piezoelectric layer's outer face per radian of stroke (1/rad): z_c / L_A.
         pub strain_per_stroke: R,
+        /// Motion of the body.
+        pub moving: Moving<R>,
     }
 }
 
 impl Constants<f64> {
-    /// Returns the constants of a point.
+    /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
     /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or a constant is
@@ -204,6 +207,7 @@ impl Constants<f64> {
 
             piezo_thickness: p.piezo_thickness,
             strain_per_stroke: z_c / l_a,
+            moving: Moving::REST,
         };
         Invalid::unless_finite(constants)?.checked()
     }

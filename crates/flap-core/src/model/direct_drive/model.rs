@@ -1,9 +1,11 @@
 //! The direct-drive model: equations of motion, signals, columns of rows, and single motions.
 
 use super::constants::Constants;
+use super::moving::{self, Moving};
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use crate::aero::{Wing, chord_table};
+use crate::body::BodyTerms;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -86,6 +88,14 @@ pub struct DirectDrive {
     pub drive: Drive,
     /// Direction of the air's flow over the wing during reversal.
     pub flow: FlowDirection,
+    /// Terms of the body's motion.
+    pub body: BodyTerms,
+}
+
+impl DirectDrive {
+    /// Sinusoidal drive and one direction of flow for the whole wing, with the body at rest.
+    pub const SINE: DirectDrive =
+        DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform, body: BodyTerms::None };
 }
 
 impl Ode<4> for DirectDrive {
@@ -108,7 +118,12 @@ impl Ode<4> for DirectDrive {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
-        let balance = balance(c, self.flow, side, &states::state(&self.drive, drive, y));
+        let at = states::state(&self.drive, drive, y);
+        let balance = if self.body == BodyTerms::All {
+            moving::balance(c, &at)
+        } else {
+            balance(c, self.flow, side, &at)
+        };
         if self.drive.prescribes_stroke() {
             balance.prescribed(y, drive, c.drive.rate)
         } else {
@@ -147,24 +162,29 @@ impl Model<4> for DirectDrive {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
-        let Params { waveform, stroke, flow_direction, .. } = Params::from_values(values);
+        let Params { waveform, stroke, flow_direction, body, .. } = Params::from_values(values);
         DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
             flow: flow_direction,
+            body: body.terms(),
         }
+    }
+
+    fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
+        DirectDrive { body: self.body.or(other.body), ..self.clone() }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants::derive(&params)?;
+        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
     /// The symmetry is about the rest position under the constant part of the voltage, which only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
-        if literal != 0.0 || !self.drive.is_symmetric(&c.drive) {
+        if literal != 0.0 || self.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {
             return None;
         }
         let stroke = c.gamma * c.drive.bias / c.k_phi;
@@ -202,8 +222,16 @@ impl Model<4> for DirectDrive {
         let y = states::state(&self.drive, drive, y);
         let [phi, psi, phi_dot, psi_dot] = y;
         let (sin, cos) = psi.sin_cos();
-        let air = aerodynamics(c, self.flow, side, &y, sin, cos);
-        let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
+        let slope = states::slope(&self.drive, drive, dy);
+        let (air, added, translational) = if self.body == BodyTerms::All {
+            let moving = moving::air(c, &y, [sin, cos]);
+            let power = moving.translational_power([phi_dot, psi_dot], cos);
+            (moving.air, moving.whole_added_mass(c, [sin, cos], &slope), power)
+        } else {
+            let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+            let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
+            (air, added_mass(c, sin, cos, &slope), power)
+        };
         // A prescribed stroke does not determine the actuator's force, so its quantities are unknown.
         let unknown = self.drive.prescribes_stroke();
         let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
@@ -216,7 +244,7 @@ impl Model<4> for DirectDrive {
             lift_translational: air.lift,
             drag: air.drag,
             power: current * drive.value,
-            power_translational: -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot),
+            power_translational: translational,
             power_rotational: -(air.rotation_moment * psi_dot),
             power_stroke_damping: c.stroke_damping * phi_dot * phi_dot,
             power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
@@ -247,8 +275,13 @@ impl Model<4> for DirectDrive {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
-        let air = aerodynamics(c, self.flow, side, &y, sin, cos);
-        let added = added_mass(c, sin, cos, &states::slope(&self.drive, drive, dy));
+        let slope = states::slope(&self.drive, drive, dy);
+        let (air, added) = if self.body == BodyTerms::None {
+            (aerodynamics(c, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
+        } else {
+            let moving = moving::air(c, &y, [sin, cos]);
+            (moving.air, moving.whole_added_mass(c, [sin, cos], &slope))
+        };
         load(c, &air, &added, &y, [sin, cos])
     }
 }

@@ -1,6 +1,7 @@
 //! Parameters of the direct-drive model and their published values.
 
 use crate::aero::ChordTable;
+use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -133,6 +134,8 @@ crate::parameters! {
         stroke_loss_factor: f64 = ("", "gamma_s", Number(NonNegative), default: 0.0) 0.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
+        /// Motion of the body.
+        body: BodyParameters = (flatten) BodyParameters::REST,
 
         ["air"]
         /// Density of the air.

@@ -178,10 +178,19 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, with e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
-    let [phi, psi, phi_dot, psi_dot] = *y;
-    let (sin, cos) = psi.sin_cos();
-    let air = aerodynamics(c, flow, side, y, sin, cos);
+    let (sin, cos) = y[1].sin_cos();
+    balance_in(c, &aerodynamics(c, flow, side, y, sin, cos), y, [sin, cos])
+}
 
+/// Returns the same for these aerodynamic forces and moments.
+#[inline(always)]
+pub(super) fn balance_in<R: Real>(
+    c: &Constants<R>,
+    air: &Aerodynamics<R>,
+    y: &[R; 4],
+    [sin, cos]: [R; 2],
+) -> Balance<R> {
+    let [phi, psi, phi_dot, psi_dot] = *y;
     let both = phi_dot * psi_dot;
     let gyroscopic = gyroscopic(c, &[phi_dot, psi_dot], sin, cos);
     let q1 = (c.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment

@@ -137,18 +137,28 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// instead, (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
-    let [theta, phi, _, _] = *y;
-    let [theta_dot, phi_dot, theta_ddot, phi_ddot] = *dy;
-    let (sin, cos) = phi.sin_cos();
+    let (sin, cos) = y[1].sin_cos();
     let air = aerodynamics(c, side, y, sin, cos);
-    let normal = theta_ddot * cos - theta_dot * phi_dot * sin;
+    let normal = dy[2] * cos - dy[0] * dy[1] * sin;
+    load_in(c, &air, y, [normal, dy[3]], -(dy[1].abs() * dy[1]), [sin, cos])
+}
+
+/// Returns the same for these aerodynamic forces and moments, accelerations [A, φ̈] and −|φ̇|φ̇ (`rotation`).
+#[inline(always)]
+pub(super) fn load_in<R: Real>(
+    c: &Constants<R>,
+    air: &Aerodynamics<R>,
+    y: &[R; 4],
+    [normal, phi_ddot]: [R; 2],
+    rotation: R,
+    [sin, cos]: [R; 2],
+) -> Load<R> {
     let Air { added_stroke, added_pitch, added_stroke_2, added_pitch_1, added_span, .. } = c.air;
-    let rotation = -(phi_dot.abs() * phi_dot);
     let force = c.air.rotation_force * rotation - (added_stroke * normal + added_pitch * phi_ddot);
     let moment = c.air.rotation_stroke * rotation - (added_stroke_2 * normal + added_pitch_1 * phi_ddot);
     let added_pitch_moment = -(added_pitch_1 * normal + added_span * phi_ddot);
     Load {
-        stroke: theta,
+        stroke: y[0],
         lift: air.lift + force * sin,
         drag: air.drag - force * cos,
         lift_moment: air.lift_moment + moment * sin,

@@ -5,6 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
+use super::moving::Moving;
 use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
 use crate::aero::{Cut, Strips, check_chords, cut, sum};
 use crate::drive::DriveConstants;
@@ -124,11 +125,13 @@ crate::per_lane! {
         pub air: Air<R>,
         /// Strips of the wing.
         pub strips: Strips<R, MAX_STRIPS>,
+        /// Motion of the body.
+        pub moving: Moving<R>,
     }
 }
 
 impl Constants<f64> {
-    /// Returns the constants of a point.
+    /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
     /// - The four-bar has no neutral position.
@@ -149,6 +152,7 @@ impl Constants<f64> {
             wing: wing(p, &cuts, actuator.stiffness, drive.rate),
             air: air(p, &cuts),
             strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
+            moving: Moving::REST,
         };
         Invalid::unless_finite(constants)?.checked()
     }
@@ -172,7 +176,7 @@ impl Constants<f64> {
 }
 
 /// Returns the wing cut into strips.
-fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
+pub(super) fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
     p.chords.check()?;
     #[expect(
@@ -291,7 +295,7 @@ fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
 
 /// Returns κ, the distance from the rotation axis to the mid-chord in (8), and χ₀, the offset in (17); both in
 /// chords.
-fn arms(p: &Params) -> [f64; 2] {
+pub(super) fn arms(p: &Params) -> [f64; 2] {
     match p.arms {
         Arms::Printed => [0.5, 0.0],
         Arms::Axis => [0.5 - p.axis_position, p.axis_position],

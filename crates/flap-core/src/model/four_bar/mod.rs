@@ -12,6 +12,7 @@
 mod aerodynamics;
 mod constants;
 mod model;
+mod moving;
 mod params;
 mod rhs;
 

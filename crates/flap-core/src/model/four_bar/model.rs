@@ -2,11 +2,13 @@
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load, side_of};
 use super::constants::Constants;
+use super::moving::{self, Moving};
 use super::params::Params;
 use super::rhs::{
     balance, charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
 };
 use crate::aero::{Wing, chord_table};
+use crate::body::BodyTerms;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -14,8 +16,9 @@ use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hing
 use crate::model::stroke_and_pitch as states;
 use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
 use crate::modes::Mode;
-use crate::num::Real;
-use crate::ode::{Ode, Start};
+use crate::num::{Lanes, Real};
+use crate::ode::step::Attempt;
+use crate::ode::{Ode, Start, input};
 use crate::parameter::Invalid;
 use crate::piezo::supplied;
 
@@ -80,6 +83,13 @@ const DERIVED: &[Column] = &[
 pub struct FourBar {
     /// Drive voltage, or prescribed stroke.
     pub drive: Drive,
+    /// Terms of the body's motion.
+    pub body: BodyTerms,
+}
+
+impl FourBar {
+    /// Sinusoidal drive, with the body at rest.
+    pub const SINE: FourBar = FourBar { drive: Drive::SINE, body: BodyTerms::None };
 }
 
 impl Ode<4> for FourBar {
@@ -106,7 +116,11 @@ impl Ode<4> for FourBar {
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
         let links = transmission(c, at[0]);
-        let balance = balance(c, &links, side, &at);
+        let balance = if self.body == BodyTerms::All {
+            moving::balance(c, &links, side, &at)
+        } else {
+            balance(c, &links, side, &at)
+        };
         if self.drive.prescribes_stroke() {
             balance.prescribed(y, drive, c.drive.rate)
         } else {
@@ -135,14 +149,18 @@ impl Model<4> for FourBar {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> FourBar {
-        let Params { waveform, stroke, .. } = Params::from_values(values);
-        FourBar { drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode) }
+        let Params { waveform, stroke, body, .. } = Params::from_values(values);
+        FourBar { drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode), body: body.terms() }
+    }
+
+    fn with_terms_of(&self, other: &FourBar) -> FourBar {
+        FourBar { body: self.body.or(other.body), ..self.clone() }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants::derive(&params)?;
+        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
     }
 
@@ -181,7 +199,11 @@ impl Model<4> for FourBar {
         let y = states::state(&self.drive, drive, y);
         let [theta, phi, theta_dot, phi_dot] = y;
         let (sin, cos) = phi.sin_cos();
-        let air = aerodynamics(c, side, &y, sin, cos);
+        let air = if self.body == BodyTerms::All {
+            moving::air(c, side, &y)
+        } else {
+            aerodynamics(c, side, &y, sin, cos)
+        };
         let added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
         let links = transmission(c, theta);
         let slider_rate = links.slope * theta_dot;
@@ -233,7 +255,40 @@ impl Model<4> for FourBar {
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Load<R> {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
-        load(c, side, &y, &states::slope(&self.drive, drive, dy))
+        let slope = states::slope(&self.drive, drive, dy);
+        if self.body == BodyTerms::None {
+            load(c, side, &y, &slope)
+        } else {
+            moving::load(c, side, &y, &slope)
+        }
+    }
+
+    #[inline(always)]
+    fn impulse<R: Lanes>(&self, c: &Constants<R>, attempt: &Attempt<'_, R, 4>) -> [R; 6] {
+        let Attempt { side, step, .. } = *attempt;
+        if self.body == BodyTerms::None {
+            return attempt.integral(
+                #[inline(always)]
+                |stage, at| {
+                    let input = input(self, c, at);
+                    let instant = Instant { input: &input, side, y: &step.y[stage], dy: &step.k[stage] };
+                    self.load(c, instant).at_shoulder()
+                },
+            );
+        }
+        moving::impulse(
+            c,
+            attempt,
+            #[inline(always)]
+            |at, y| states::state(&self.drive, &input(self, c, at), y),
+            #[inline(always)]
+            |at, dy| states::slope(&self.drive, &input(self, c, at), dy),
+        )
+    }
+
+    /// On a moving body, the lift of each strip jumps at a time of its own, which is not located.
+    fn has_slopes(&self) -> bool {
+        self.body == BodyTerms::None
     }
 }
 
@@ -241,7 +296,7 @@ impl Motions<4> for FourBar {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> FourBar {
-        FourBar { drive: change(&self.drive) }
+        FourBar { drive: change(&self.drive), ..*self }
     }
 
     fn with_drive_constants(c: &Constants<f64>, drive: DriveConstants<f64>) -> Constants<f64> {

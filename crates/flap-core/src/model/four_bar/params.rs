@@ -5,6 +5,7 @@
 //! described as such.
 
 use crate::aero::ChordTable;
+use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::linkage::{FLEXURE, HingeParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -56,6 +57,8 @@ crate::parameters! {
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)) 3800.0 * EPSILON_0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
+        /// Motion of the body.
+        body: BodyParameters = (flatten) BodyParameters::REST,
 
         ["transmission"]
         /// Stiffness of the spring between the actuator's tip and the slider-crank.

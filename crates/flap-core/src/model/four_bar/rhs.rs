@@ -6,7 +6,7 @@
 //! The state is `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), and their rates (rad/s). At φ = 0 the chord is vertical,
 //! with the trailing edge below. φ > 0 displaces the trailing edge towards positive θ.
 
-use super::aerodynamics::aerodynamics;
+use super::aerodynamics::{Aerodynamics, aerodynamics};
 use super::constants::{Actuator, Constants, Wing};
 use crate::drive::Wave;
 use crate::model::stroke_and_pitch::Balance;
@@ -125,10 +125,20 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
 /// The damping of the stroke includes the loss factor of the drive's springs: D + γ k_eff δ′²/ω.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
-    let [_, phi, theta_dot, phi_dot] = *y;
-    let (sin, cos) = phi.sin_cos();
-    let air = aerodynamics(c, side, y, sin, cos);
+    let (sin, cos) = y[1].sin_cos();
+    balance_in(c, links, &aerodynamics(c, side, y, sin, cos), y, [sin, cos])
+}
 
+/// Returns the same for these aerodynamic forces and moments.
+#[inline(always)]
+pub(super) fn balance_in<R: Real>(
+    c: &Constants<R>,
+    links: &Transmission<R>,
+    air: &Aerodynamics<R>,
+    y: &[R; 4],
+    [sin, cos]: [R; 2],
+) -> Balance<R> {
+    let [_, phi, theta_dot, phi_dot] = *y;
     let wing = &c.wing;
     let gyroscopic = wing.j_difference * sin * cos * theta_dot;
     let stroke_moment = air.stroke_moment + air.rotation_stroke_moment

@@ -1,0 +1,169 @@
+//! Forces on the strips of a wing in oblique flow: the flow has a component along the stroke axis.
+
+use crate::body::Sections;
+use crate::num::Real;
+
+crate::per_lane! {
+    /// A strip of a wing in oblique flow.
+    pub struct ObliqueStrip<R> {
+        /// Weight ½ρcΔr (kg/m).
+        pub weight: R,
+        /// Radius at which its velocity is taken r (m).
+        pub radius: R,
+        /// Lever of its forces about the stroke axis (m).
+        pub lever: R,
+        /// Distance behind the pitch axis at which its velocity is taken d (m).
+        pub behind: R,
+        /// Chord to which its centre of pressure refers c (m).
+        pub chord: R,
+    }
+}
+
+impl ObliqueStrip<f64> {
+    /// A strip without area.
+    pub(crate) const NONE: ObliqueStrip<f64> =
+        ObliqueStrip { weight: 0.0, radius: 0.0, lever: 0.0, behind: 0.0, chord: 0.0 };
+}
+
+/// Flow past a strip. Its components are those of the strip's velocity, along the wing's normal and along the chord towards
+/// the leading edge.
+///
+/// ```text
+/// u_N = u cos ψ − w sin ψ     u_C = u sin ψ + w cos ψ
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<R> {
+    /// u_N (m/s).
+    pub normal: R,
+    /// u_C (m/s).
+    pub chordwise: R,
+    /// U = √(u_N² + u_C²) (m/s).
+    pub speed: R,
+}
+
+impl<R: Real> Flow<R> {
+    /// Returns the flow past a strip at a pitch with this sine and cosine.
+    #[inline(always)]
+    pub fn past(sections: &Sections<R>, strip: &ObliqueStrip<R>, [sin, cos]: [R; 2]) -> Flow<R> {
+        let ObliqueStrip { radius, behind, .. } = *strip;
+        let u = radius * sections.stroke_rate + sections.along - behind * sections.sweep_rate;
+        let w = sections.up + radius * sections.tilt_rate;
+        Flow { normal: u * cos - w * sin, chordwise: u * sin + w * cos, speed: (u * u + w * w).sqrt() }
+    }
+
+    /// Returns 1/U² (s²/m²), or zero without flow.
+    #[inline(always)]
+    fn inverse_square(&self) -> R {
+        let (square, zero, one) = (self.speed * self.speed, self.speed.lit(0.0), self.speed.lit(1.0));
+        let flows = zero.lt(square);
+        R::select(flows, one / R::select(flows, square, one), zero)
+    }
+
+    /// Returns the attack angle folded into [0, π/2] (rad): B = atan2(|u_N|, |u_C|).
+    #[inline(always)]
+    pub fn folded_attack(&self) -> R {
+        self.normal.abs().angle_over(self.chordwise.abs())
+    }
+
+    /// Returns the attack angle against the motion, in [0, π] (rad): A = atan2(|u_N|, u_C).
+    #[inline(always)]
+    pub fn attack(&self) -> R {
+        let folded = self.folded_attack();
+        let reversed = folded.lit(core::f64::consts::PI) - folded;
+        R::select(self.chordwise.lt(folded.lit(0.0)), reversed, folded)
+    }
+
+    /// Returns the forces along normal and chord per weight, for C_L = b_L sin 2ψ and C_D = b₁ + b₂ cos 2ψ of the effective
+    /// pitch.
+    ///
+    /// ```text
+    /// C_D = b₁ + b₂ (u_N² − u_C²)/U²     F_N = U u_N (C_D + 2 b_L u_C²/U²)     F_C = U u_C (2 b_L u_N²/U² − C_D)
+    /// ```
+    #[inline(always)]
+    pub fn harmonic_forces(&self, [b_1, b_2, b_l]: [R; 3]) -> [R; 2] {
+        let Flow { normal, chordwise, speed } = *self;
+        let inverse = self.inverse_square();
+        let (along_normal, along_chord) = (normal * normal * inverse, chordwise * chordwise * inverse);
+        let c_d = b_1 + b_2 * (along_normal - along_chord);
+        [
+            speed * normal * (c_d + b_l * along_chord * 2.0),
+            speed * chordwise * (b_l * along_normal * 2.0 - c_d),
+        ]
+    }
+}
+
+/// Sums of the forces on the strips, along the wing's normal (against it) and along the chord.
+#[derive(Clone, Copy, Debug)]
+pub struct ObliqueForces<R> {
+    /// ΣF_N (N).
+    pub normal: R,
+    /// ΣF_C (N).
+    pub chordwise: R,
+    /// ΣF_N times lever (N·m).
+    pub normal_moment: R,
+    /// ΣF_C times lever (N·m).
+    pub chordwise_moment: R,
+    /// ΣF_N times the distance of the centre of pressure behind the pitch axis (N·m).
+    pub pitch_moment: R,
+}
+
+impl<R: Real> ObliqueForces<R> {
+    /// Returns no forces. `number` is any number.
+    #[inline(always)]
+    pub(crate) fn none(number: R) -> ObliqueForces<R> {
+        let zero = number.lit(0.0);
+        ObliqueForces {
+            normal: zero,
+            chordwise: zero,
+            normal_moment: zero,
+            chordwise_moment: zero,
+            pitch_moment: zero,
+        }
+    }
+
+    /// Adds the forces of a strip, as the law of [`oblique_forces`] returns them.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, strip: &ObliqueStrip<R>, ([normal, chordwise], pressure): ([R; 2], R)) {
+        let ObliqueStrip { weight, lever, chord, .. } = *strip;
+        let (normal, chordwise) = (weight * normal, weight * chordwise);
+        self.normal = self.normal + normal;
+        self.chordwise = self.chordwise + chordwise;
+        self.normal_moment = self.normal_moment + lever * normal;
+        self.chordwise_moment = self.chordwise_moment + lever * chordwise;
+        self.pitch_moment = self.pitch_moment + chord * pressure * normal;
+    }
+
+    /// Returns [lift, drag]: F_N sin ψ + F_C cos ψ and F_N cos ψ − F_C sin ψ (N).
+    #[inline(always)]
+    pub fn lift_and_drag(&self, [sin, cos]: [R; 2]) -> [R; 2] {
+        [self.normal * sin + self.chordwise * cos, self.normal * cos - self.chordwise * sin]
+    }
+
+    /// Returns the moments of lift and drag about the shoulder (N·m).
+    #[inline(always)]
+    pub fn moments(&self, [sin, cos]: [R; 2]) -> [R; 2] {
+        [
+            self.normal_moment * sin + self.chordwise_moment * cos,
+            self.normal_moment * cos - self.chordwise_moment * sin,
+        ]
+    }
+}
+
+/// Returns the sums of the forces on the strips of a wing, at a pitch with this sine and cosine.
+///
+/// `law` returns, for a strip and the flow past it, the forces along normal and chord per weight (m²/s²), and the centre of
+/// pressure behind the pitch axis (chords).
+#[inline(always)]
+pub fn oblique_forces<R: Real>(
+    strips: impl Iterator<Item = ObliqueStrip<R>>,
+    sections: &Sections<R>,
+    pitch: [R; 2],
+    law: impl Fn(&ObliqueStrip<R>, &Flow<R>) -> ([R; 2], R),
+) -> ObliqueForces<R> {
+    let mut sums = ObliqueForces::none(pitch[0]);
+    for strip in strips {
+        let flow = Flow::past(sections, &strip, pitch);
+        sums.add(&strip, law(&strip, &flow));
+    }
+    sums
+}

@@ -1,0 +1,229 @@
+//! Motion of the body through still air, and the motion of a wing's sections that results from it.
+//!
+//! The body moves with constant velocity and rates in its own axes while the wings settle. `docs/models/vehicle.md`
+//! derives the equations.
+
+use crate::num::Real;
+use crate::parameter::Kind::{Choice, Number};
+use crate::parameter::Range::Any;
+
+crate::choice! {
+    /// Answer of the wings to the motion of the body.
+    pub enum BodyResponse {
+        /// The motion of the body changes the motion of the wings.
+        Passive = "passive",
+        /// The wings move as if the body were at rest. The motion of the body changes only the load on the body.
+        Frozen = "frozen",
+    }
+}
+
+crate::parameters! {
+    /// Velocity and rates of the body, in body axes, relative to still air.
+    pub struct BodyParameters {
+        ["body motion"]
+        /// Forward velocity of the body through still air, at the reference point of the torques. For a single wing,
+        /// velocity of the shoulder in the direction of a positive stroke.
+        body_velocity_forward: f64 = ("m/s", "u", Number(Any), default: 0.0),
+        /// Velocity of the body to the left. For a single wing, velocity of the shoulder along the span.
+        body_velocity_left: f64 = ("m/s", "v", Number(Any), default: 0.0),
+        /// Upward velocity of the body. For a single wing, velocity of the shoulder along the stroke axis.
+        body_velocity_up: f64 = ("m/s", "w", Number(Any), default: 0.0),
+        /// Roll rate of the body. A positive rate lifts the left side.
+        body_rate_roll: f64 = ("rad/s", "p", Number(Any), default: 0.0),
+        /// Pitch rate of the body. A positive rate lowers the nose.
+        body_rate_pitch: f64 = ("rad/s", "q", Number(Any), default: 0.0),
+        /// Yaw rate of the body. A positive rate turns the nose to the left.
+        body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
+        /// Answer of the wings to the motion of the body. With "passive", stroke and pitch answer the motion of the
+        /// body. With "frozen", the wings move as if the body were at rest, and only the loads change.
+        body_response: BodyResponse = ("", "", Choice(BodyResponse::NAMES)),
+    }
+}
+
+impl BodyParameters {
+    /// A body at rest.
+    pub const REST: BodyParameters = BodyParameters {
+        body_velocity_forward: 0.0,
+        body_velocity_left: 0.0,
+        body_velocity_up: 0.0,
+        body_rate_roll: 0.0,
+        body_rate_pitch: 0.0,
+        body_rate_yaw: 0.0,
+        body_response: BodyResponse::Passive,
+    };
+
+    /// Names of velocity and rates, in the order of the table.
+    pub const MOTION: [&'static str; 6] = [
+        "body_velocity_forward",
+        "body_velocity_left",
+        "body_velocity_up",
+        "body_rate_roll",
+        "body_rate_pitch",
+        "body_rate_yaw",
+    ];
+
+    /// Returns the terms that this motion adds to the equations.
+    pub fn terms(&self) -> BodyTerms {
+        let BodyMotion { velocity, rate } = self.motion();
+        if velocity.into_iter().chain(rate).all(|component| component == 0.0) {
+            return BodyTerms::None;
+        }
+        match self.body_response {
+            BodyResponse::Passive => BodyTerms::All,
+            BodyResponse::Frozen => BodyTerms::Loads,
+        }
+    }
+
+    /// Returns velocity and rates as constants.
+    pub fn motion(&self) -> BodyMotion<f64> {
+        BodyMotion {
+            velocity: [self.body_velocity_forward, self.body_velocity_left, self.body_velocity_up],
+            rate: [self.body_rate_roll, self.body_rate_pitch, self.body_rate_yaw],
+        }
+    }
+}
+
+/// Terms of the body's motion on which the equations of a wing branch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BodyTerms {
+    /// The body is at rest.
+    #[default]
+    None,
+    /// The motion of the body is in the loads only.
+    Loads,
+    /// The motion of the body is in the equations of motion and in the loads.
+    All,
+}
+
+impl BodyTerms {
+    /// Returns the terms of either, if the other has none; otherwise the first.
+    #[must_use]
+    pub fn or(self, other: BodyTerms) -> BodyTerms {
+        if self == BodyTerms::None { other } else { self }
+    }
+}
+
+crate::per_lane! {
+    /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air, in the axes of the wing:
+    /// along a positive stroke, along the span at zero stroke, and along the stroke axis.
+    pub struct BodyMotion<R> {
+        /// Velocity V.
+        pub velocity: [R; 3],
+        /// Angular velocity Ω.
+        pub rate: [R; 3],
+    }
+}
+
+impl BodyMotion<f64> {
+    /// A body at rest.
+    pub(crate) const REST: BodyMotion<f64> = BodyMotion { velocity: [0.0; 3], rate: [0.0; 3] };
+}
+
+impl<R: Real> BodyMotion<R> {
+    /// Returns the motion of the shoulder along the moving axes of a wing at a stroke (rad).
+    ///
+    /// ```text
+    /// e_s = (sin φ, cos φ, 0)     e_t = (cos φ, −sin φ, 0)
+    /// ```
+    #[inline(always)]
+    pub fn along(&self, stroke: R) -> Shoulder<R> {
+        let (sin, cos) = stroke.sin_cos();
+        let ([v_x, v_y, v_z], [r_x, r_y, r_z]) = (self.velocity, self.rate);
+        Shoulder {
+            velocity_t: v_x * cos - v_y * sin,
+            velocity_s: v_x * sin + v_y * cos,
+            velocity_z: v_z,
+            rate_t: r_x * cos - r_y * sin,
+            rate_s: r_x * sin + r_y * cos,
+            rate_z: r_z,
+        }
+    }
+}
+
+/// Motion of a wing's shoulder along the axes e_t, e_s, e_z of the wing: direction of a positive stroke, span, stroke
+/// axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Shoulder<R> {
+    /// Velocity along e_t (m/s).
+    pub velocity_t: R,
+    /// Velocity along e_s (m/s).
+    pub velocity_s: R,
+    /// Velocity along e_z (m/s).
+    pub velocity_z: R,
+    /// Angular velocity about e_t (rad/s).
+    pub rate_t: R,
+    /// Angular velocity about e_s (rad/s).
+    pub rate_s: R,
+    /// Angular velocity about e_z (rad/s).
+    pub rate_z: R,
+}
+
+impl<R: Real> Shoulder<R> {
+    /// Returns the motion of the wing's sections. `stroke_rate` and `pitch_rate` are φ̇ and ψ̇ (rad/s), `cos` is cos ψ.
+    #[inline(always)]
+    pub fn sections(&self, stroke_rate: R, pitch_rate: R, cos: R) -> Sections<R> {
+        Sections {
+            stroke_rate: stroke_rate - self.rate_z,
+            sweep_rate: self.pitch_rate(pitch_rate) * cos,
+            along: self.velocity_t,
+            up: self.velocity_z,
+            tilt_rate: self.rate_t,
+        }
+    }
+
+    /// Returns the pitch rate relative to still air: ψ̇ + Ω_s (rad/s).
+    #[inline(always)]
+    pub fn pitch_rate(&self, pitch_rate: R) -> R {
+        pitch_rate + self.rate_s
+    }
+
+    /// Returns the inertial moment g per rate (N·m·s) of a thin wing on a turning body, at first order in Ω. `inertia` is
+    /// ∫ d² dm, `product` is ∫ r d dm (kg·m²), with the distance d behind the pitch axis.
+    ///
+    /// The moment about the pitch axis is −g φ̇, about the stroke axis g ψ̇. Their power is zero.
+    ///
+    /// ```text
+    /// g = 2 sin ψ (I (Ω_t sin ψ + Ω_z cos ψ) − I_xz Ω_s)
+    /// ```
+    #[inline(always)]
+    pub fn gyroscopic(&self, inertia: R, product: R, [sin, cos]: [R; 2]) -> R {
+        sin * (inertia * (self.rate_t * sin + self.rate_z * cos) - product * self.rate_s) * 2.0
+    }
+
+    /// Returns the change of the normal acceleration of a wing's sections by the body's motion: of its part per radius
+    /// e₁, of its constant part e₀, and of the pitch acceleration e₂. `rates` are φ̇ and ψ̇ (rad/s).
+    ///
+    /// ```text
+    /// u̇_n = r (A + e₁) + e₀ − d (ψ̈ + e₂)
+    /// e₁ = (Ω_z ψ̇ + Ω_s φ̇) sin ψ − Ω_t ψ̇ cos ψ     e₂ = Ω_t φ̇
+    /// e₀ = −(v_s φ̇ + V_z ψ̇) cos ψ − a ψ̇ sin ψ
+    /// ```
+    #[inline(always)]
+    pub fn accelerations(&self, [phi_dot, psi_dot]: [R; 2], [sin, cos]: [R; 2]) -> [R; 3] {
+        let e_1 = (self.rate_z * psi_dot + self.rate_s * phi_dot) * sin - self.rate_t * psi_dot * cos;
+        let e_0 = -((self.velocity_s * phi_dot + self.velocity_z * psi_dot) * cos)
+            - self.velocity_t * psi_dot * sin;
+        [e_0, e_1, self.rate_t * phi_dot]
+    }
+}
+
+/// Motion of the sections of a wing relative to still air, in the plane of e_t and e_z.
+///
+/// A section at the radius r, whose velocity is taken at the distance d behind the pitch axis, moves with
+///
+/// ```text
+/// u = r (φ̇ − Ω_z) + a − d (ψ̇ + Ω_s) cos ψ     w = V_z + r Ω_t
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Sections<R> {
+    /// φ̇ − Ω_z (rad/s).
+    pub stroke_rate: R,
+    /// (ψ̇ + Ω_s) cos ψ (rad/s).
+    pub sweep_rate: R,
+    /// a (m/s).
+    pub along: R,
+    /// V_z (m/s).
+    pub up: R,
+    /// Ω_t (rad/s).
+    pub tilt_rate: R,
+}

@@ -1,0 +1,336 @@
+//! The wing of the four-bar model on a moving body.
+//!
+//! Each strip has its own direction of flow and its own jump of the lift. At zero body motion, the forces of the strips are
+//! those of [`super::aerodynamics`], to rounding.
+//!
+//! The pitch ψ of [`crate::body`] is −φ.
+
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+use super::aerodynamics::{Aerodynamics, coefficients, load_in};
+use super::constants::{Constants, arms, strips};
+use super::params::Params;
+use super::rhs::{Transmission, balance_in};
+use crate::aero::{Flow, ObliqueForces, ObliqueStrip, oblique_forces, sum};
+use crate::body::{BodyMotion, BodyTerms, Sections, Shoulder};
+use crate::model::Load;
+use crate::model::stroke_and_pitch::Balance;
+use crate::num::{Lanes, Real};
+use crate::ode::step::Attempt;
+use crate::parameter::Invalid;
+
+/// Sine of the angle between flow and normal below which the direction of the chordwise flow is that of the recorded side.
+const GRAZING: f64 = 1e-9;
+
+crate::per_lane! {
+    /// Motion of the body, and the parts of the wing on which it acts.
+    pub struct Moving<R> {
+        /// Motion of the shoulder.
+        pub motion: BodyMotion<R>,
+        /// Distance of the mid-chord behind the rotation axis in (8), κ (chords).
+        pub behind: R,
+        /// Added mass Σ π/4 ρ c²Δr (kg).
+        pub added: R,
+    }
+}
+
+impl Moving<f64> {
+    /// A body at rest.
+    pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, behind: 0.0, added: 0.0 };
+
+    /// Returns the constants of a point with these terms.
+    pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
+        if terms == BodyTerms::None {
+            return Ok(Moving::REST);
+        }
+        let added = FRAC_PI_4 * p.air_density * sum(&strips(p)?, |_, c| c * c);
+        Invalid::unless_finite(Moving { motion: p.body.motion(), behind: arms(p)[0], added })
+    }
+}
+
+/// Returns the sign of u_C, the direction of the flow along the chord.
+///
+/// On the switching surface, rounding cannot determine the sign: it is the sign of −σ u_N, see
+/// [`side_of`](super::aerodynamics::side_of).
+#[inline(always)]
+fn direction<R: Real>(side: R, flow: &Flow<R>) -> R {
+    let Flow { normal, chordwise, speed } = *flow;
+    let grazes = chordwise.abs().lt(speed * GRAZING);
+    side.lit(1.0).copysign(R::select(grazes, -(side * normal), chordwise))
+}
+
+/// Returns the forces along normal and chord per weight (m²/s²), (9), (10), and the centre of pressure (chords).
+///
+/// ```text
+/// F_N = U (C_l s u_C sign u_N + C_d u_N)     F_C = U (C_l s |u_N| − C_d u_C)     s = sign u_C
+/// ```
+///
+/// For a constant `direction` s, they are smooth where u_C changes its sign. The force along the chord jumps there with s.
+#[inline(always)]
+fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
+    let Flow { normal, chordwise, speed } = *flow;
+    let attack = flow.attack();
+    let forwards = direction.lit(0.0).lt(direction);
+    let [c_l, c_d] = coefficients(&c.air, R::select(forwards, attack, -attack + PI));
+    let lift = c_l * direction;
+    let normal_force = lift * chordwise * direction.lit(1.0).copysign(normal) + c_d * normal;
+    let chord_force = lift * normal.abs() - c_d * chordwise;
+    let pressure = c.air.pressure_upright + c.air.pressure_slope * (attack - FRAC_PI_2);
+    ([speed * normal_force, speed * chord_force], pressure)
+}
+
+/// Motion of a wing and its sections at a state.
+#[derive(Clone, Copy)]
+struct Motion<R> {
+    stroke: R,
+    shoulder: Shoulder<R>,
+    /// φ̇ and ψ̇ of [`crate::body`].
+    rates: [R; 2],
+    sections: Sections<R>,
+    /// Sine and cosine of ψ.
+    pitch: [R; 2],
+}
+
+impl<R: Real> Motion<R> {
+    #[inline(always)]
+    fn at(c: &Constants<R>, y: &[R; 4]) -> Motion<R> {
+        let [theta, phi, theta_dot, phi_dot] = *y;
+        let (sin, cos) = phi.sin_cos();
+        let shoulder = c.moving.motion.along(theta);
+        let rates = [theta_dot, -phi_dot];
+        let sections = shoulder.sections(rates[0], rates[1], cos);
+        Motion { stroke: theta, shoulder, rates, sections, pitch: [-sin, cos] }
+    }
+
+    #[inline(always)]
+    fn flow(&self, strip: &ObliqueStrip<R>) -> Flow<R> {
+        Flow::past(&self.sections, strip, self.pitch)
+    }
+
+    /// Returns −|φ̇|φ̇ (rad²/s²) of the pitch rate relative to still air.
+    #[inline(always)]
+    fn rotation(&self) -> R {
+        let rate = self.shoulder.pitch_rate(self.rates[1]);
+        rate.abs() * rate
+    }
+
+    /// Returns the forces and moments of the air without the added mass, given the [`direction`] of the flow past each strip.
+    #[inline(always)]
+    fn aerodynamics(
+        &self,
+        c: &Constants<R>,
+        direction: impl Fn(&ObliqueStrip<R>, &Flow<R>) -> R,
+    ) -> Aerodynamics<R> {
+        let forces = oblique_forces(
+            c.strips.oblique(c.moving.behind),
+            &self.sections,
+            self.pitch,
+            #[inline(always)]
+            |strip, flow| law(c, direction(strip, flow), flow),
+        );
+        let [lift, drag] = forces.lift_and_drag(self.pitch);
+        let [lift_moment, drag_moment] = forces.moments(self.pitch);
+        let rotation = self.rotation();
+        let [sin, cos] = [-self.pitch[0], self.pitch[1]];
+        Aerodynamics {
+            lift,
+            drag,
+            stroke_moment: -drag_moment,
+            lift_moment,
+            pitch_moment: -forces.pitch_moment,
+            rotation_lift: c.air.rotation_force * rotation * sin,
+            rotation_stroke_moment: c.air.rotation_stroke * rotation * cos,
+            rotation_pitch_moment: c.air.rotation_pitch * rotation,
+        }
+    }
+
+    /// Returns the load of the air. The added mass has the normal acceleration that [`Shoulder::accelerations`] adds.
+    #[inline(always)]
+    fn load(&self, c: &Constants<R>, air: &Aerodynamics<R>, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
+        let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
+        let [sin, cos] = [-self.pitch[0], self.pitch[1]];
+        let normal = dy[2] * cos - dy[0] * dy[1] * sin;
+        let load = load_in(c, air, y, [normal + e_1, dy[3] - e_2], self.rotation(), [sin, cos]);
+        // The constant part e₀ acts on the whole added mass, its first moment, and its depth behind the axis.
+        let (force, moment) = (c.moving.added * e_0, c.air.added_stroke * e_0);
+        Load {
+            lift: load.lift - force * sin,
+            drag: load.drag + force * cos,
+            lift_moment: load.lift_moment - moment * sin,
+            drag_moment: load.drag_moment + moment * cos,
+            span_moment: load.span_moment + c.air.added_pitch * e_0,
+            ..load
+        }
+    }
+}
+
+/// Returns the forces and moments of the air without the added mass.
+#[inline(always)]
+pub(super) fn air<R: Real>(c: &Constants<R>, side: R, y: &[R; 4]) -> Aerodynamics<R> {
+    Motion::at(c, y).aerodynamics(
+        c,
+        #[inline(always)]
+        |_, flow| direction(side, flow),
+    )
+}
+
+/// Returns mass matrix and generalised forces on a moving body, with the inertial moments of a turning body. The added mass is
+/// part of the wing's mass, which a constant velocity does not change.
+#[inline(always)]
+pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
+    let Motion { shoulder, rates: [theta_dot, psi_dot], pitch, .. } = Motion::at(c, y);
+    let gyroscopic = shoulder.gyroscopic(c.wing.j_difference, c.wing.coupling, pitch);
+    let at = [-pitch[0], pitch[1]];
+    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, links, &air(c, side, y), y, at);
+    Balance {
+        mass,
+        stroke_moment: stroke_moment + gyroscopic * psi_dot,
+        pitch_moment: pitch_moment + gyroscopic * theta_dot,
+    }
+}
+
+/// Returns the load of the air at a state with derivative `dy`.
+#[inline(always)]
+pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
+    Motion::at(c, y).load(c, &air(c, side, y), y, dy)
+}
+
+/// Number of steps of the search for a jump, by regula falsi with the rule of Illinois.
+const SEARCH: usize = 5;
+
+/// Nodes and weights of the Gauss-Legendre rule on [0, 1].
+const GAUSS: [[f64; 2]; 3] =
+    [[0.112_701_665_379_258_31, 5.0 / 18.0], [0.5, 8.0 / 18.0], [0.887_298_334_620_741_7, 5.0 / 18.0]];
+
+/// Returns the motion at the fraction `theta` of a step.
+#[inline(always)]
+fn motion_within<R: Real>(
+    c: &Constants<R>,
+    attempt: &Attempt<'_, R, 4>,
+    state: &impl Fn(R, &[R; 4]) -> [R; 4],
+    theta: R,
+) -> Motion<R> {
+    let Attempt { t, h, step, .. } = *attempt;
+    Motion::at(c, &state(theta.mul_add(h, t), &step.interpolate(h, theta)))
+}
+
+/// Returns the time integral of the load at the shoulder over a step.
+///
+/// The flow past each strip keeps the direction that it has at the beginning of the step, so the load is smooth. Where a strip's
+/// flow changes its direction, the difference of the loads in both directions is added, from there to the end of the step.
+///
+/// `state` returns the state of the wing from the integrated state at a time, and `slope` its derivative.
+#[inline(always)]
+pub(super) fn impulse<R: Lanes>(
+    c: &Constants<R>,
+    attempt: &Attempt<'_, R, 4>,
+    state: impl Fn(R, &[R; 4]) -> [R; 4],
+    slope: impl Fn(R, &[R; 4]) -> [R; 4],
+) -> [R; 6] {
+    let Attempt { t, h, side, step } = *attempt;
+    let begin = Motion::at(c, &state(t, &step.y[0]));
+    let mut sums = attempt.integral(
+        #[inline(always)]
+        |stage, time| {
+            let (y, dy) = (state(time, &step.y[stage]), slope(time, &step.k[stage]));
+            let motion = Motion::at(c, &y);
+            let air = motion.aerodynamics(
+                c,
+                #[inline(always)]
+                |strip, _| direction(side, &begin.flow(strip)),
+            );
+            motion.load(c, &air, &y, &dy).at_shoulder()
+        },
+    );
+    let quarters: [Motion<R>; PARTS + 1] = core::array::from_fn(
+        #[inline(always)]
+        |i| match i {
+            0 => begin,
+            PARTS => Motion::at(c, &state(t + h, &step.y[6])),
+            _ => motion_within(c, attempt, &state, h.lit(i as f64 / PARTS as f64)),
+        },
+    );
+    for strip in c.strips.oblique(c.moving.behind) {
+        let first = direction(side, &begin.flow(&strip));
+        let mut low = first * begin.flow(&strip).chordwise;
+        low = low.max(low.lit(0.0));
+        for part in 0..PARTS {
+            // Components of the flow along the first direction.
+            let last = quarters[part + 1].flow(&strip);
+            let high = first * last.chordwise;
+            let grazes = high.abs().lt(last.speed * GRAZING);
+            let high = R::select(grazes, h.lit(0.0).copysign(low), high);
+            let part_of = Part { begin: part as f64 / PARTS as f64, ends: [low, high] };
+            let [from, to] = part_of.reversed(
+                #[inline(always)]
+                |theta| first * motion_within(c, attempt, &state, theta).flow(&strip).chordwise,
+            );
+            low = high;
+            let length = to - from;
+            if R::bits(h.lit(0.0).lt(length)) == 0 {
+                continue;
+            }
+            for [node, weight] in GAUSS {
+                let motion = motion_within(c, attempt, &state, length.mul_add(h.lit(node), from));
+                let flow = motion.flow(&strip);
+                let ([n_before, c_before], _) = law(c, first, &flow);
+                let ([n_after, c_after], pressure) = law(c, -first, &flow);
+                let mut change = ObliqueForces::none(h);
+                change.add(&strip, ([n_after - n_before, c_after - c_before], pressure));
+                let [lift, drag] = change.lift_and_drag(motion.pitch);
+                let [lift_moment, drag_moment] = change.moments(motion.pitch);
+                let span_moment = change.pitch_moment;
+                let load = Load { stroke: motion.stroke, lift, drag, lift_moment, drag_moment, span_moment };
+                let load = load.at_shoulder();
+                for i in 0..6 {
+                    sums[i] = load[i].mul_add(length * h * weight, sums[i]);
+                }
+            }
+        }
+    }
+    sums
+}
+
+/// Number of parts of a step in which the flow past a strip turns at most once.
+const PARTS: usize = 4;
+
+/// A part of a step.
+struct Part<R> {
+    /// Its beginning, as a fraction of the step.
+    begin: f64,
+    /// Components of the flow along the first direction at both ends.
+    ends: [R; 2],
+}
+
+impl<R: Lanes> Part<R> {
+    /// Returns where the flow is reversed, as an interval of fractions of the step; empty where it is not. `value` returns the
+    /// component along the first direction.
+    #[inline(always)]
+    fn reversed(&self, value: impl Fn(R) -> R) -> [R; 2] {
+        let [mut f_low, mut f_high] = self.ends;
+        let (zero, one) = (f_low.lit(0.0), f_low.lit(1.0));
+        let (begin, end) = (f_low.lit(self.begin), f_low.lit(self.begin + 1.0 / PARTS as f64));
+        let negative = |number: R| one.copysign(number).lt(zero);
+        let (reversed, returns) = (negative(f_low), !negative(f_high));
+        let turns = (reversed & returns) | (!reversed & !returns);
+        let mut turn = end;
+        if R::bits(turns) != 0 {
+            let (mut low, mut high) = (begin, end);
+            let mut kept = zero;
+            for _ in 0..SEARCH {
+                let span = R::select(turns, f_low - f_high, one);
+                turn = R::select(turns, low + (high - low) * (f_low / span), end);
+                let found = value(turn);
+                let is_high = (negative(found) & !reversed) | (!negative(found) & reversed);
+                // An end that is kept twice in a row counts half.
+                let (low_kept, high_kept) = (zero.lt(kept), kept.lt(zero));
+                f_low = R::select(is_high, R::select(low_kept, f_low * 0.5, f_low), found);
+                f_high = R::select(is_high, found, R::select(high_kept, f_high * 0.5, f_high));
+                (low, high) = (R::select(is_high, low, turn), R::select(is_high, turn, high));
+                kept = R::select(is_high, one, -one);
+            }
+        }
+        let from = R::select(reversed, begin, R::select(turns, turn, end));
+        [from, R::select(reversed & turns, turn, end)]
+    }
+}
