@@ -15,6 +15,23 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
+/// A name and the ends of a range, as texts.
+#[derive(Clone, Debug)]
+pub(crate) struct NamedRange {
+    pub(crate) name: String,
+    pub(crate) from: String,
+    pub(crate) to: String,
+}
+
+/// Parses `name=from:to` and returns the parts without surrounding blanks.
+pub(super) fn named_range(text: &str) -> Result<NamedRange, String> {
+    let parts = assignment(text).ok().and_then(|(name, range)| {
+        let (from, to) = range.split_once(':')?;
+        Some(NamedRange { name, from: from.trim().to_owned(), to: to.trim().to_owned() })
+    });
+    parts.ok_or_else(|| "write INPUT=FROM:TO, such as bias=-20V:20V".to_owned())
+}
+
 /// Parses a length (m), zero or more.
 pub(super) fn length(text: &str) -> Result<f64, String> {
     size(text, "m", "2 mm")

@@ -1,7 +1,12 @@
 //! Arguments of `flap vehicle`.
 
+use std::num::NonZeroUsize;
+
+use clap::value_parser;
+use flap_sweep::study::wrench_map::WrenchMap;
+
 use super::options::{OutputFormat, PointArgs, SolverArgs};
-use super::values::assignment;
+use super::values::{NamedRange, assignment, named_range, threads};
 
 #[derive(clap::Args)]
 #[command(after_help = VEHICLE_HELP)]
@@ -19,6 +24,20 @@ pub(crate) struct VehicleArgs {
     /// Find values of the inputs, near the point, that give this force (mN) or torque (uN*m). You can repeat --trim
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = assignment)]
     pub(crate) trim: Vec<(String, String)>,
+
+    /// Fit a quadratic map of force and torque to rows that are spread over these ranges of inputs
+    ///
+    /// Model-predictive controllers use such a map. Inputs have the same names as for --inputs.
+    #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]
+    pub(crate) wrench_map: Vec<NamedRange>,
+
+    /// Number of rows of --wrench-map; every fifth row is left out of the fit and tests the map
+    #[arg(long, value_name = "N", default_value_t = WrenchMap::SAMPLES, value_parser = value_parser!(u32).range(1..=1_000_000), requires = "wrench_map")]
+    pub(crate) samples: u32,
+
+    /// Number of worker threads of --wrench-map; the map does not depend on this number [default: one per core]
+    #[arg(short = 'j', long, value_name = "N", value_parser = threads, requires = "wrench_map")]
+    pub(crate) threads: Option<NonZeroUsize>,
 
     /// Output format
     ///
@@ -45,4 +64,5 @@ Examples:
   flap vehicle vehicle.toml
   flap vehicle vehicle.toml --inputs amplitude_difference,bias,second_harmonic_difference
   flap vehicle vehicle.toml --inputs amplitude,amplitude_difference,bias --trim torque_roll=0.5 --trim torque_pitch=0
+  flap vehicle vehicle.toml --wrench-map amplitude=180V:220V,bias=-10V:10V,amplitude_difference=-20V:20V,second_harmonic=-0.1:0.1
   flap vehicle vehicle.toml --set left_wing_area=\"54 mm^2\" --format csv";

@@ -1,5 +1,7 @@
 //! `flap vehicle`: control matrix and trims of a vehicle.
 
+mod wrench_map;
+
 use std::fmt::Write as _;
 
 use flap_core::simulate::{NoSlope, never};
@@ -33,6 +35,9 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         return Err(failure
             .help("add [vehicle] and [[vehicle.wings]] to a grid file: see the manual, How to, Vehicles"));
     };
+    if !args.wrench_map.is_empty() {
+        return wrench_map::run(args, &chosen, vehicle);
+    }
     let inputs = inputs(vehicle, &chosen, &args.inputs)?;
     if let Some(input) = inputs.iter().find(|input| is_derived(&chosen, input)) {
         let failure = Failure::usage(format!("`{}` is derived from other parameters", input.name));
@@ -86,26 +91,31 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
     }
     let mut inputs: Vec<Input> = Vec::new();
     for name in names {
-        let input = Input::of(vehicle, name).map_err(|error| {
-            let failure = Failure::usage(format!("--inputs: {error}"));
-            match error {
-                ControlInputError::Unknown(_) => {
-                    if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
-                        return failure.help(reason);
-                    }
-                    let known = Input::names(vehicle);
-                    let known = known.iter().map(String::as_str);
-                    failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
-                }
-                ControlInputError::Choice(_) => failure,
-            }
-        })?;
+        let input = input(vehicle, chosen, name, "--inputs")?;
         if inputs.iter().any(|other| other.parameter == input.parameter) {
             return Err(Failure::usage(format!("--inputs: `{name}` is named twice")));
         }
         inputs.push(input);
     }
     Ok(inputs)
+}
+
+/// Returns the input called `name`, which the user gave with `option`.
+fn input(vehicle: &Vehicle, chosen: &Chosen, name: &str, option: &str) -> Result<Input, Failure> {
+    Input::of(vehicle, name).map_err(|error| {
+        let failure = Failure::usage(format!("{option}: {error}"));
+        match error {
+            ControlInputError::Unknown(_) => {
+                if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
+                    return failure.help(reason);
+                }
+                let known = Input::names(vehicle);
+                let known = known.iter().map(String::as_str);
+                failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
+            }
+            ControlInputError::Choice(_) => failure,
+        }
+    })
 }
 
 fn is_derived(chosen: &Chosen, input: &Input) -> bool {

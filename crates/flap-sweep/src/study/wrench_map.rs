@@ -1,0 +1,581 @@
+//! Quadratic map of a vehicle's mean force and torque over its inputs, for model-predictive controllers.
+//!
+//! ```text
+//! W_i = c_0 + Σ c_j s_j + Σ_{j≤k} c_jk s_j s_k,   s = (input − centre) / half range
+//! ```
+//!
+//! Least squares over rows of the vehicle give the coefficients. Every fifth row is left out of the fit and tests the
+//! map.
+
+use flap_core::simulate::{Row, Rows as _, Status};
+use nalgebra::{DMatrix, DVector};
+
+use super::control::{COMPONENTS, Input};
+use crate::notation::text;
+use crate::plan::sample::{Design, Distribution, Method};
+use crate::plan::{ChangeError, Plan};
+use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
+
+/// One row of this many is left out of the fit.
+const LEFT_OUT: usize = 5;
+
+/// Smallest number of samples, so that at least two rows are left out.
+const FEWEST_SAMPLES: usize = 10;
+
+/// Smallest singular value of the fit, relative to the largest one.
+const SMALLEST_SINGULAR: f64 = 1e-9;
+
+/// A component whose changes are smaller than this share of the largest component is constant, to the rows' error.
+const CONSTANT: f64 = 1e-6;
+
+/// A component with a smaller coefficient of determination has a poor map.
+const POOR: f64 = 0.99;
+
+/// Beyond this Floquet multiplier, a motion is near a steep flank of its response.
+const STEEP: f64 = 0.7;
+
+/// Seed of the sample.
+const SEED: u64 = 0;
+
+/// An input of a map, with its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapInput {
+    /// Name as given, see [`Input::of`].
+    pub name: String,
+    /// Index in the vehicle's parameter table.
+    pub parameter: usize,
+    /// Smallest value (SI).
+    pub from: f64,
+    /// Largest value (SI).
+    pub to: f64,
+}
+
+impl MapInput {
+    /// Returns `input` with the range between two values (SI).
+    ///
+    /// # Errors
+    /// [`WrenchMapError::Range`] if `from` is not less than `to`.
+    pub fn new(input: &Input, from: f64, to: f64) -> Result<MapInput, WrenchMapError> {
+        if from < to {
+            return Ok(MapInput { name: input.name.clone(), parameter: input.parameter, from, to });
+        }
+        Err(WrenchMapError::Range { name: input.name.clone(), is_empty: from == to })
+    }
+
+    /// Returns the centre of the range (SI).
+    pub fn centre(&self) -> f64 {
+        0.5 * (self.from + self.to)
+    }
+
+    /// Returns half the width of the range (SI).
+    pub fn half_range(&self) -> f64 {
+        0.5 * (self.to - self.from)
+    }
+}
+
+/// Reason for a missing map.
+#[derive(Debug, thiserror::Error)]
+pub enum WrenchMapError {
+    /// The plan has one wing.
+    #[error("a wrench map needs a vehicle, not one wing")]
+    NoVehicle,
+    /// There are no inputs, or too many.
+    #[error("a wrench map needs 1 to {most} inputs, not {0}", most = WrenchMap::MOST_INPUTS)]
+    Inputs(usize),
+    /// Two inputs change the same parameter.
+    #[error("`{0}` is named twice")]
+    Twice(String),
+    /// The parameter is computed from others.
+    #[error("`{0}` is derived from other parameters")]
+    Derived(String),
+    /// The range is empty or upside down.
+    #[error("the range of `{name}` {}", if *is_empty { "is empty" } else { "ends below its beginning" })]
+    Range {
+        /// Name of the input.
+        name: String,
+        /// True if both ends are equal.
+        is_empty: bool,
+    },
+    /// There are too few samples.
+    #[error(
+        "{samples} samples are too few for {terms} coefficients per component: at least {needed} are needed"
+    )]
+    FewSamples {
+        /// Number of samples.
+        samples: usize,
+        /// Number of coefficients per component.
+        terms: usize,
+        /// Smallest number of samples.
+        needed: usize,
+    },
+    /// There are too few periodic rows.
+    #[error(
+        "{} rows are periodic, too few for {terms} coefficients per component: {}{}",
+        of_rows(*periodic, *samples),
+        statuses(unused),
+        because(reason.as_deref())
+    )]
+    FewRows {
+        /// Number of periodic rows.
+        periodic: usize,
+        /// Number of rows.
+        samples: usize,
+        /// Number of coefficients per component.
+        terms: usize,
+        /// Numbers of the other rows by status.
+        unused: Vec<(Status, usize)>,
+        /// Reason of the first invalid row.
+        reason: Option<String>,
+    },
+    /// The periodic rows do not determine all coefficients.
+    #[error("the periodic rows do not determine all coefficients")]
+    Undetermined,
+    /// The plan cannot be changed.
+    #[error(transparent)]
+    Change(#[from] ChangeError),
+    /// The rows cannot be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl WrenchMapError {
+    /// Returns advice, if there is any.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            WrenchMapError::NoVehicle => {
+                Some("add [vehicle] and [[vehicle.wings]] to a grid file: see the manual, How to, Vehicles")
+            }
+            WrenchMapError::Derived(_) => {
+                Some("choose the parameters from which it is derived, or remove it from [derived]")
+            }
+            WrenchMapError::Range { .. } => Some("a range has its smaller end first, as in 180V:220V"),
+            WrenchMapError::FewSamples { .. } => Some(
+                "compute more samples, or leave out inputs; 200 or more samples are usual for four inputs",
+            ),
+            WrenchMapError::FewRows { .. } | WrenchMapError::Undetermined => {
+                Some("choose narrower ranges around a settled motion, or more samples")
+            }
+            WrenchMapError::Inputs(_)
+            | WrenchMapError::Twice(_)
+            | WrenchMapError::Change(_)
+            | WrenchMapError::Run(_) => None,
+        }
+    }
+}
+
+fn because(reason: Option<&str>) -> String {
+    reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
+}
+
+fn of_rows(periodic: usize, samples: usize) -> String {
+    if periodic == 0 { format!("none of the {samples}") } else { format!("only {periodic} of the {samples}") }
+}
+
+/// Returns the numbers of rows by status, such as `3 unsettled, 1 invalid`.
+fn statuses(unused: &[(Status, usize)]) -> String {
+    let parts = unused.iter().map(|(status, rows)| format!("{rows} {}", status.name()));
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// Quadratic map of mean force (mN) and torque (uN·m) over inputs (SI), see [`COMPONENTS`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrenchMap {
+    /// Inputs, with the ranges in which the map is valid.
+    pub inputs: Vec<MapInput>,
+    /// Coefficients for inputs scaled to -1 to 1: one row per component, one column per term of [`terms`].
+    pub scaled: DMatrix<f64>,
+    /// Coefficient of determination of each component on the rows that were left out of the fit. NaN if the component
+    /// is constant.
+    pub r_squared: [f64; 6],
+    /// Largest error of each component on the rows that were left out of the fit (mN or uN·m).
+    pub largest_error: [f64; 6],
+    /// Number of rows in the fit.
+    pub fitted: usize,
+    /// Number of rows that were left out of the fit.
+    pub left_out: usize,
+    /// Numbers of rows without a periodic motion by status, which are not used.
+    pub unused: Vec<(Status, usize)>,
+    /// Largest Floquet multiplier of the rows in modulus; NaN if it is unknown.
+    pub floquet_max: f64,
+}
+
+impl WrenchMap {
+    /// Largest number of inputs.
+    pub const MOST_INPUTS: usize = 16;
+
+    /// Usual number of samples.
+    pub const SAMPLES: u32 = 400;
+
+    /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. The other parameters have the `values` of a
+    /// point.
+    ///
+    /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is called
+    /// now and then. If it returns true, there is no map.
+    ///
+    /// # Errors
+    /// - [`WrenchMapError`] for a mistake in inputs and samples
+    /// - [`WrenchMapError::FewRows`] or [`WrenchMapError::Undetermined`] if too few points have a periodic motion
+    pub fn of(
+        plan: &Plan,
+        values: &[f64],
+        inputs: Vec<MapInput>,
+        samples: u32,
+        options: &RunOptions,
+        mut stops: impl FnMut(Progress) -> bool,
+    ) -> Result<Option<WrenchMap>, WrenchMapError> {
+        let places = places(plan)?;
+        check(plan, &inputs, samples)?;
+        let axis = sampled(&inputs, samples);
+        let plan = plan.clone().of_point(values).with_measures(Vec::new()).crossed_with(axis.clone())?;
+        let mut run = rows(&plan, options, 0);
+        let mut found: Vec<Row> = Vec::new();
+        while let Some(batch) = run.next_batch()? {
+            found.extend(batch.into_iter().filter_map(|outcome| match outcome {
+                Outcome::Ran(row) => Some(row),
+                Outcome::Excluded(_) => None,
+            }));
+            if stops(run.progress()) {
+                return Ok(None);
+            }
+        }
+        let periodic: Vec<usize> =
+            (0..found.len()).filter(|&index| found[index].status == Status::Periodic).collect();
+        let unused = unused(&found);
+        let terms = terms(inputs.len()).len();
+        if periodic.len() < needed(terms) {
+            let reason = found.into_iter().find_map(|row| row.reason);
+            let (periodic, samples) = (periodic.len(), samples as usize);
+            return Err(WrenchMapError::FewRows { periodic, samples, terms, unused, reason });
+        }
+        let point = |index: usize| axis.iter().map(|(_, list)| list[index]).collect::<Vec<f64>>();
+        let points: Vec<Vec<f64>> = periodic.iter().map(|&index| point(index)).collect();
+        let wrench = |index: &usize| places.map(|place| found[*index].measures[place]);
+        let wrenches: Vec<[f64; 6]> = periodic.iter().map(wrench).collect();
+        let floquet_max = periodic.iter().map(|&index| found[index].floquet_max).fold(f64::NAN, f64::max);
+        WrenchMap::fitted_to(inputs, &points, &wrenches)
+            .map(|map| Some(WrenchMap { unused, floquet_max, ..map }))
+            .ok_or(WrenchMapError::Undetermined)
+    }
+
+    /// Returns the map that fits these wrenches at these points (SI), with every fifth point left out of the fit.
+    fn fitted_to(inputs: Vec<MapInput>, points: &[Vec<f64>], wrenches: &[[f64; 6]]) -> Option<WrenchMap> {
+        let is_left_out = |place: &usize| place % LEFT_OUT == LEFT_OUT - 1;
+        let (tested, fitted): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_left_out);
+        let count = terms(inputs.len()).len();
+        let mut map = WrenchMap {
+            inputs,
+            scaled: DMatrix::zeros(6, count),
+            r_squared: [f64::NAN; 6],
+            largest_error: [0.0; 6],
+            fitted: fitted.len(),
+            left_out: tested.len(),
+            unused: Vec::new(),
+            floquet_max: f64::NAN,
+        };
+        let lines: Vec<DVector<f64>> = fitted.iter().map(|&place| map.monomials(&points[place])).collect();
+        let matrix = DMatrix::from_fn(fitted.len(), count, |i, j| lines[i][j]);
+        let sides = DMatrix::from_fn(fitted.len(), 6, |i, j| wrenches[fitted[i]][j]);
+        map.scaled = least_squares(matrix, &sides)?.transpose();
+        let largest = wrenches.iter().flatten().fold(0.0, |one: f64, other| one.max(other.abs()));
+        let computed: Vec<[f64; 6]> = tested.iter().map(|&place| map.evaluate(&points[place])).collect();
+        for component in 0..6 {
+            let exact: Vec<f64> = tested.iter().map(|&place| wrenches[place][component]).collect();
+            let mean = exact.iter().sum::<f64>() / exact.len() as f64;
+            let errors = computed.iter().zip(&exact).map(|(computed, exact)| computed[component] - exact);
+            let (mut squares, mut error) = (0.0, 0.0_f64);
+            for one in errors {
+                squares += one * one;
+                error = error.max(one.abs());
+            }
+            map.largest_error[component] = error;
+            let spread = exact.iter().fold(0.0, |one: f64, exact| one.max((exact - mean).abs()));
+            if spread > CONSTANT * largest {
+                let total: f64 = exact.iter().map(|exact| (exact - mean) * (exact - mean)).sum();
+                map.r_squared[component] = 1.0 - squares / total;
+            }
+        }
+        Some(map)
+    }
+
+    /// Returns mean force (mN) and torque (uN·m) at these values of the inputs (SI), one per input.
+    ///
+    /// Outside the ranges of the inputs, the map is an extrapolation.
+    pub fn evaluate(&self, inputs: &[f64]) -> [f64; 6] {
+        let wrench = &self.scaled * self.monomials(inputs);
+        core::array::from_fn(|component| wrench[component])
+    }
+
+    /// Returns the value of each term at these values of the inputs.
+    fn monomials(&self, values: &[f64]) -> DVector<f64> {
+        let scaled: Vec<f64> = (self.inputs.iter().zip(values))
+            .map(|(input, value)| (value - input.centre()) / input.half_range())
+            .collect();
+        let terms = terms(self.inputs.len());
+        DVector::from_iterator(
+            terms.len(),
+            terms.iter().map(|term| term.iter().map(|&input| scaled[input]).product()),
+        )
+    }
+
+    /// Returns the coefficients for inputs in SI units, in the same order as [`WrenchMap::scaled`].
+    pub fn physical(&self) -> DMatrix<f64> {
+        let terms = terms(self.inputs.len());
+        let place = |wanted: &[usize]| terms.iter().position(|term| term == wanted).unwrap_or_default();
+        // s = slope * input + shift.
+        let slope = |input: usize| 1.0 / self.inputs[input].half_range();
+        let shift = |input: usize| -self.inputs[input].centre() / self.inputs[input].half_range();
+        let mut physical = DMatrix::zeros(6, terms.len());
+        for component in 0..6 {
+            let mut add = |term: &[usize], number: f64| physical[(component, place(term))] += number;
+            for (term, &number) in terms.iter().zip(self.scaled.row(component).iter()) {
+                match **term {
+                    [] => add(&[], number),
+                    [j] => {
+                        add(&[], number * shift(j));
+                        add(&[j], number * slope(j));
+                    }
+                    [j, k] => {
+                        add(&[], number * shift(j) * shift(k));
+                        add(&[j], number * slope(j) * shift(k));
+                        add(&[k], number * shift(j) * slope(k));
+                        add(&[j, k], number * slope(j) * slope(k));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        physical
+    }
+
+    /// Returns warnings about the map: rows that are not used, poor components, a steep response, inputs without effect.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let unused: usize = self.unused.iter().map(|(_, rows)| rows).sum();
+        if unused > 0 {
+            warnings.push(format!(
+                "{unused} of {} have no periodic motion and are not used: {}",
+                text::count((self.fitted + self.left_out + unused) as u64, "row"),
+                statuses(&self.unused)
+            ));
+        }
+        let poor = COMPONENTS.into_iter().zip(self.r_squared).filter(|(_, r_squared)| *r_squared < POOR);
+        let poor: Vec<&str> = poor.map(|(name, _)| name).collect();
+        if !poor.is_empty() {
+            let poor = poor.join(", ");
+            warnings
+                .push(format!("the map is poor, with R^2 below {POOR}, for {poor}: choose narrower ranges"));
+        }
+        if self.floquet_max > STEEP {
+            warnings.push(format!(
+                "the largest Floquet multiplier of the rows is {:.2}, more than {STEEP}: near a steep flank of the response, \
+                 maps are poor",
+                self.floquet_max
+            ));
+        }
+        let idle = self.idle().into_iter();
+        warnings.extend(idle.map(|name| format!("the input `{name}` changes neither force nor torque")));
+        warnings
+    }
+
+    /// Returns the names of inputs that change no component.
+    fn idle(&self) -> Vec<&str> {
+        let terms = terms(self.inputs.len());
+        let effect = |input: usize| {
+            let columns = terms.iter().enumerate().filter(|(_, term)| term.contains(&input));
+            columns.map(|(column, _)| self.scaled.column(column).amax()).fold(0.0, f64::max)
+        };
+        let least = CONSTANT * self.scaled.amax();
+        let inputs = self.inputs.iter().enumerate();
+        inputs.filter(|(place, _)| effect(*place) <= least).map(|(_, input)| input.name.as_str()).collect()
+    }
+
+    /// Returns the numbers of rows by use or status: `fitted`, `left_out`, then statuses of rows that are not used.
+    pub fn rows(&self) -> Vec<(&'static str, usize)> {
+        let unused = self.unused.iter().map(|(status, rows)| (status.name(), *rows));
+        [("fitted", self.fitted), ("left_out", self.left_out)].into_iter().chain(unused).collect()
+    }
+}
+
+/// Returns the terms of a quadratic polynomial in this number of inputs, each as the inputs that it multiplies.
+///
+/// The order is 1, s1, s2 and so on, s1², s1 s2, s1 s3 and so on, s2², s2 s3 and so on.
+pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
+    let linear = (0..inputs).map(|j| vec![j]);
+    let quadratic = (0..inputs).flat_map(|j| (j..inputs).map(move |k| vec![j, k]));
+    std::iter::once(Vec::new()).chain(linear).chain(quadratic).collect()
+}
+
+/// Returns the smallest number of rows that a map with this number of terms needs.
+fn needed(terms: usize) -> usize {
+    (FEWEST_SAMPLES..).find(|rows| rows - rows / LEFT_OUT >= terms).unwrap_or(usize::MAX)
+}
+
+/// Returns the places of force and torque among the measures of the vehicle's rows.
+fn places(plan: &Plan) -> Result<[usize; 6], WrenchMapError> {
+    let columns = plan.vehicle().ok_or(WrenchMapError::NoVehicle)?.columns();
+    let place = |name: &str| columns.iter().position(|column| column.name == name).unwrap_or_default();
+    Ok(COMPONENTS.map(place))
+}
+
+fn check(plan: &Plan, inputs: &[MapInput], samples: u32) -> Result<(), WrenchMapError> {
+    if inputs.is_empty() || inputs.len() > WrenchMap::MOST_INPUTS {
+        return Err(WrenchMapError::Inputs(inputs.len()));
+    }
+    for (place, input) in inputs.iter().enumerate() {
+        if inputs[..place].iter().any(|other| other.parameter == input.parameter) {
+            return Err(WrenchMapError::Twice(input.name.clone()));
+        }
+        if plan.derived().parameters().any(|derived| derived == input.parameter) {
+            return Err(WrenchMapError::Derived(input.name.clone()));
+        }
+    }
+    let terms = terms(inputs.len()).len();
+    let (samples, needed) = (samples as usize, needed(terms));
+    if samples < needed {
+        return Err(WrenchMapError::FewSamples { samples, terms, needed });
+    }
+    Ok(())
+}
+
+/// Returns the parameters of the inputs, each with its values at the samples.
+fn sampled(inputs: &[MapInput], samples: u32) -> Vec<(usize, Vec<f64>)> {
+    let design = Design::new(Method::Sobol, SEED, samples.into(), inputs.len());
+    let values = |dimension: usize, input: &MapInput| {
+        let distribution = Distribution::Uniform { from: input.from, to: input.to };
+        let coordinates = (0..design.count()).map(|index| design.coordinate(index, dimension));
+        coordinates.map(|coordinate| distribution.quantile(coordinate)).collect()
+    };
+    inputs.iter().enumerate().map(|(place, input)| (input.parameter, values(place, input))).collect()
+}
+
+/// Returns the numbers of rows without a periodic motion, by status.
+fn unused(rows: &[Row]) -> Vec<(Status, usize)> {
+    let others = Status::ALL.into_iter().filter(|status| *status != Status::Periodic);
+    let counted = others.map(|status| (status, rows.iter().filter(|row| row.status == status).count()));
+    counted.filter(|(_, rows)| *rows > 0).collect()
+}
+
+/// Returns the solution of an overdetermined system with the smallest sum of squared errors; `None` if it is not
+/// unique.
+fn least_squares(matrix: DMatrix<f64>, sides: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let decomposed = matrix.svd(true, true);
+    let singular = &decomposed.singular_values;
+    let is_unique = singular.min() > SMALLEST_SINGULAR * singular.max();
+    is_unique.then(|| decomposed.solve(sides, 0.0).ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inputs() -> Vec<MapInput> {
+        let ranges = [(160.0, 200.0), (-20.0, 20.0), (-10.0, 30.0), (0.0, 0.1)];
+        let input = |(parameter, (from, to))| MapInput { name: format!("s{parameter}"), parameter, from, to };
+        ranges.into_iter().enumerate().map(input).collect()
+    }
+
+    fn points(inputs: &[MapInput], samples: u32) -> Vec<Vec<f64>> {
+        let axis = sampled(inputs, samples);
+        (0..samples as usize).map(|index| axis.iter().map(|(_, list)| list[index]).collect()).collect()
+    }
+
+    /// A quadratic function of scaled inputs, with different coefficients for each component.
+    fn quadratic(component: usize, term: usize) -> f64 {
+        libm::sin(1.0 + 3.7 * component as f64 + 1.3 * term as f64)
+    }
+
+    #[test]
+    fn terms_have_the_documented_order() {
+        let order: [&[usize]; 6] = [&[], &[0], &[1], &[0, 0], &[0, 1], &[1, 1]];
+        assert_eq!(terms(2), order);
+        assert_eq!(terms(4).len(), 15);
+        assert_eq!(terms(4)[5..10], [vec![0, 0], vec![0, 1], vec![0, 2], vec![0, 3], vec![1, 1]]);
+    }
+
+    #[test]
+    fn a_quadratic_function_is_recovered() {
+        let inputs = inputs();
+        let points = points(&inputs, 200);
+        let wrench = |point: &Vec<f64>| {
+            let s: Vec<f64> =
+                (inputs.iter().zip(point)).map(|(i, x)| (x - i.centre()) / i.half_range()).collect();
+            core::array::from_fn(|component| {
+                let values = terms(4).into_iter().enumerate();
+                values
+                    .map(|(place, term)| {
+                        quadratic(component, place) * term.iter().map(|&j| s[j]).product::<f64>()
+                    })
+                    .sum()
+            })
+        };
+        let wrenches: Vec<[f64; 6]> = points.iter().map(wrench).collect();
+        let map = WrenchMap::fitted_to(inputs, &points, &wrenches).unwrap();
+        assert_eq!((map.fitted, map.left_out), (160, 40));
+        for component in 0..6 {
+            for place in 0..15 {
+                let error = map.scaled[(component, place)] - quadratic(component, place);
+                assert!(error.abs() < 1e-12, "{component} {place}: {error}");
+            }
+        }
+        assert!(map.r_squared.iter().all(|r_squared| (r_squared - 1.0).abs() < 1e-12));
+        assert!(map.largest_error.iter().all(|error| *error < 1e-12));
+    }
+
+    #[test]
+    fn physical_and_scaled_coefficients_give_the_same_values() {
+        let inputs = inputs();
+        let points = points(&inputs, 100);
+        let scaled = DMatrix::from_fn(6, 15, quadratic);
+        let map = WrenchMap {
+            scaled,
+            ..WrenchMap::fitted_to(inputs, &points, &vec![[1.0; 6]; points.len()]).unwrap()
+        };
+        let physical = map.physical();
+        for point in &points {
+            let monomials: Vec<f64> =
+                terms(4).iter().map(|term| term.iter().map(|&j| point[j]).product()).collect();
+            let wrench = map.evaluate(point);
+            for (component, value) in wrench.iter().enumerate() {
+                let other: f64 = physical.row(component).iter().zip(&monomials).map(|(c, x)| c * x).sum();
+                assert!((other - value).abs() < 1e-11, "{component}: {other} {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn errors_come_from_rows_that_are_left_out() {
+        let inputs = vec![MapInput { name: "s".to_owned(), parameter: 0, from: -1.0, to: 1.0 }];
+        let points: Vec<Vec<f64>> = (0..10).map(|index| vec![f64::from(index) / 4.5 - 1.0]).collect();
+        // Zero on the rows of the fit, but not on the others.
+        let mut wrenches = vec![[0.0; 6]; 10];
+        wrenches[4][0] = 3.0;
+        wrenches[9][0] = 1.0;
+        wrenches.iter_mut().for_each(|wrench| wrench[1] = 2.0);
+        let map = WrenchMap::fitted_to(inputs, &points, &wrenches).unwrap();
+        assert!(map.scaled.row(0).amax() < 1e-12);
+        assert!((map.largest_error[0] - 3.0).abs() < 1e-12);
+        // The mean is 2, so squares are 9 + 1 of the errors and 1 + 1 of the spread.
+        assert!((map.r_squared[0] - (1.0 - 10.0 / 2.0)).abs() < 1e-12);
+        // A constant component has no coefficient of determination.
+        assert!(map.r_squared[1].is_nan());
+        assert_eq!(
+            map.warnings(),
+            [
+                "the map is poor, with R^2 below 0.99, for force_forward_mn: choose narrower ranges",
+                "the input `s` changes neither force nor torque"
+            ]
+        );
+    }
+
+    #[test]
+    fn points_on_a_line_do_not_determine_the_map() {
+        let inputs: Vec<MapInput> = inputs().into_iter().take(2).collect();
+        let points: Vec<Vec<f64>> = (0..50).map(|i| vec![160.0 + f64::from(i), f64::from(i)]).collect();
+        assert!(WrenchMap::fitted_to(inputs, &points, &[[1.0; 6]; 50]).is_none());
+    }
+
+    #[test]
+    fn the_smallest_number_of_samples_leaves_enough_rows_for_the_fit() {
+        assert_eq!([3, 8, 9, 15, 28].map(needed), [10, 10, 11, 18, 34]);
+    }
+}
