@@ -43,3 +43,4 @@ mod sweep;
 mod trace;
 mod vehicle;
 mod wings;
+mod wrench_map;

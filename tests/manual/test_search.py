@@ -44,6 +44,7 @@ SEARCHES = {
     "worst case": ["how-to/studies"],
     "two solutions": ["how-to/response"],
     "steering": ["how-to/vehicle"],
+    "model-predictive control": ["how-to/vehicle"],
     "RoboBee": ["models/bimorph"],
     "precision": ["models/numerics"],
     "error bars": ["how-to/fit"],

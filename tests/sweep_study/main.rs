@@ -1,4 +1,4 @@
-//! Studies on the real models: designs at their resonances, responses up and down, and optima.
+//! Studies on the real models: designs at their resonances, responses up and down, optima, and maps of vehicles.
 
 mod basins;
 mod driven;
@@ -7,3 +7,4 @@ mod optimum;
 mod resonance;
 mod response;
 mod support;
+mod wrench_map;

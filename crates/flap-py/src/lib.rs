@@ -35,6 +35,7 @@ mod run;
 mod solver;
 mod sweep;
 mod watch;
+mod wrench_map;
 
 /// Native part of flapwing.
 #[pyo3::pymodule]
@@ -64,6 +65,7 @@ mod _flapwing {
         run::{presets, run, trajectory},
         solver::settings,
         sweep::sweep,
+        wrench_map::wrench_map,
     };
 
     #[pymodule_export]

@@ -58,6 +58,11 @@ impl Chosen {
     /// Returns the point for a motion, or an error if it cannot be run. If its drive frequency is the resonance, searches it.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
         design::check_one_wing(&self.plan)?;
+        self.at_frequency(py)
+    }
+
+    /// Returns the point, or an error if it cannot be run. If its drive frequency is the resonance, searches it.
+    pub(crate) fn at_frequency(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;
         let Some(resonance) = chosen.plan.resonance() else { return Ok(chosen) };
         let Some(index) = chosen.parameter(DRIVE_FREQUENCY).filter(|index| chosen.values[*index].is_nan())

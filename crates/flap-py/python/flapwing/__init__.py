@@ -4,8 +4,9 @@
 its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, and `evaluate` runs a batch of points.
 `respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
 changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
-`fit` fits parameters to readings. `optimise` finds the best design within the axes of a grid. `live` opens a page in
-the browser, with sliders for the parameters and curves that change with the sliders.
+`fit` fits parameters to readings. `optimise` finds the best design within the axes of a grid. `wrench_map` fits a
+quadratic map of the forces and torques of a vehicle. `live` opens a page in the browser, with sliders for the
+parameters and curves that change with the sliders.
 
 Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
 Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.
@@ -45,6 +46,7 @@ from ._results import (
 from ._sweep import read, sweep
 from ._table import Table
 from ._vehicle import Vehicle, Wing
+from ._wrench_map import WrenchMap, wrench_map
 from .fitting import Fit, FreeParameter, Readings, fit
 
 __all__ = [
@@ -73,6 +75,7 @@ __all__ = [
     "Vehicle",
     "Verdict",
     "Wing",
+    "WrenchMap",
     "__version__",
     "chirp",
     "edges",
@@ -93,4 +96,5 @@ __all__ = [
     "sweep",
     "track_wing",
     "trajectory",
+    "wrench_map",
 ]

@@ -19,6 +19,7 @@ from ._native import (
     NativeTable,
     NativeUncertainty,
     NativeWays,
+    NativeWrenchMap,
 )
 
 __all__ = [
@@ -69,6 +70,7 @@ __all__ = [
     "value",
     "ways",
     "words",
+    "wrench_map",
 ]
 
 __version__: str
@@ -332,6 +334,19 @@ def optimise(
     progress: Callable[[int, int], object] | None = None,
 ) -> NativeOptimum:
     """Find the best design; see `flapwing.optimise`."""
+
+def wrench_map(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
+    ranges: list[tuple[str, SupportsFloat | str, SupportsFloat | str]],
+    samples: SupportsIndex,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> NativeWrenchMap:
+    """Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value."""
 
 def chirp(
     design: Any,

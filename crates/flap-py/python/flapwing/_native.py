@@ -168,6 +168,25 @@ class NativeOptimum(TypedDict):
     device: str
 
 
+class NativeWrenchMap(TypedDict):
+    """See `flapwing.WrenchMap`."""
+
+    inputs: list[str]
+    parameters: list[str]
+    units: list[str]
+    start: list[float]
+    stop: list[float]
+    components: list[str]
+    powers: list[list[int]]
+    scaled: list[list[float]]
+    physical: list[list[float]]
+    r_squared: list[float]
+    largest_error: list[float]
+    rows: dict[str, int]
+    floquet_max: float
+    warnings: list[str]
+
+
 class NativeCorrelation(TypedDict):
     """The correlation of two parameters."""
 

@@ -1,0 +1,112 @@
+//! Quadratic maps of a vehicle's force and torque.
+
+use std::cell::RefCell;
+
+use flap_sweep::study::control::{COMPONENTS, ControlInputError, Input};
+use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::point::Chosen;
+use crate::watch::Watch;
+use crate::{convert, error, parameters, sweep};
+
+/// Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value.
+#[pyfunction]
+#[pyo3(signature = (design, keywords, /, *, point, ranges, samples, threads=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "one per keyword")]
+#[expect(clippy::needless_pass_by_value, reason = "pyo3 extracts values")]
+pub(crate) fn wrench_map<'py>(
+    py: Python<'py>,
+    design: &Bound<'py, PyAny>,
+    keywords: &Bound<'py, PyDict>,
+    point: Option<&Bound<'py, PyAny>>,
+    ranges: Vec<(String, Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    samples: &Bound<'py, PyAny>,
+    threads: Option<&Bound<'py, PyAny>>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let options = sweep::options(threads)?;
+    let samples = convert::count("samples", samples)?;
+    let chosen = Chosen::new(design, keywords, point, None)?.at_frequency(py)?;
+    let mut inputs = Vec::new();
+    for (name, from, to) in &ranges {
+        inputs.push(input(&chosen, name, from, to)?);
+    }
+    let (found, watch) = py.detach(|| {
+        let watch = RefCell::new(Watch::new(progress));
+        let found = WrenchMap::of(&chosen.plan, &chosen.values, inputs, samples, &options, |progress| {
+            watch.borrow_mut().stops(progress)
+        });
+        if found.is_ok() {
+            watch.borrow_mut().done(samples.into());
+        }
+        (found, watch.into_inner())
+    });
+    watch.ended()?;
+    let map = found.map_err(refused)?.ok_or_else(|| PyValueError::new_err("interrupted"))?;
+    into_python(py, &chosen, &map)
+}
+
+/// Returns an input with its range.
+fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<MapInput> {
+    let vehicle = chosen.plan.vehicle().ok_or_else(|| refused(WrenchMapError::NoVehicle))?;
+    let input = Input::of(vehicle, name).map_err(|error| {
+        let near = match error {
+            ControlInputError::Unknown(_) => {
+                let known = Input::names(vehicle);
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                parameters::did_you_mean(name, &known)
+            }
+            ControlInputError::Choice(_) => String::new(),
+        };
+        PyValueError::new_err(format!("ranges: {error}{near}"))
+    })?;
+    let parameter = &chosen.plan.parameters()[input.parameter];
+    let [from, to] = [from, to].map(|value| parameters::value_of(parameter, value));
+    MapInput::new(&input, from?, to?).map_err(refused)
+}
+
+/// Returns the exception for a map that cannot be computed.
+fn refused(error: WrenchMapError) -> PyErr {
+    let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
+    match error {
+        WrenchMapError::Run(error) => error::run(&error),
+        error => PyValueError::new_err(format!("{error}{help}")),
+    }
+}
+
+/// Returns the map as a dictionary; see `flapwing.WrenchMap`.
+fn into_python<'py>(py: Python<'py>, chosen: &Chosen, map: &WrenchMap) -> PyResult<Bound<'py, PyDict>> {
+    let of_inputs = |get: fn(&MapInput) -> f64| map.inputs.iter().map(get).collect::<Vec<f64>>();
+    let parameters: Vec<_> =
+        map.inputs.iter().map(|input| &chosen.plan.parameters()[input.parameter]).collect();
+    let powers = terms(map.inputs.len()).into_iter().map(|term| {
+        let power = |input| term.iter().filter(|&&factor| factor == input).count();
+        (0..map.inputs.len()).map(power).collect::<Vec<usize>>()
+    });
+    let [scaled, physical] = [&map.scaled, &map.physical()].map(|coefficients| {
+        coefficients.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>()
+    });
+    let rows = PyDict::new(py);
+    for (name, count) in map.rows() {
+        rows.set_item(name, count)?;
+    }
+    let dict = PyDict::new(py);
+    dict.set_item("inputs", map.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>())?;
+    dict.set_item("parameters", parameters.iter().map(|parameter| parameter.name).collect::<Vec<_>>())?;
+    dict.set_item("units", parameters.iter().map(|parameter| parameter.unit).collect::<Vec<_>>())?;
+    dict.set_item("start", of_inputs(|input| input.from))?;
+    dict.set_item("stop", of_inputs(|input| input.to))?;
+    dict.set_item("components", COMPONENTS.to_vec())?;
+    dict.set_item("powers", powers.collect::<Vec<_>>())?;
+    dict.set_item("scaled", scaled)?;
+    dict.set_item("physical", physical)?;
+    dict.set_item("r_squared", map.r_squared.to_vec())?;
+    dict.set_item("largest_error", map.largest_error.to_vec())?;
+    dict.set_item("rows", rows)?;
+    dict.set_item("floquet_max", map.floquet_max)?;
+    dict.set_item("warnings", map.warnings())?;
+    Ok(dict)
+}
