@@ -165,13 +165,14 @@ def wrench_map(
     >>> place = ["0 mm", "2 mm", "0 mm"]
     >>> wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
     >>> vehicle = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"])
-    >>> ranges = {"amplitude": ("180 V", "220 V"), "bias": ("-10 V", "10 V"), "amplitude_difference": (-20.0, 20.0)}
+    >>> ranges = {"amplitude": ("190 V", "210 V"), "bias": ("-5 V", "5 V")}
+    >>> ranges |= {"amplitude_difference": (-10.0, 10.0), "bias_difference": (-5.0, 5.0)}
     >>> quadratic = flapwing.wrench_map(vehicle, ranges=ranges, samples=200, drive_frequency="100 Hz")
-    >>> force_and_torque = quadratic([200.0, 0.0, 10.0])
-    >>> force_and_torque[3].round(2)
-    np.float64(0.78)
-    >>> quadratic.r_squared[3] > 0.99
-    np.True_
+    >>> force_and_torque = quadratic([200.0, 0.0, 5.0, 0.0])
+    >>> print(f"{force_and_torque[3]:.2f}")
+    0.39
+    >>> print(min(quadratic.r_squared) > 0.99)
+    True
     """
     if not isinstance(ranges, Mapping):
         raise _mistakes.refused("ranges", ranges, _RANGES)
