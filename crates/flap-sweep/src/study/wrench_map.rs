@@ -407,7 +407,8 @@ pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
 
 /// Returns the smallest number of rows that a map with this number of terms needs.
 fn needed(terms: usize) -> usize {
-    (FEWEST_SAMPLES..).find(|rows| rows - rows / LEFT_OUT >= terms).unwrap_or(usize::MAX)
+    // Of each LEFT_OUT rows, LEFT_OUT - 1 are in the fit.
+    (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
 }
 
 /// Returns the places of force and torque among the measures of the vehicle's rows.
