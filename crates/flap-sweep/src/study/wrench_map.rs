@@ -551,7 +551,9 @@ mod tests {
         let mut wrenches = vec![[0.0; 6]; 10];
         wrenches[4][0] = 3.0;
         wrenches[9][0] = 1.0;
-        wrenches.iter_mut().for_each(|wrench| wrench[1] = 2.0);
+        for wrench in &mut wrenches {
+            wrench[1] = 2.0;
+        }
         let map = WrenchMap::fitted_to(inputs, &points, &wrenches).unwrap();
         assert!(map.scaled.row(0).amax() < 1e-12);
         assert!((map.largest_error[0] - 3.0).abs() < 1e-12);
