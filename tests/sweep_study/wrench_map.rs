@@ -1,5 +1,7 @@
 //! Quadratic maps of a vehicle's mean force and torque, compared with rows and exact derivatives of the vehicle.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+
 use std::num::NonZeroUsize;
 
 use flap_core::simulate::{Status, never};
