@@ -3,6 +3,7 @@
 mod basins;
 mod driven;
 mod edges;
+mod hover;
 mod optimum;
 mod resonance;
 mod response;

@@ -1,0 +1,597 @@
+//! Linear model of a vehicle near hover: state matrices, eigenvalues, and modes of motion in words.
+//!
+//! The wings are quasi-static: the mean wrench of a drive period depends on the velocity and the rates of the body
+//! and on the inputs. The point of the torques must be the centre of mass. Velocities and rates are in body axes:
+//! x forward, y to the left, z up. All numbers are in SI units.
+
+use core::f64::consts::{LN_2, TAU};
+
+use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
+
+use super::control::COMPONENTS;
+
+/// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
+pub const STATES: [(&str, &str); 12] = [
+    ("velocity_forward", "m/s"),
+    ("velocity_left", "m/s"),
+    ("velocity_up", "m/s"),
+    ("rate_roll", "rad/s"),
+    ("rate_pitch", "rad/s"),
+    ("rate_yaw", "rad/s"),
+    ("angle_roll", "rad"),
+    ("angle_pitch", "rad"),
+    ("angle_yaw", "rad"),
+    ("position_forward", "m"),
+    ("position_left", "m"),
+    ("position_up", "m"),
+];
+
+/// Factors from the units of a row's wrench, mN and uN·m, to N and N·m.
+pub const WRENCH_TO_SI: [f64; 6] = [1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6];
+
+/// Number of states that determine the accelerations: velocities, rates, roll angle and pitch angle.
+const DYNAMIC: usize = 8;
+
+/// The states of each kind of motion.
+const MOTIONS: [(&str, &[usize]); 10] = [
+    ("forward velocity", &[0]),
+    ("sideways velocity", &[1]),
+    ("vertical velocity", &[2]),
+    ("roll", &[3, 6]),
+    ("pitch", &[4, 7]),
+    ("yaw", &[5]),
+    ("heading", &[8]),
+    ("forward position", &[9]),
+    ("sideways position", &[10]),
+    ("height", &[11]),
+];
+
+/// States of the longitudinal motion, in the plane of x and z.
+const LONGITUDINAL: [usize; 6] = [0, 2, 4, 7, 9, 11];
+
+/// A motion with a smaller share of the participation is not part of a mode's name.
+const NAMED_SHARE: f64 = 0.2;
+
+/// A mode is longitudinal or lateral if the states of the other plane have at most this share.
+const COUPLED_SHARE: f64 = 0.1;
+
+/// An eigenvalue with a smaller magnitude, relative to the largest one, counts as zero.
+const NEUTRAL: f64 = 1e-10;
+
+/// Largest residual of a trim, as a share of the weight.
+const TRIM_LIMIT: f64 = 1e-2;
+
+/// Lever that turns the limit of forces into the limit of torques (m).
+const TRIM_LEVER: f64 = 1e-3;
+
+/// Mass, inertia and gravity. A number that is not known is NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Total mass (kg).
+    pub mass: f64,
+    /// Moment of inertia about the x axis through the centre of mass (kg·m²).
+    pub inertia_roll: f64,
+    /// Moment of inertia about the y axis (kg·m²).
+    pub inertia_pitch: f64,
+    /// Moment of inertia about the z axis (kg·m²).
+    pub inertia_yaw: f64,
+    /// Product of inertia ∫ x z dm (kg·m²). The inertia matrix contains its negative.
+    pub inertia_product: f64,
+    /// Acceleration of gravity (m/s²).
+    pub gravity: f64,
+}
+
+/// Reason for a missing hover model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HoverError {
+    /// Some mass properties are not set.
+    #[error("the hover model requires {}: set {}", .0.join(", "), if .0.len() == 1 { "it" } else { "them" })]
+    Missing(Vec<&'static str>),
+    /// The mass is not positive.
+    #[error("total_mass is {0} kg, but must be positive")]
+    Mass(f64),
+    /// The inertia matrix is not positive definite.
+    #[error(
+        "the inertia of the body is not positive definite: moments must be positive, and the square of \
+         body_inertia_product must be smaller than body_inertia_roll times body_inertia_yaw"
+    )]
+    NotPositive,
+    /// No mass distribution has these moments of inertia.
+    #[error(
+        "no body has the principal moments of inertia {:.4e}, {:.4e} and {:.4e} kg*m^2: each moment is at most the sum of \
+         the other two", .0[0], .0[1], .0[2]
+    )]
+    Triangle([f64; 3]),
+    /// The iteration for the eigenvalues does not end, or a matrix contains NaN.
+    #[error("the eigenvalues of the hover model cannot be computed")]
+    Eigenvalues,
+}
+
+impl MassProperties {
+    /// Returns the inertia matrix (kg·m²).
+    fn inertia(&self) -> Matrix3<f64> {
+        let product = -self.inertia_product;
+        #[rustfmt::skip]
+        let inertia = Matrix3::new(
+            self.inertia_roll, 0.0, product,
+            0.0, self.inertia_pitch, 0.0,
+            product, 0.0, self.inertia_yaw,
+        );
+        inertia
+    }
+
+    /// Checks that all numbers are given and that a body can have these moments of inertia.
+    ///
+    /// # Errors
+    /// The missing names, or the condition that the numbers violate.
+    pub fn check(&self) -> Result<(), HoverError> {
+        let named = [
+            ("total_mass", self.mass),
+            ("body_inertia_roll", self.inertia_roll),
+            ("body_inertia_pitch", self.inertia_pitch),
+            ("body_inertia_yaw", self.inertia_yaw),
+            ("body_inertia_product", self.inertia_product),
+            ("gravity", self.gravity),
+        ];
+        let missing: Vec<&'static str> =
+            named.iter().filter(|(_, value)| value.is_nan()).map(|(name, _)| *name).collect();
+        if !missing.is_empty() {
+            return Err(HoverError::Missing(missing));
+        }
+        if self.mass <= 0.0 {
+            return Err(HoverError::Mass(self.mass));
+        }
+        let mean = f64::midpoint(self.inertia_roll, self.inertia_yaw);
+        let half = f64::midpoint(self.inertia_roll, -self.inertia_yaw).hypot(self.inertia_product);
+        let principal = [mean + half, self.inertia_pitch, mean - half];
+        if principal.iter().any(|moment| *moment <= 0.0) {
+            return Err(HoverError::NotPositive);
+        }
+        let largest = principal.iter().copied().fold(0.0, f64::max);
+        // A flat body reaches the limit, so rounding must not reject it.
+        if largest > 0.5 * principal.iter().sum::<f64>() * (1.0 + 1e-12) {
+            return Err(HoverError::Triangle(principal));
+        }
+        Ok(())
+    }
+}
+
+/// Motion that belongs to one real eigenvalue, or to a pair of complex eigenvalues.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HoverMode {
+    /// Eigenvalue (1/s), with a positive imaginary part if it belongs to a pair.
+    pub eigenvalue: Complex<f64>,
+    /// Participation of each state; the sum is one. Participations do not depend on units.
+    ///
+    /// Source: Pérez-Arriaga, Verghese and Schweppe, IEEE Trans. Power Apparatus and Systems 101 (1982) 3117.
+    pub participation: Vec<f64>,
+}
+
+/// Linear model x' = A x + B s of small deviations from hover, with the outputs x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HoverModel {
+    /// Mass properties.
+    pub body: MassProperties,
+    /// Derivatives of the wrench with respect to velocity and rates: N s/m, N s, N s, N m s.
+    pub damping: Matrix6<f64>,
+    /// Mean force (N) and torque (N·m) at the operating point.
+    pub wrench: [f64; 6],
+    /// State matrix: 9 × 9, or 12 × 12 with positions. [`STATES`] lists the states.
+    pub a: DMatrix<f64>,
+    /// Input matrix: one column for each input.
+    pub b: DMatrix<f64>,
+    /// Modes, those with the largest real part first.
+    pub modes: Vec<HoverMode>,
+}
+
+/// Reason to doubt a hover model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HoverWarning {
+    /// The wrench at the operating point is not the weight.
+    #[error(
+        "the point is no hover: the residual of {component} is {residual:.3e} {unit}, more than 1 % of {of}"
+    )]
+    NoHover {
+        /// Component of the wrench.
+        component: &'static str,
+        /// Force or torque that is not balanced (SI).
+        residual: f64,
+        /// Unit of the residual.
+        unit: &'static str,
+        /// Quantity to which the limit refers.
+        of: &'static str,
+    },
+    /// A mode changes within a drive period.
+    #[error(
+        "the mode \"{mode}\" is fast: |eigenvalue| = {magnitude:.4} 1/s exceeds half the drive frequency, \
+         {limit:.4} 1/s, so quasi-static wings are doubtful"
+    )]
+    FastMode {
+        /// Name of the mode.
+        mode: String,
+        /// Magnitude of the eigenvalue (1/s).
+        magnitude: f64,
+        /// Limit (1/s).
+        limit: f64,
+    },
+    /// The wings settle no faster than a mode moves.
+    #[error(
+        "the wings settle slowly for the mode \"{mode}\": |eigenvalue| = {magnitude:.4} 1/s exceeds a third of the \
+         wings' decay rate, {limit:.4} 1/s, so quasi-static wings are doubtful"
+    )]
+    SlowWings {
+        /// Name of the mode.
+        mode: String,
+        /// Magnitude of the eigenvalue (1/s).
+        magnitude: f64,
+        /// Limit (1/s).
+        limit: f64,
+    },
+}
+
+impl HoverModel {
+    /// Returns the linear model about an operating point.
+    ///
+    /// `damping` is the derivative of the wrench with respect to velocity and rates, `control` with respect to the
+    /// inputs (6 × inputs), `wrench` is the wrench at the point. With `has_position`, the states include positions.
+    ///
+    /// # Errors
+    /// If mass properties are missing or impossible, or the eigenvalues cannot be computed.
+    pub fn new(
+        body: MassProperties,
+        damping: Matrix6<f64>,
+        control: &DMatrix<f64>,
+        wrench: [f64; 6],
+        has_position: bool,
+    ) -> Result<HoverModel, HoverError> {
+        body.check()?;
+        let inverse = inverse_mass(&body).ok_or(HoverError::NotPositive)?;
+        let states = if has_position { 12 } else { 9 };
+        let mut a = DMatrix::zeros(states, states);
+        a.view_mut((0, 0), (6, 6)).copy_from(&(inverse * damping));
+        // A lowered nose accelerates forward, and a lifted left side accelerates to the right.
+        a[(0, 7)] = body.gravity;
+        a[(1, 6)] = -body.gravity;
+        for i in 0..3 {
+            a[(6 + i, 3 + i)] = 1.0;
+            if has_position {
+                a[(9 + i, i)] = 1.0;
+            }
+        }
+        let mut b = DMatrix::zeros(states, control.ncols());
+        b.view_mut((0, 0), (6, control.ncols())).copy_from(&(inverse * control));
+        let modes = modes(&a)?;
+        Ok(HoverModel { body, damping, wrench, a, b, modes })
+    }
+
+    /// Returns names and units of the states, which are also the outputs.
+    pub fn states(&self) -> &'static [(&'static str, &'static str)] {
+        &STATES[..self.a.nrows()]
+    }
+
+    /// Returns all eigenvalues, those with the largest real part first, and pairs together.
+    pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
+        let each = self.modes.iter().flat_map(|mode| {
+            let pair = (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.conj());
+            core::iter::once(mode.eigenvalue).chain(pair)
+        });
+        each.collect()
+    }
+
+    /// Returns the force (N) and torque (N·m) that are not balanced: the wrench, less the weight.
+    pub fn residual(&self) -> [f64; 6] {
+        let mut residual = self.wrench;
+        residual[2] -= self.body.mass * self.body.gravity;
+        residual
+    }
+
+    /// Returns the largest residual of forces (N) and of torques (N·m) at which a point counts as hover.
+    pub fn residual_limits(&self) -> [f64; 2] {
+        let force = TRIM_LIMIT * self.body.mass * self.body.gravity;
+        [force, force * TRIM_LEVER]
+    }
+
+    /// Returns the reasons to doubt the model, from the drive frequency (Hz) and the largest Floquet multiplier.
+    ///
+    /// If a multiplier is NaN, the decay rate of the wings is not checked.
+    pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<HoverWarning> {
+        let [force, torque] = self.residual_limits();
+        let mut warnings = Vec::new();
+        for (i, residual) in self.residual().into_iter().enumerate() {
+            let (limit, unit, of) =
+                if i < 3 { (force, "N", "the weight") } else { (torque, "N*m", "the weight times 1 mm") };
+            if residual.abs() > limit {
+                warnings.push(HoverWarning::NoHover { component: component(i), residual, unit, of });
+            }
+        }
+        for mode in &self.modes {
+            let magnitude = mode.eigenvalue.norm();
+            let limit = 0.5 * frequency;
+            if magnitude > limit {
+                warnings.push(HoverWarning::FastMode { mode: mode.name(), magnitude, limit });
+            }
+            let limit = -frequency * floquet_max.ln() / 3.0;
+            if magnitude > limit {
+                warnings.push(HoverWarning::SlowWings { mode: mode.name(), magnitude, limit });
+            }
+        }
+        warnings
+    }
+}
+
+/// Returns the name of a component of the wrench without its unit, such as `force_up`.
+pub fn component(i: usize) -> &'static str {
+    COMPONENTS[i].rsplit_once('_').map_or(COMPONENTS[i], |(name, _)| name)
+}
+
+/// Returns the inverse of the matrix of mass and inertia; `None` if there is none.
+fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
+    let mut inverse = Matrix6::from_diagonal(&Vector6::repeat(1.0 / body.mass));
+    inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.inertia().try_inverse()?);
+    Some(inverse)
+}
+
+/// Returns the modes of the state matrix.
+///
+/// Heading and position do not act back on the other states. Each adds an eigenvalue of zero, in which it takes part
+/// alone, so only the other eight states need eigenvectors.
+fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
+    /// Largest number of iterations for the eigenvalues of eight states.
+    const MOST_ITERATIONS: usize = 10_000;
+
+    let dynamic: SMatrix<f64, DYNAMIC, DYNAMIC> = a.fixed_view::<DYNAMIC, DYNAMIC>(0, 0).into_owned();
+    if dynamic.iter().any(|entry| !entry.is_finite()) {
+        return Err(HoverError::Eigenvalues);
+    }
+    let schur = Schur::try_new(dynamic, f64::EPSILON, MOST_ITERATIONS).ok_or(HoverError::Eigenvalues)?;
+    let eigenvalues = schur.complex_eigenvalues();
+    let largest = eigenvalues.iter().map(|one| one.norm()).fold(0.0, f64::max);
+    let mut modes = Vec::new();
+    for &eigenvalue in eigenvalues.iter().filter(|eigenvalue| eigenvalue.im >= 0.0) {
+        let is_neutral = eigenvalue.norm() <= NEUTRAL * largest;
+        let eigenvalue = if is_neutral { Complex::new(0.0, 0.0) } else { eigenvalue };
+        let mut participation = participation(&dynamic, eigenvalue).ok_or(HoverError::Eigenvalues)?;
+        participation.resize(a.nrows(), 0.0);
+        modes.push(HoverMode { eigenvalue, participation });
+    }
+    for state in DYNAMIC..a.nrows() {
+        let mut participation = vec![0.0; a.nrows()];
+        participation[state] = 1.0;
+        modes.push(HoverMode { eigenvalue: Complex::new(0.0, 0.0), participation });
+    }
+    modes.sort_by(|one, other| {
+        let (one, other) = (one.eigenvalue, other.eigenvalue);
+        other.re.total_cmp(&one.re).then(other.im.total_cmp(&one.im))
+    });
+    Ok(modes)
+}
+
+/// Returns the participation of the states in the mode of an eigenvalue, with the sum one.
+///
+/// The singular vectors of the smallest singular value of A − λ are the left and right eigenvectors.
+fn participation(a: &SMatrix<f64, DYNAMIC, DYNAMIC>, eigenvalue: Complex<f64>) -> Option<Vec<f64>> {
+    let shifted = a.map(|entry| Complex::new(entry, 0.0))
+        - SMatrix::<Complex<f64>, DYNAMIC, DYNAMIC>::identity() * eigenvalue;
+    let decomposed = shifted.svd(true, true);
+    let (u, v_t) = (decomposed.u?, decomposed.v_t?);
+    let values = decomposed.singular_values.iter().enumerate();
+    let (smallest, _) = values.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    let both = |i: usize| u[(i, smallest)].norm() * v_t[(smallest, i)].norm();
+    let sum: f64 = (0..DYNAMIC).map(both).sum();
+    // The eigenvectors of a repeated eigenvalue can have no state in common.
+    let right = |i: usize| v_t[(smallest, i)].norm_sqr();
+    Some((0..DYNAMIC).map(|i| if sum > 0.0 { both(i) / sum } else { right(i) }).collect())
+}
+
+impl HoverMode {
+    /// Returns the time in which the motion grows to twice its size (s), or `None` if it does not grow.
+    pub fn time_to_double(&self) -> Option<f64> {
+        (self.eigenvalue.re > 0.0).then(|| LN_2 / self.eigenvalue.re)
+    }
+
+    /// Returns the time in which the motion decays to half its size (s), or `None` if it does not decay.
+    pub fn time_to_half(&self) -> Option<f64> {
+        (self.eigenvalue.re < 0.0).then(|| -LN_2 / self.eigenvalue.re)
+    }
+
+    /// Returns the period (s), or `None` if the motion does not oscillate.
+    pub fn period(&self) -> Option<f64> {
+        (self.eigenvalue.im != 0.0).then(|| TAU / self.eigenvalue.im.abs())
+    }
+
+    /// Returns the moving states and the kind of motion, such as `pitch and forward velocity (longitudinal oscillation)`.
+    ///
+    /// A motion is listed if its states have a fifth of the participation. A real negative eigenvalue is a subsidence,
+    /// a positive one a divergence, and an eigenvalue of zero is neutral.
+    pub fn name(&self) -> String {
+        let share = |states: &[usize]| -> f64 {
+            states.iter().filter_map(|&state| self.participation.get(state)).sum()
+        };
+        let mut moving: Vec<(f64, &str)> =
+            MOTIONS.iter().map(|(name, states)| (share(states), *name)).collect();
+        moving.retain(|(share, _)| *share >= NAMED_SHARE);
+        moving.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+        let moving: Vec<&str> = moving.into_iter().map(|(_, name)| name).collect();
+        let longitudinal = share(&LONGITUDINAL);
+        let plane = if longitudinal >= 1.0 - COUPLED_SHARE {
+            "longitudinal"
+        } else if longitudinal <= COUPLED_SHARE {
+            "lateral"
+        } else {
+            "coupled"
+        };
+        let kind = if self.eigenvalue.im != 0.0 {
+            "oscillation"
+        } else if self.eigenvalue.re < 0.0 {
+            "subsidence"
+        } else if self.eigenvalue.re > 0.0 {
+            "divergence"
+        } else {
+            return format!("{} (neutral)", listed(&moving));
+        };
+        format!("{} ({plane} {kind})", listed(&moving))
+    }
+}
+
+/// Returns names as a list in words: `a`, `a and b`, or `a, b and c`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [name] => (*name).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body of 100 mg.
+    const BODY: MassProperties = MassProperties {
+        mass: 1e-4,
+        inertia_roll: 2e-9,
+        inertia_pitch: 3e-9,
+        inertia_yaw: 4e-9,
+        inertia_product: 0.0,
+        gravity: 10.0,
+    };
+
+    /// The wrench of a body that hovers.
+    const HOVER: [f64; 6] = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0];
+
+    fn model(damping: Matrix6<f64>) -> HoverModel {
+        HoverModel::new(BODY, damping, &DMatrix::zeros(6, 0), HOVER, false).expect("a model")
+    }
+
+    /// Returns a damping matrix with the given entries (row, column, value).
+    fn damping(entries: &[(usize, usize, f64)]) -> Matrix6<f64> {
+        let mut damping = Matrix6::zeros();
+        for &(i, j, value) in entries {
+            damping[(i, j)] = value;
+        }
+        damping
+    }
+
+    #[test]
+    fn gravity_pulls_towards_the_lowered_side() {
+        let model = model(Matrix6::zeros());
+        // The nose is lowered, and the left side is lifted.
+        assert_eq!((model.a[(0, 7)], model.a[(1, 6)]), (10.0, -10.0));
+        assert_eq!((model.a[(6, 3)], model.a[(7, 4)], model.a[(8, 5)]), (1.0, 1.0, 1.0));
+        assert_eq!(model.a.iter().filter(|entry| **entry != 0.0).count(), 5);
+    }
+
+    #[test]
+    fn forces_and_torques_become_accelerations() {
+        let control = DMatrix::from_fn(6, 1, |i, _| [1e-4, 0.0, 3e-4, 2e-9, 6e-9, 4e-9][i]);
+        let tilted = MassProperties { inertia_product: 1e-9, ..BODY };
+        let model = HoverModel::new(tilted, Matrix6::zeros(), &control, HOVER, true).expect("a model");
+        // I_B = [2 0 −1; 0 3 0; −1 0 4] × 1e-9, so its inverse has the determinant 7 in the plane of x and z.
+        let expected = [1.0, 0.0, 3.0, (4.0 * 2.0 + 4.0) / 7.0, 2.0, (2.0 + 2.0 * 4.0) / 7.0];
+        for (i, expected) in expected.into_iter().enumerate() {
+            assert!((model.b[(i, 0)] - expected).abs() < 1e-12, "{i}: {}", model.b[(i, 0)]);
+        }
+        assert_eq!(model.b.shape(), (12, 1));
+        assert_eq!((model.a[(9, 0)], model.a[(10, 1)], model.a[(11, 2)]), (1.0, 1.0, 1.0));
+    }
+
+    #[test]
+    fn times_and_names_of_uncoupled_motions() {
+        // Vertical motion decays at 2 1/s, and yaw at 5 1/s. Other motions have no damping.
+        let model = model(damping(&[(2, 2, -2e-4), (5, 5, -2e-8)]));
+        let found: Vec<(f64, String)> =
+            model.modes.iter().map(|mode| (mode.eigenvalue.re, mode.name())).collect();
+        assert_eq!(found.len(), 9);
+        assert!(
+            found[..7].iter().all(|(real, name)| *real == 0.0 && name.ends_with("(neutral)")),
+            "{found:?}"
+        );
+        assert_eq!(found[7].1, "vertical velocity (longitudinal subsidence)");
+        assert_eq!(found[8].1, "yaw (lateral subsidence)");
+        let half = model.modes[7].time_to_half().expect("it decays");
+        assert!((half - 0.346_573_590_279_972_6).abs() < 1e-12, "{half}");
+        assert_eq!((model.modes[7].time_to_double(), model.modes[7].period()), (None, None));
+    }
+
+    #[test]
+    fn a_torque_against_velocity_makes_an_oscillation_grow() {
+        // λ³ = g M_u / I_y = −10 · 2.4e-6 / 3e-9 = −8000: one real root −20, and 10 ± 17.32 i.
+        let model = model(damping(&[(4, 0, -2.4e-6)]));
+        let first = &model.modes[0];
+        assert!((first.eigenvalue - Complex::new(10.0, 300.0_f64.sqrt())).norm() < 1e-9, "{first:?}");
+        assert_eq!(first.name(), "pitch and forward velocity (longitudinal oscillation)");
+        // Each of the three states has a third.
+        for state in [0, 4, 7] {
+            assert!((first.participation[state] - 1.0 / 3.0).abs() < 1e-9, "{first:?}");
+        }
+        assert!((first.time_to_double().expect("it grows") - 0.069_314_718_055_994_53).abs() < 1e-12);
+        assert!((first.period().expect("it oscillates") - TAU / 300.0_f64.sqrt()).abs() < 1e-9);
+        let last = model.modes.last().expect("modes");
+        assert!((last.eigenvalue.re + 20.0).abs() < 1e-9);
+        assert_eq!(last.name(), "pitch and forward velocity (longitudinal subsidence)");
+        assert_eq!(model.eigenvalues().len(), 9);
+        assert_eq!(model.eigenvalues()[1], model.eigenvalues()[0].conj());
+    }
+
+    #[test]
+    fn a_torque_along_velocity_makes_a_motion_diverge() {
+        let model = model(damping(&[(3, 1, -1.6e-6)]));
+        // λ³ = −g L_v / I_x = 10 · 1.6e-6 / 2e-9 = 8000.
+        assert!((model.modes[0].eigenvalue.re - 20.0).abs() < 1e-9);
+        assert_eq!(model.modes[0].name(), "roll and sideways velocity (lateral divergence)");
+    }
+
+    #[test]
+    fn missing_and_impossible_mass_properties() {
+        let of = |body: MassProperties| body.check().map_err(|error| error.to_string());
+        let unset = MassProperties { mass: f64::NAN, inertia_yaw: f64::NAN, ..BODY };
+        assert_eq!(
+            of(unset),
+            Err("the hover model requires total_mass, body_inertia_yaw: set them".to_owned())
+        );
+        assert!(
+            of(MassProperties { inertia_product: 3e-9, ..BODY }).unwrap_err().contains("positive definite")
+        );
+        assert!(
+            of(MassProperties { inertia_roll: -2e-9, ..BODY }).unwrap_err().contains("positive definite")
+        );
+        let message = of(MassProperties { inertia_yaw: 6e-9, ..BODY }).unwrap_err();
+        assert!(message.contains("moments of inertia 6.0000e-9, 3.0000e-9 and 2.0000e-9 kg"), "{message}");
+        assert_eq!(of(MassProperties { inertia_yaw: 5e-9, ..BODY }), Ok(()));
+        assert_eq!(
+            of(MassProperties { mass: 0.0, ..BODY }).unwrap_err(),
+            "total_mass is 0 kg, but must be positive"
+        );
+        let damping = Matrix6::from_element(f64::NAN);
+        let failed = HoverModel::new(BODY, damping, &DMatrix::zeros(6, 0), HOVER, false);
+        assert_eq!(failed, Err(HoverError::Eigenvalues));
+    }
+
+    #[test]
+    fn warnings_begin_at_their_limits() {
+        let model = model(damping(&[(2, 2, -5e-3), (5, 5, -2e-8)]));
+        // The fastest mode has 50 1/s, and exp(−1.5) per period is a decay of 0.5 f per second.
+        let multiplier = (-1.5_f64).exp();
+        assert_eq!(model.warnings(100.1, multiplier), []);
+        assert!(
+            matches!(model.warnings(99.9, 1e-3)[..], [HoverWarning::FastMode { magnitude, .. }] if magnitude == 50.0)
+        );
+        let slow = model.warnings(120.0, (-1.2_f64).exp());
+        assert!(matches!(slow[..], [HoverWarning::SlowWings { limit, .. }] if (limit - 48.0).abs() < 1e-9));
+        assert_eq!(model.warnings(120.0, f64::NAN), []);
+
+        let of = |wrench| {
+            let model = HoverModel { wrench, ..model.clone() };
+            model.warnings(120.0, multiplier).iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert!(of([0.0, 0.0, 1.009e-3, 0.0, 0.0, 0.0]).is_empty());
+        assert!(of([0.0, 0.0, 1e-3, 0.0, -0.99e-8, 0.0]).is_empty());
+        assert_eq!(
+            of([0.0, 0.0, 0.98e-3, 0.0, 1.1e-8, 0.0]),
+            [
+                "the point is no hover: the residual of force_up is -2.000e-5 N, more than 1 % of the weight",
+                "the point is no hover: the residual of torque_pitch is 1.100e-8 N*m, more than 1 % of the weight times 1 mm",
+            ]
+        );
+    }
+}
