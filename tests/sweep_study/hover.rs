@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use flap_sweep::study::hover::{HoverModel, MassProperties};
+use flap_core::vehicle::MassProperties;
+use flap_sweep::study::hover::HoverModel;
 use nalgebra::{Complex, DMatrix, Matrix6};
 
 /// The rows of a table in `tests/data/body`: numbers by column, below case and mode.
@@ -32,10 +33,8 @@ fn eigenvalues_are_those_of_an_independent_computation() {
         let damping = Matrix6::from_fn(|i, j| damping[&format!("{}_per_{}", wrench[i], motion[j])]);
         let body = MassProperties {
             mass: hover["mass_kg"],
-            inertia_roll: hover["inertia_roll_kgm2"],
-            inertia_pitch: hover["inertia_pitch_kgm2"],
-            inertia_yaw: hover["inertia_yaw_kgm2"],
-            inertia_product: 0.0,
+            inertia: [hover["inertia_roll_kgm2"], hover["inertia_pitch_kgm2"], hover["inertia_yaw_kgm2"]],
+            product: 0.0,
             gravity: 9.80665,
         };
         let mut at_hover = [0.0; 6];
@@ -84,10 +83,8 @@ fn modes_of_a_robot_with_passive_hinges() {
     }
     let body = MassProperties {
         mass: 6.915_643_907_926_958e-5,
-        inertia_roll: 1.5e-9,
-        inertia_pitch: 1.5e-9,
-        inertia_yaw: 5e-10,
-        inertia_product: 0.0,
+        inertia: [1.5e-9, 1.5e-9, 5e-10],
+        product: 0.0,
         gravity: 9.80665,
     };
     let model = HoverModel::new(body, matrix, &DMatrix::zeros(6, 0), [0.0; 6], false).expect("a model");

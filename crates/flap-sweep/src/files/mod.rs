@@ -11,6 +11,8 @@ pub mod inputs;
 pub mod integrity;
 pub mod job;
 pub mod journal;
+pub mod linear_model;
+pub mod matlab;
 pub mod merge;
 pub mod outline;
 pub mod output;

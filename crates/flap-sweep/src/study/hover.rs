@@ -6,9 +6,10 @@
 
 use core::f64::consts::{LN_2, TAU};
 
+use flap_core::vehicle::MassProperties;
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::COMPONENTS;
+use super::control::{COMPONENTS, ControlError, Flight, Input};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -25,6 +26,19 @@ pub const STATES: [(&str, &str); 12] = [
     ("position_left", "m"),
     ("position_up", "m"),
 ];
+
+/// Parameters of velocity and rates of the body.
+pub const MOTION_PARAMETERS: [&str; 6] = [
+    "body_velocity_forward",
+    "body_velocity_left",
+    "body_velocity_up",
+    "body_rate_roll",
+    "body_rate_pitch",
+    "body_rate_yaw",
+];
+
+/// Units of the components of the wrench, in SI units.
+pub const WRENCH_UNITS: [&str; 6] = ["N", "N", "N", "N*m", "N*m", "N*m"];
 
 /// Factors from the units of a row's wrench, mN and uN·m, to N and N·m.
 pub const WRENCH_TO_SI: [f64; 6] = [1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6];
@@ -64,23 +78,6 @@ const TRIM_LIMIT: f64 = 1e-2;
 /// Lever that turns the limit of forces into the limit of torques (m).
 const TRIM_LEVER: f64 = 1e-3;
 
-/// Mass, inertia and gravity. A number that is not known is NaN.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MassProperties {
-    /// Total mass (kg).
-    pub mass: f64,
-    /// Moment of inertia about the x axis through the centre of mass (kg·m²).
-    pub inertia_roll: f64,
-    /// Moment of inertia about the y axis (kg·m²).
-    pub inertia_pitch: f64,
-    /// Moment of inertia about the z axis (kg·m²).
-    pub inertia_yaw: f64,
-    /// Product of inertia ∫ x z dm (kg·m²). The inertia matrix contains its negative.
-    pub inertia_product: f64,
-    /// Acceleration of gravity (m/s²).
-    pub gravity: f64,
-}
-
 /// Reason for a missing hover model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HoverError {
@@ -102,58 +99,68 @@ pub enum HoverError {
          the other two", .0[0], .0[1], .0[2]
     )]
     Triangle([f64; 3]),
+    /// The model has no parameters of a body's motion.
+    #[error("the model has no parameters for the motion of the body, such as body_velocity_forward")]
+    NoBodyMotion,
+    /// The body moves.
+    #[error("`{0}` is not zero, but the hover model requires a body at rest")]
+    Moving(&'static str),
+    /// A derivative cannot be computed.
+    #[error(transparent)]
+    Control(#[from] ControlError),
     /// The iteration for the eigenvalues does not end, or a matrix contains NaN.
     #[error("the eigenvalues of the hover model cannot be computed")]
     Eigenvalues,
 }
 
-impl MassProperties {
-    /// Returns the inertia matrix (kg·m²).
-    fn inertia(&self) -> Matrix3<f64> {
-        let product = -self.inertia_product;
-        #[rustfmt::skip]
-        let inertia = Matrix3::new(
-            self.inertia_roll, 0.0, product,
-            0.0, self.inertia_pitch, 0.0,
-            product, 0.0, self.inertia_yaw,
-        );
-        inertia
+/// Checks that all mass properties are given, and that a body can have these moments of inertia.
+///
+/// # Errors
+/// The missing names, or the condition that the numbers violate.
+pub fn check(body: &MassProperties) -> Result<(), HoverError> {
+    let [roll, pitch, yaw] = body.inertia;
+    let named = [
+        ("total_mass", body.mass),
+        ("body_inertia_roll", roll),
+        ("body_inertia_pitch", pitch),
+        ("body_inertia_yaw", yaw),
+        ("body_inertia_product", body.product),
+        ("gravity", body.gravity),
+    ];
+    let missing: Vec<&'static str> =
+        named.iter().filter(|(_, value)| value.is_nan()).map(|(name, _)| *name).collect();
+    if !missing.is_empty() {
+        return Err(HoverError::Missing(missing));
     }
+    if body.mass <= 0.0 {
+        return Err(HoverError::Mass(body.mass));
+    }
+    let mean = f64::midpoint(roll, yaw);
+    let half = f64::midpoint(roll, -yaw).hypot(body.product);
+    let principal = [mean + half, pitch, mean - half];
+    if principal.iter().any(|moment| *moment <= 0.0) {
+        return Err(HoverError::NotPositive);
+    }
+    let largest = principal.iter().copied().fold(0.0, f64::max);
+    // A flat body reaches the limit, so rounding must not reject it.
+    if largest > 0.5 * principal.iter().sum::<f64>() * (1.0 + 1e-12) {
+        return Err(HoverError::Triangle(principal));
+    }
+    Ok(())
+}
 
-    /// Checks that all numbers are given and that a body can have these moments of inertia.
-    ///
-    /// # Errors
-    /// The missing names, or the condition that the numbers violate.
-    pub fn check(&self) -> Result<(), HoverError> {
-        let named = [
-            ("total_mass", self.mass),
-            ("body_inertia_roll", self.inertia_roll),
-            ("body_inertia_pitch", self.inertia_pitch),
-            ("body_inertia_yaw", self.inertia_yaw),
-            ("body_inertia_product", self.inertia_product),
-            ("gravity", self.gravity),
-        ];
-        let missing: Vec<&'static str> =
-            named.iter().filter(|(_, value)| value.is_nan()).map(|(name, _)| *name).collect();
-        if !missing.is_empty() {
-            return Err(HoverError::Missing(missing));
-        }
-        if self.mass <= 0.0 {
-            return Err(HoverError::Mass(self.mass));
-        }
-        let mean = f64::midpoint(self.inertia_roll, self.inertia_yaw);
-        let half = f64::midpoint(self.inertia_roll, -self.inertia_yaw).hypot(self.inertia_product);
-        let principal = [mean + half, self.inertia_pitch, mean - half];
-        if principal.iter().any(|moment| *moment <= 0.0) {
-            return Err(HoverError::NotPositive);
-        }
-        let largest = principal.iter().copied().fold(0.0, f64::max);
-        // A flat body reaches the limit, so rounding must not reject it.
-        if largest > 0.5 * principal.iter().sum::<f64>() * (1.0 + 1e-12) {
-            return Err(HoverError::Triangle(principal));
-        }
-        Ok(())
-    }
+/// Returns the derivatives of force (N) and torque (N·m) with respect to velocity (m/s) and rates (rad/s) of the body.
+///
+/// `begin` is the state of the settled motion at these values.
+///
+/// # Errors
+/// If the model has no motion of the body, the motion is not periodic, or a derivative is missing.
+pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Matrix6<f64>, HoverError> {
+    let motions = MOTION_PARAMETERS.map(|name| Input::of(flight.vehicle, name));
+    let motions: Result<Vec<Input>, _> = motions.into_iter().collect();
+    let motions = motions.map_err(|_| HoverError::NoBodyMotion)?;
+    let found = flight.effectiveness(values, &motions, Some(begin))?;
+    Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
 }
 
 /// Motion that belongs to one real eigenvalue, or to a pair of complex eigenvalues.
@@ -244,7 +251,7 @@ impl HoverModel {
         wrench: [f64; 6],
         has_position: bool,
     ) -> Result<HoverModel, HoverError> {
-        body.check()?;
+        check(&body)?;
         let inverse = inverse_mass(&body).ok_or(HoverError::NotPositive)?;
         let states = if has_position { 12 } else { 9 };
         let mut a = DMatrix::zeros(states, states);
@@ -298,10 +305,14 @@ impl HoverModel {
         let [force, torque] = self.residual_limits();
         let mut warnings = Vec::new();
         for (i, residual) in self.residual().into_iter().enumerate() {
-            let (limit, unit, of) =
-                if i < 3 { (force, "N", "the weight") } else { (torque, "N*m", "the weight times 1 mm") };
+            let (limit, of) = if i < 3 { (force, "the weight") } else { (torque, "the weight times 1 mm") };
             if residual.abs() > limit {
-                warnings.push(HoverWarning::NoHover { component: component(i), residual, unit, of });
+                warnings.push(HoverWarning::NoHover {
+                    component: component(i),
+                    residual,
+                    unit: WRENCH_UNITS[i],
+                    of,
+                });
             }
         }
         for mode in &self.modes {
@@ -326,8 +337,10 @@ pub fn component(i: usize) -> &'static str {
 
 /// Returns the inverse of the matrix of mass and inertia; `None` if there is none.
 fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
+    let mut inertia = Matrix3::from_diagonal(&body.inertia.into());
+    (inertia[(0, 2)], inertia[(2, 0)]) = (-body.product, -body.product);
     let mut inverse = Matrix6::from_diagonal(&Vector6::repeat(1.0 / body.mass));
-    inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&body.inertia().try_inverse()?);
+    inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia.try_inverse()?);
     Some(inverse)
 }
 
@@ -447,14 +460,8 @@ mod tests {
     use super::*;
 
     /// A body of 100 mg.
-    const BODY: MassProperties = MassProperties {
-        mass: 1e-4,
-        inertia_roll: 2e-9,
-        inertia_pitch: 3e-9,
-        inertia_yaw: 4e-9,
-        inertia_product: 0.0,
-        gravity: 10.0,
-    };
+    const BODY: MassProperties =
+        MassProperties { mass: 1e-4, inertia: [2e-9, 3e-9, 4e-9], product: 0.0, gravity: 10.0 };
 
     /// The wrench of a body that hovers.
     const HOVER: [f64; 6] = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0];
@@ -484,7 +491,7 @@ mod tests {
     #[test]
     fn forces_and_torques_become_accelerations() {
         let control = DMatrix::from_fn(6, 1, |i, _| [1e-4, 0.0, 3e-4, 2e-9, 6e-9, 4e-9][i]);
-        let tilted = MassProperties { inertia_product: 1e-9, ..BODY };
+        let tilted = MassProperties { product: 1e-9, ..BODY };
         let model = HoverModel::new(tilted, Matrix6::zeros(), &control, HOVER, true).expect("a model");
         // I_B = [2 0 −1; 0 3 0; −1 0 4] × 1e-9, so its inverse has the determinant 7 in the plane of x and z.
         let expected = [1.0, 0.0, 3.0, (4.0 * 2.0 + 4.0) / 7.0, 2.0, (2.0 + 2.0 * 4.0) / 7.0];
@@ -543,25 +550,21 @@ mod tests {
 
     #[test]
     fn missing_and_impossible_mass_properties() {
-        let of = |body: MassProperties| body.check().map_err(|error| error.to_string());
-        let unset = MassProperties { mass: f64::NAN, inertia_yaw: f64::NAN, ..BODY };
+        let of = |body: MassProperties| check(&body).map_err(|error| error.to_string());
+        let unset = MassProperties { mass: f64::NAN, inertia: [2e-9, 3e-9, f64::NAN], ..BODY };
         assert_eq!(
             of(unset),
             Err("the hover model requires total_mass, body_inertia_yaw: set them".to_owned())
         );
-        assert!(
-            of(MassProperties { inertia_product: 3e-9, ..BODY }).unwrap_err().contains("positive definite")
-        );
-        assert!(
-            of(MassProperties { inertia_roll: -2e-9, ..BODY }).unwrap_err().contains("positive definite")
-        );
-        let message = of(MassProperties { inertia_yaw: 6e-9, ..BODY }).unwrap_err();
+        let with = |inertia| of(MassProperties { inertia, ..BODY });
+        let positive = "the inertia of the body is not positive definite";
+        assert!(of(MassProperties { product: 3e-9, ..BODY }).unwrap_err().starts_with(positive));
+        assert!(with([-2e-9, 3e-9, 4e-9]).unwrap_err().starts_with(positive));
+        let message = with([2e-9, 3e-9, 6e-9]).unwrap_err();
         assert!(message.contains("moments of inertia 6.0000e-9, 3.0000e-9 and 2.0000e-9 kg"), "{message}");
-        assert_eq!(of(MassProperties { inertia_yaw: 5e-9, ..BODY }), Ok(()));
-        assert_eq!(
-            of(MassProperties { mass: 0.0, ..BODY }).unwrap_err(),
-            "total_mass is 0 kg, but must be positive"
-        );
+        assert_eq!(with([2e-9, 3e-9, 5e-9]), Ok(()));
+        let message = of(MassProperties { mass: 0.0, ..BODY }).unwrap_err();
+        assert_eq!(message, "total_mass is 0 kg, but must be positive");
         let damping = Matrix6::from_element(f64::NAN);
         let failed = HoverModel::new(BODY, damping, &DMatrix::zeros(6, 0), HOVER, false);
         assert_eq!(failed, Err(HoverError::Eigenvalues));

@@ -1,0 +1,301 @@
+//! Files with a linear hover model for other programs: JSON, MATLAB and Python. All numbers are in SI units.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use flap_core::parameter::Parameter;
+use flap_core::simulate::Simulator as _;
+use nalgebra::DMatrix;
+
+use super::matlab::{self, Variable};
+use crate::notation::text;
+use crate::study::control::{Effectiveness, Flight};
+use crate::study::hover::{
+    self, HoverError, HoverModel, HoverWarning, MOTION_PARAMETERS, STATES, WRENCH_TO_SI, WRENCH_UNITS,
+    component,
+};
+
+/// Input of a linear model, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearInput {
+    /// Name.
+    pub name: String,
+    /// Unit; may be empty.
+    pub unit: String,
+    /// Value at the operating point.
+    pub value: f64,
+}
+
+/// A hover model with the point at which it is valid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearModel {
+    /// Model.
+    pub hover: HoverModel,
+    /// Change of force (N) and torque (N·m) with the inputs: 6 × inputs.
+    pub control: DMatrix<f64>,
+    /// Inputs, in the order of the columns of B.
+    pub inputs: Vec<LinearInput>,
+    /// Drive frequency (Hz).
+    pub frequency: f64,
+    /// Largest Floquet multiplier of the wings.
+    pub floquet_max: f64,
+    /// Point to which torques and velocities refer, the centre of mass (m).
+    pub about: [f64; 3],
+    /// Response of the wings to the motion of the body: `passive` or `frozen`.
+    pub response: String,
+    /// Model and preset or device.
+    pub design: String,
+}
+
+/// Format of a file with a linear model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearFormat {
+    /// JSON object.
+    Json,
+    /// MAT file of version 5.
+    Matlab,
+    /// Python module.
+    Python,
+}
+
+impl LinearFormat {
+    /// Endings of file names, for messages.
+    pub const ENDINGS: &str = ".json, .mat or .py";
+
+    /// Returns the format of a file by the ending of its name; `None` if there is none.
+    pub fn of(path: &Path) -> Option<LinearFormat> {
+        match path.extension()?.to_str()? {
+            "json" => Some(LinearFormat::Json),
+            "mat" => Some(LinearFormat::Matlab),
+            "py" => Some(LinearFormat::Python),
+            _ => None,
+        }
+    }
+}
+
+impl LinearModel {
+    /// Returns the hover model at an operating point with these inputs and values of the vehicle's parameters.
+    ///
+    /// With `has_position`, the states include positions. `design` describes model and preset.
+    ///
+    /// # Errors
+    /// If mass properties are missing or impossible, the body moves, or a derivative is missing.
+    pub fn at(
+        flight: &Flight<'_>,
+        values: &[f64],
+        at: &Effectiveness,
+        has_position: bool,
+        design: String,
+    ) -> Result<LinearModel, HoverError> {
+        let vehicle = flight.vehicle;
+        let parameters = vehicle.parameters();
+        let body = vehicle.mass_properties(values);
+        hover::check(&body)?;
+        let index = |name: &str| Parameter::index(parameters, name);
+        let is_moving = |name: &&str| index(name).is_some_and(|index| values[index] != 0.0);
+        if let Some(name) = MOTION_PARAMETERS.iter().find(|name| is_moving(name)) {
+            return Err(HoverError::Moving(name));
+        }
+        let damping = hover::damping(flight, values, &at.row.state)?;
+        let control = DMatrix::from_fn(6, at.inputs.len(), |i, j| {
+            at.matrix[(i, j)] * WRENCH_TO_SI[i] / at.inputs[j].factor
+        });
+        let wrench = core::array::from_fn(|i| at.wrench[i] * WRENCH_TO_SI[i]);
+        let hover = HoverModel::new(body, damping, &control, wrench, has_position)?;
+        let response =
+            index("body_response").and_then(|index| text::option(&parameters[index], values[index]));
+        let inputs = at.inputs.iter().zip(&at.values).map(|(input, value)| LinearInput {
+            name: input.name.clone(),
+            unit: parameters[input.parameter].unit.to_owned(),
+            value: value * input.factor,
+        });
+        Ok(LinearModel {
+            hover,
+            control,
+            inputs: inputs.collect(),
+            frequency: index("drive_frequency").map_or(f64::NAN, |index| values[index]),
+            floquet_max: at.row.floquet_max,
+            about: vehicle.about(values),
+            response: response.unwrap_or_default().to_owned(),
+            design,
+        })
+    }
+
+    /// Returns the reasons to doubt the model.
+    pub fn warnings(&self) -> Vec<HoverWarning> {
+        self.hover.warnings(self.frequency, self.floquet_max)
+    }
+
+    /// Writes the model in this format.
+    ///
+    /// # Errors
+    /// The error of the target.
+    pub fn write(&self, format: LinearFormat, target: &mut dyn Write) -> io::Result<()> {
+        let variables = self.variables();
+        match format {
+            LinearFormat::Json => target.write_all(json(&variables).as_bytes()),
+            LinearFormat::Matlab => matlab::write(&variables, target),
+            LinearFormat::Python => target.write_all(python(&variables).as_bytes()),
+        }
+    }
+
+    /// Returns the contents of a file in each format.
+    fn variables(&self) -> Vec<(&'static str, Variable)> {
+        let texts = |texts: &[&str]| Variable::Texts(texts.iter().map(|text| (*text).to_owned()).collect());
+        let (names, units): (Vec<&str>, Vec<&str>) = self.hover.states().iter().copied().unzip();
+        let motions: Vec<&str> = STATES[..6].iter().map(|(name, _)| *name).collect();
+        let motion_units: Vec<&str> = STATES[..6].iter().map(|(_, unit)| *unit).collect();
+        let components: Vec<&str> = (0..6).map(component).collect();
+        let size = self.hover.a.nrows();
+        let of_inputs = |text: fn(&LinearInput) -> &String| {
+            Variable::Texts(self.inputs.iter().map(|input| text(input).clone()).collect())
+        };
+        let values = self.inputs.iter().map(|input| input.value).collect();
+        let damping = DMatrix::from_fn(6, 6, |i, j| self.hover.damping[(i, j)]);
+        let body = &self.hover.body;
+        vec![
+            ("A", Variable::Matrix(self.hover.a.clone())),
+            ("B", Variable::Matrix(self.hover.b.clone())),
+            ("C", Variable::Matrix(DMatrix::identity(size, size))),
+            ("D", Variable::Matrix(DMatrix::zeros(size, self.inputs.len()))),
+            ("states", texts(&names)),
+            ("state_units", texts(&units)),
+            ("inputs", of_inputs(|input| &input.name)),
+            ("input_units", of_inputs(|input| &input.unit)),
+            ("outputs", texts(&names)),
+            ("output_units", texts(&units)),
+            ("input_values", Variable::Vector(values)),
+            ("damping", Variable::Matrix(damping)),
+            ("control", Variable::Matrix(self.control.clone())),
+            ("W0", Variable::Vector(self.hover.wrench.to_vec())),
+            ("wrench", texts(&components)),
+            ("wrench_units", texts(&WRENCH_UNITS)),
+            ("motions", texts(&motions)),
+            ("motion_units", texts(&motion_units)),
+            ("design", Variable::Text(self.design.clone())),
+            ("body_response", Variable::Text(self.response.clone())),
+            ("drive_frequency", Variable::Number(self.frequency)),
+            ("floquet_max", Variable::Number(self.floquet_max)),
+            ("about", Variable::Vector(self.about.to_vec())),
+            ("total_mass", Variable::Number(body.mass)),
+            ("body_inertia_roll", Variable::Number(body.inertia[0])),
+            ("body_inertia_pitch", Variable::Number(body.inertia[1])),
+            ("body_inertia_yaw", Variable::Number(body.inertia[2])),
+            ("body_inertia_product", Variable::Number(body.product)),
+            ("gravity", Variable::Number(body.gravity)),
+        ]
+    }
+}
+
+/// Returns the variables as a JSON object. A matrix is a list of rows.
+fn json(variables: &[(&str, Variable)]) -> String {
+    let entries = variables.iter().map(|(name, variable)| {
+        let literal = match variable {
+            Variable::Matrix(matrix) => format!("[\n    {}\n  ]", rows(matrix, "null").join(",\n    ")),
+            Variable::Vector(vector) => list(vector, "null"),
+            Variable::Number(value) => number(*value, "null"),
+            Variable::Text(text) => quoted(text),
+            Variable::Texts(texts) => quoted_list(texts),
+        };
+        format!("  \"{name}\": {literal}")
+    });
+    format!("{{\n{}\n}}\n", entries.collect::<Vec<_>>().join(",\n"))
+}
+
+/// Returns a Python module with the variables, which builds a system of python-control where that is installed.
+fn python(variables: &[(&str, Variable)]) -> String {
+    const HEAD: &str = "\
+\"\"\"Linear hover model of a flapping-wing vehicle, written by flap. All numbers are in SI units.
+
+x' = A x + B s, where x contains small deviations from hover (`states`) and s the changes of the `inputs` from
+`input_values`. The outputs are the states. `damping` and `control` are the derivatives of mean force and torque
+(`wrench`) with respect to `motions` and `inputs`, and `W0` is the mean force and torque at the operating point.
+
+`system` is a `control.StateSpace`, or None if python-control is not installed.
+\"\"\"
+
+import numpy as np
+
+";
+    const TAIL: &str = "
+try:
+    import control
+except ImportError:
+    system = None
+else:
+    system = control.ss(A, B, C, D, states=states, inputs=inputs, outputs=outputs)
+";
+    let entries = variables.iter().map(|(name, variable)| {
+        let literal = match variable {
+            Variable::Matrix(matrix) => {
+                format!("np.array([\n    {},\n])", rows(matrix, "np.nan").join(",\n    "))
+            }
+            Variable::Vector(vector) => format!("np.array({})", list(vector, "np.nan")),
+            Variable::Number(value) => number(*value, "np.nan"),
+            Variable::Text(text) => quoted(text),
+            Variable::Texts(texts) => quoted_list(texts),
+        };
+        format!("{name} = {literal}\n")
+    });
+    format!("{HEAD}{}{TAIL}", entries.collect::<String>())
+}
+
+/// Returns the shortest text that reads back as the same number, or `missing` if it is not finite.
+fn number(value: f64, missing: &str) -> String {
+    if value.is_finite() { text::float(value) } else { missing.to_owned() }
+}
+
+fn list(values: &[f64], missing: &str) -> String {
+    let values: Vec<String> = values.iter().map(|value| number(*value, missing)).collect();
+    format!("[{}]", values.join(", "))
+}
+
+/// Returns each row of a matrix as a list.
+fn rows(matrix: &DMatrix<f64>, missing: &str) -> Vec<String> {
+    let row = |i: usize| matrix.row(i).iter().copied().collect::<Vec<f64>>();
+    (0..matrix.nrows()).map(|i| list(&row(i), missing)).collect()
+}
+
+/// Returns a text as a literal of JSON, which is also a literal of Python.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn quoted_list(texts: &[String]) -> String {
+    let texts: Vec<String> = texts.iter().map(|text| quoted(text)).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn literals_of_python_and_json() {
+        let variables = [
+            ("A", Variable::Matrix(DMatrix::from_row_slice(2, 1, &[1e-9, f64::NAN]))),
+            ("v", Variable::Vector(vec![1.0])),
+            ("n", Variable::Number(f64::INFINITY)),
+            ("t", Variable::Texts(vec!["a \"b\"".to_owned(), String::new()])),
+        ];
+        let json: serde_json::Value = serde_json::from_str(&json(&variables)).unwrap();
+        assert_eq!(
+            json,
+            serde_json::json!({"A": [[1e-9], [null]], "v": [1.0], "n": null, "t": ["a \"b\"", ""]})
+        );
+        let python = python(&variables);
+        let expected = "A = np.array([\n    [1e-9],\n    [np.nan],\n])\nv = np.array([1.0])\nn = np.nan\nt = [\"a \\\"b\\\"\", \"\"]\n";
+        assert!(python.contains(expected), "{python}");
+    }
+
+    #[test]
+    fn formats_by_ending() {
+        let of = |name: &str| LinearFormat::of(Path::new(name));
+        assert_eq!(of("folder.py/model.mat"), Some(LinearFormat::Matlab));
+        assert_eq!(
+            (of("model.json"), of("model.py")),
+            (Some(LinearFormat::Json), Some(LinearFormat::Python))
+        );
+        assert_eq!((of("model"), of("model.csv")), (None, None));
+    }
+}
