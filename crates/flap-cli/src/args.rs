@@ -42,6 +42,7 @@ pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResultsCommand, Resu
 pub(crate) use run::RunArgs;
 pub(crate) use sweep::{CheckArgs, SweepArgs};
 pub(crate) use test::{ChirpArgs, ImpulseArgs, LiftArgs, ResonanceArgs, TestCommand, TrackArgs};
+pub(crate) use values::HOVER;
 pub(crate) use vehicle::VehicleArgs;
 
 /// Simulate and sweep insect-scale flapping-wing robots.

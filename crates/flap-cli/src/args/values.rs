@@ -9,6 +9,9 @@ use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
 use flap_sweep::resonance::{self, LargeImpulse};
 
+/// Target of a trim: force equals weight, and no torque.
+pub(crate) const HOVER: &str = "hover";
+
 /// Parses `name=value` and returns both parts without surrounding blanks.
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE, such as drive_frequency='120 Hz'")?;
@@ -30,6 +33,14 @@ pub(super) fn named_range(text: &str) -> Result<NamedRange, String> {
         Some(NamedRange { name, from: from.trim().to_owned(), to: to.trim().to_owned() })
     });
     parts.ok_or_else(|| "write INPUT=FROM:TO, such as bias=-20V:20V".to_owned())
+}
+
+/// Parses `name=value` as [`assignment`] does, or the word `hover`, which has no value.
+pub(super) fn target(text: &str) -> Result<(String, String), String> {
+    if text.trim() == HOVER {
+        return Ok((HOVER.to_owned(), String::new()));
+    }
+    assignment(text).map_err(|_| "write COLUMN=VALUE, such as torque_pitch=0, or hover".to_owned())
 }
 
 /// Parses a length (m), zero or more.

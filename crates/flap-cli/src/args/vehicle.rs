@@ -1,12 +1,13 @@
 //! Arguments of `flap vehicle`.
 
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use clap::value_parser;
 use flap_sweep::study::wrench_map::WrenchMap;
 
-use super::options::{OutputFormat, PointArgs, SolverArgs};
-use super::values::{NamedRange, assignment, named_range, threads};
+use super::options::{OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
+use super::values::{NamedRange, named_range, target, threads};
 
 #[derive(clap::Args)]
 #[command(after_help = VEHICLE_HELP)]
@@ -22,7 +23,9 @@ pub(crate) struct VehicleArgs {
     pub(crate) inputs: Vec<String>,
 
     /// Find values of the inputs, near the point, that give this force (mN) or torque (uN*m). You can repeat --trim
-    #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = assignment)]
+    ///
+    /// `--trim hover` means: force_up equals the weight, and all torques are zero.
+    #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = target)]
     pub(crate) trim: Vec<(String, String)>,
 
     /// Fit a quadratic map of force and torque to rows that are spread over these ranges of inputs
@@ -39,9 +42,30 @@ pub(crate) struct VehicleArgs {
     #[arg(short = 'j', long, value_name = "N", value_parser = threads, requires = "wrench_map")]
     pub(crate) threads: Option<NonZeroUsize>,
 
+    /// Print the damping matrix: the change of force and torque with velocity and rates of the body
+    #[arg(long)]
+    pub(crate) damping: bool,
+
+    /// Print the modes of the linear model about hover, with the trim residual
+    ///
+    /// This requires total_mass and the moments of inertia, such as body_inertia_roll. `about` must be the centre of mass.
+    #[arg(long)]
+    pub(crate) hover: bool,
+
+    /// Keep the motion of the wings when the body moves, as papers with prescribed wing motion do
+    #[arg(long)]
+    pub(crate) frozen: bool,
+
+    /// Write the linear model about hover in SI units: a .json, .mat (MATLAB) or .py file (python-control)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) export: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
+
     /// Output format
     ///
-    /// csv and json contain the matrix with all digits.
+    /// csv and json contain one table with all digits: the control matrix, the damping matrix with --damping, or the modes with --hover.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -65,4 +89,6 @@ Examples:
   flap vehicle vehicle.toml --inputs amplitude_difference,bias,second_harmonic_difference
   flap vehicle vehicle.toml --inputs amplitude,amplitude_difference,bias --trim torque_roll=0.5 --trim torque_pitch=0
   flap vehicle vehicle.toml --wrench-map amplitude=180V:220V,bias=-10V:10V,amplitude_difference=-20V:20V,second_harmonic=-0.1:0.1
+  flap vehicle vehicle.toml --damping --frozen
+  flap vehicle vehicle.toml --trim hover --hover --export model.mat
   flap vehicle vehicle.toml --set left_wing_area=\"54 mm^2\" --format csv";

@@ -1,11 +1,14 @@
-//! `flap vehicle`: control matrix and trims of a vehicle.
+//! `flap vehicle`: control matrix, trims, and the linear model about hover of a vehicle.
+
+mod hover;
 
 mod wrench_map;
 
 use std::fmt::Write as _;
 
 use flap_core::simulate::{NoSlope, never};
-use flap_core::vehicle::Vehicle;
+use flap_core::vehicle::{MassProperties, Vehicle};
+use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::study::control::{
@@ -13,7 +16,7 @@ use flap_sweep::study::control::{
 };
 
 use super::point::Chosen;
-use crate::args::VehicleArgs;
+use crate::args::{HOVER, OutputFormat, VehicleArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
@@ -29,7 +32,10 @@ const SMALL: f64 = 0.1;
 const NOTHING: f64 = 1e-9;
 
 pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
-    let chosen = Chosen::new(&args.point, &args.solver)?;
+    let mut chosen = Chosen::new(&args.point, &args.solver)?;
+    if args.frozen {
+        hover::freeze(&mut chosen)?;
+    }
     let Some(vehicle) = chosen.plan.vehicle() else {
         let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
         return Err(failure
@@ -48,8 +54,13 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     if chosen.plan.derived().parameters().next().is_some() {
         console::warn("derived parameters ([derived]) are held constant while inputs change");
     }
+    let export = args.export.as_deref().map(|path| hover::check_output(path, &chosen.plan)).transpose()?;
+    if args.format != OutputFormat::Table && args.damping && args.hover {
+        let failure = Failure::usage("--damping and --hover are two tables, but csv and json contain one");
+        return Err(failure.help("run the command twice"));
+    }
     let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
-    let targets = targets(&args.trim)?;
+    let targets = targets(&args.trim, &vehicle.mass_properties(&chosen.values))?;
     let mut page = String::new();
     let at_point = |inputs: &[Input]| flight.effectiveness(&chosen.values, inputs, None);
     let here = if args.inputs.is_empty() {
@@ -65,10 +76,40 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
         found.at
     };
-    let names: Vec<String> =
-        ["input", "unit", "value"].into_iter().chain(COMPONENTS).map(str::to_owned).collect();
-    print::table(args.format, &names, &cells(&found), || {
-        format!("{}\n\n{page}{}", title(&chosen, vehicle), table(&found))
+    let mut values = chosen.values.clone();
+    for (input, value) in found.inputs.iter().zip(&found.values) {
+        values[input.parameter] = value * input.factor;
+    }
+    let damping = if args.damping { Some(hover::damping(&flight, &values, &found)?) } else { None };
+    let model = if args.hover || export.is_some() {
+        Some(LinearModel::at(&flight, &values, &found, false, chosen.title())?)
+    } else {
+        None
+    };
+    if let Some((model, (path, format))) = model.as_ref().zip(export) {
+        hover::export(model, path, format, args.overwrite.force)?;
+    }
+    for warning in model.iter().flat_map(LinearModel::warnings) {
+        console::warn(&warning.to_string());
+    }
+    let model = model.filter(|_| args.hover);
+    let (names, rows) = match (&damping, &model) {
+        (Some(damping), _) => hover::damping_cells(damping),
+        (None, Some(model)) => hover::mode_cells(model),
+        (None, None) => {
+            let names = ["input", "unit", "value"].into_iter().chain(COMPONENTS).map(str::to_owned);
+            (names.collect(), cells(&found))
+        }
+    };
+    print::table(args.format, &names, &rows, || {
+        let mut page = format!("{}\n\n{page}{}", title(&chosen, vehicle), table(&found));
+        if let Some(damping) = &damping {
+            page.push_str(&hover::damping_table(damping));
+        }
+        if let Some(model) = &model {
+            page.push_str(&hover::mode_table(model));
+        }
+        page
     })?;
     Ok(Exit::Done)
 }
@@ -123,9 +164,19 @@ fn is_derived(chosen: &Chosen, input: &Input) -> bool {
 }
 
 /// Returns the targets of `--trim`.
-fn targets(given: &[(String, String)]) -> Result<Vec<Target>, Failure> {
+fn targets(given: &[(String, String)], body: &MassProperties) -> Result<Vec<Target>, Failure> {
     let mut targets: Vec<Target> = Vec::new();
     for (name, value) in given {
+        if name == HOVER {
+            for target in hover::targets(body)? {
+                if targets.iter().any(|other| other.component == target.component) {
+                    let name = COMPONENTS[target.component];
+                    return Err(Failure::usage(format!("--trim: `{name}` is given beside `{HOVER}`")));
+                }
+                targets.push(target);
+            }
+            continue;
+        }
         let is_named = |component: &str| {
             component == name || component.rsplit_once('_').is_some_and(|(short, _)| short == name)
         };

@@ -1,0 +1,211 @@
+//! Damping matrix, modes of the linear model about hover, and files with this model.
+
+use std::fmt::Write as _;
+use std::io::{self, BufWriter, Write as _};
+use std::path::Path;
+
+use flap_core::vehicle::MassProperties;
+use flap_sweep::files::inputs::Inputs;
+use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
+use flap_sweep::notation::text;
+use flap_sweep::plan::Plan;
+use flap_sweep::study::control::{Effectiveness, Flight, Target};
+use flap_sweep::study::hover::{self, HoverError, HoverMode, STATES, WRENCH_TO_SI, WRENCH_UNITS, component};
+use nalgebra::Matrix6;
+
+use super::super::outputs;
+use super::super::point::{self, Chosen, find_parameter};
+use crate::console;
+use crate::failure::Failure;
+use crate::job;
+use crate::table::{Table, six_digits};
+
+/// Parameter that keeps the motion of the wings.
+const RESPONSE: &str = "body_response";
+
+/// Components that are zero at hover.
+const TORQUES: [usize; 3] = [3, 4, 5];
+
+/// The vertical force.
+const LIFT: usize = 2;
+
+/// Entries smaller than this share of the largest entries of their row and column are rounding.
+const NOTHING: f64 = 1e-12;
+
+/// Returns the name and the format of an output file, before anything is computed.
+pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path, LinearFormat), Failure> {
+    let format = LinearFormat::of(path).ok_or_else(|| {
+        let failure = Failure::usage(format!("--export {}: the ending names no format", path.display()));
+        failure.help(format!("choose a name with the ending {}", LinearFormat::ENDINGS))
+    })?;
+    let mut inputs = Inputs::new();
+    inputs.add_plan(plan);
+    outputs::check(&inputs, [Some(path)])?;
+    Ok((path, format))
+}
+
+/// Keeps the motion of the wings when the body moves.
+pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
+    let index = find_parameter(chosen.plan.parameters(), RESPONSE)?;
+    let frozen = point::value(&chosen.plan.parameters()[index], "--frozen", "frozen")?;
+    chosen.values[index] = frozen;
+    Ok(())
+}
+
+/// Returns the targets of `--trim hover`: force equals weight, and no torque.
+pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
+    let weight = body.mass * body.gravity;
+    if !weight.is_finite() {
+        let failure = Failure::usage("--trim hover: total_mass is not set");
+        return Err(failure.help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'"));
+    }
+    let torques = TORQUES.map(|component| Target { component, value: 0.0 });
+    Ok([Target { component: LIFT, value: weight / WRENCH_TO_SI[LIFT] }].into_iter().chain(torques).collect())
+}
+
+/// Returns the damping matrix at an operating point (SI).
+pub(super) fn damping(
+    flight: &Flight<'_>,
+    values: &[f64],
+    at: &Effectiveness,
+) -> Result<Matrix6<f64>, Failure> {
+    Ok(hover::damping(flight, values, &at.row.state)?)
+}
+
+/// Writes a file with the linear model.
+pub(super) fn export(
+    model: &LinearModel,
+    path: &Path,
+    format: LinearFormat,
+    overwrite: bool,
+) -> Result<(), Failure> {
+    let written = job::make(path, overwrite, |file| {
+        let mut target = BufWriter::new(file);
+        model.write(format, &mut target)?;
+        target.flush().map(|()| None)
+    })?;
+    written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
+    console::say(&format!("linear model in {}", path.display()));
+    Ok(())
+}
+
+/// Returns names and rows of the damping matrix with all digits: one row for each component.
+pub(super) fn damping_cells(damping: &Matrix6<f64>) -> (Vec<String>, Vec<Vec<String>>) {
+    let names = ["wrench", "unit"].into_iter().chain(STATES[..6].iter().map(|(name, _)| *name));
+    (names.map(str::to_owned).collect(), damping_rows(damping, text::float))
+}
+
+fn damping_rows(damping: &Matrix6<f64>, number: impl Fn(f64) -> String) -> Vec<Vec<String>> {
+    let row = |i: usize| {
+        let head = [component(i).to_owned(), WRENCH_UNITS[i].to_owned()];
+        head.into_iter().chain(damping.row(i).iter().map(|slope| number(*slope))).collect()
+    };
+    (0..6).map(row).collect()
+}
+
+/// Returns the damping matrix as text.
+pub(super) fn damping_table(damping: &Matrix6<f64>) -> String {
+    // Entries that vanish by symmetry are rounding beside the other entries of their row and column.
+    let tidy = Matrix6::from_fn(|i, j| {
+        let beside = damping.row(i).amax().min(damping.column(j).amax());
+        if damping[(i, j)].abs() <= NOTHING * beside { 0.0 } else { damping[(i, j)] }
+    });
+    let units = ["", ""].into_iter().chain(STATES[..6].iter().map(|(_, unit)| *unit));
+    let mut table = Table::with_headings(&["mean", "unit", "forward", "left", "up", "roll", "pitch", "yaw"]);
+    table.row(
+        units
+            .map(|unit| if unit.is_empty() { String::new() } else { format!("per {unit}") })
+            .collect::<Vec<_>>(),
+    );
+    damping_rows(&tidy, six_digits).into_iter().for_each(|row| table.row(row));
+    format!(
+        "\nChange of force and torque with velocity and rates of the body (damping matrix):\n\n{}",
+        table.text_within(console::width())
+    )
+}
+
+/// Returns names and rows of the modes with all digits: one row for each real eigenvalue or pair.
+pub(super) fn mode_cells(model: &LinearModel) -> (Vec<String>, Vec<Vec<String>>) {
+    let names =
+        ["mode", "eigenvalue_real", "eigenvalue_imag", "time_to_double_s", "time_to_half_s", "period_s"];
+    let shares = model.hover.states().iter().map(|(name, _)| format!("participation_{name}"));
+    let row = |mode: &HoverMode| {
+        let numbers = [
+            Some(mode.eigenvalue.re),
+            Some(mode.eigenvalue.im),
+            mode.time_to_double(),
+            mode.time_to_half(),
+            mode.period(),
+        ];
+        let numbers = numbers.map(|number| number.map(text::float).unwrap_or_default());
+        let shares = mode.participation.iter().map(|share| text::float(*share));
+        core::iter::once(mode.name()).chain(numbers).chain(shares).collect()
+    };
+    let names = names.into_iter().map(str::to_owned).chain(shares);
+    (names.collect(), model.hover.modes.iter().map(row).collect())
+}
+
+/// Returns the trim residual and the modes as text.
+pub(super) fn mode_table(model: &LinearModel) -> String {
+    let mut page = String::new();
+    let residual = model.hover.residual();
+    let limits = model.hover.residual_limits();
+    let mut table = Table::with_headings(&["residual", "unit", "value", "limit"]);
+    for (i, residual) in residual.into_iter().enumerate() {
+        let limit = limits[usize::from(i >= LIFT + 1)];
+        let residual = if residual.abs() < NOTHING * limit { 0.0 } else { residual };
+        table.row([
+            component(i).to_owned(),
+            WRENCH_UNITS[i].to_owned(),
+            six_digits(residual),
+            six_digits(limit),
+        ]);
+    }
+    let width = console::width();
+    let _ = write!(
+        page,
+        "\nForce without the weight of {} N, and torque, at the point:\n\n{}",
+        six_digits(model.hover.body.mass * model.hover.body.gravity),
+        table.text_within(width)
+    );
+    let headings = ["eigenvalue (1/s)", "doubles in (s)", "halves in (s)", "period (s)", "mode"];
+    let mut modes = Table::with_headings(&headings);
+    let four = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| four_digits(number));
+    for mode in &model.hover.modes {
+        let value = mode.eigenvalue;
+        let eigenvalue = if value.im == 0.0 {
+            six_digits(value.re)
+        } else {
+            format!("{} ± {}i", six_digits(value.re), six_digits(value.im))
+        };
+        let times = [mode.time_to_double(), mode.time_to_half(), mode.period()].map(four);
+        modes.row(core::iter::once(eigenvalue).chain(times).chain([mode.name()]).collect::<Vec<_>>());
+    }
+    let _ = write!(page, "\nModes of the linear model about hover:\n\n{}", modes.text_within(width));
+    page
+}
+
+/// Returns the number with four digits.
+fn four_digits(number: f64) -> String {
+    format!("{number:.3e}").parse().map_or_else(|_| String::new(), text::float)
+}
+
+impl From<HoverError> for Failure {
+    fn from(error: HoverError) -> Failure {
+        let help = match &error {
+            HoverError::Control(error) => return error.clone().into(),
+            HoverError::Missing(_) => {
+                "add the numbers to [vehicle], or use --set, as in --set total_mass='85 mg' --set body_inertia_roll='1.5e-9 kg*m^2'"
+            }
+            HoverError::Mass(_) | HoverError::NotPositive | HoverError::Triangle(_) => {
+                "correct the mass properties in [vehicle]: masses in mg and lengths in mm give moments in 1e-12 kg*m^2"
+            }
+            HoverError::NoBodyMotion => "choose a model whose wings respond to the motion of the body",
+            HoverError::Moving(_) => "set velocities and rates of the body to zero",
+            HoverError::Eigenvalues => {
+                "check the mass properties and the damping matrix: `--damping` prints this matrix"
+            }
+        };
+        Failure::usage(error.to_string()).help(help)
+    }
+}
