@@ -18,6 +18,7 @@ mod film;
 mod grid;
 mod grid_text;
 mod labels;
+mod linear;
 mod listing;
 mod live;
 mod motion;
@@ -53,6 +54,7 @@ mod _flapwing {
         grid::{Exclusions, Grid},
         grid_text::text_of,
         labels::{better, printed, scale, split_unit, unit_of, words},
+        linear::linear,
         listing::{measures, params, uncertainty},
         live::LiveServer,
         optimise::optimise,

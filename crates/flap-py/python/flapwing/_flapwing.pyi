@@ -10,6 +10,7 @@ from ._native import (
     NativeBars,
     NativeColours,
     NativeIdentity,
+    NativeLinear,
     NativeMeasure,
     NativeOptimum,
     NativeOrigins,
@@ -43,6 +44,7 @@ __all__ = [
     "impulse",
     "is_signed",
     "line_shades",
+    "linear",
     "measures",
     "optimise",
     "origins",
@@ -347,6 +349,17 @@ def wrench_map(
     progress: Callable[[int, int], object] | None = None,
 ) -> NativeWrenchMap:
     """Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value."""
+
+def linear(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None = None,
+    inputs: list[str] | None = None,
+    positions: bool = False,
+) -> NativeLinear:
+    """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""
 
 def chirp(
     design: Any,

@@ -8,6 +8,7 @@ from typing import Any
 
 from . import _flapwing
 from ._flapwing import Grid
+from ._linear import LinearModel, linear_model
 from ._mistakes import refused
 from ._types import Value
 
@@ -177,6 +178,55 @@ class Vehicle(_Entries):
         self._held["vehicle"] = vehicle
         # This call reports mistakes with their place.
         self._preset = Grid(self._held).preset
+
+    def linear(
+        self,
+        *,
+        inputs: Sequence[str] | None = None,
+        point: int | None = None,
+        positions: bool = False,
+        **params: Value,
+    ) -> LinearModel:
+        """Compute the linear model of small motions about hover, with its eigenvalues.
+
+        The wings respond to the motion of the body, unless you give ``body_response="frozen"``. The point `about` must
+        be the centre of mass. The model requires `total_mass` and the parameters `body_inertia_roll`,
+        `body_inertia_pitch` and `body_inertia_yaw`.
+
+        Parameters
+        ----------
+        inputs : sequence of str, optional
+            The inputs: parameters, or words such as ``"amplitude_difference"``. ``flap vehicle --help`` lists the
+            words. Default: amplitude and bias, and their left-right differences.
+        point : int, optional
+            The index of a point, if the vehicle is a grid with several points.
+        positions : bool
+            True to add the position to the states.
+        **params
+            Values of parameters: numbers in SI units, or text with units.
+
+        Returns
+        -------
+        LinearModel
+
+        Raises
+        ------
+        ValueError
+            A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
+
+        Examples
+        --------
+        >>> place = ["0 mm", "2 mm", "0 mm"]
+        >>> wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+        >>> vehicle = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+        >>> inertia = {"body_inertia_roll": 1.5e-9, "body_inertia_pitch": 1.5e-9, "body_inertia_yaw": 0.5e-9}
+        >>> model = vehicle.linear(drive_voltage_pp="140 V", drive_frequency="120 Hz", **inertia)
+        >>> model.modes[0]
+        'pitch and forward velocity (longitudinal oscillation)'
+        """
+        if isinstance(inputs, str):
+            raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
+        return linear_model(self, dict(params), point, None if inputs is None else list(inputs), positions)
 
     def __repr__(self) -> str:
         wings = [

@@ -268,6 +268,9 @@ fn quoted_list(texts: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use flap_core::vehicle::MassProperties;
+    use nalgebra::Matrix6;
+
     use super::*;
 
     #[test]
@@ -286,6 +289,43 @@ mod tests {
         let python = python(&variables);
         let expected = "A = np.array([\n    [1e-9],\n    [np.nan],\n])\nv = np.array([1.0])\nn = np.nan\nt = [\"a \\\"b\\\"\", \"\"]\n";
         assert!(python.contains(expected), "{python}");
+    }
+
+    #[test]
+    fn files_contain_the_model() {
+        let body =
+            MassProperties { mass: 69e-6, inertia: [1.5e-9, 1.5e-9, 0.5e-9], product: 1e-10, gravity: 9.8 };
+        let damping =
+            Matrix6::from_fn(|i, j| if i == j { -1e-7 } else { 1e-9 * (i as f64 - 2.0 * j as f64) });
+        let control = DMatrix::from_fn(6, 2, |i, j| 1e-6 / (1.0 + i as f64) - 1e-7 * j as f64);
+        let hover = HoverModel::new(body, damping, &control, [0.0; 6], true).unwrap();
+        let input = |name: &str| LinearInput { name: name.to_owned(), unit: "V".to_owned(), value: 140.0 };
+        let model = LinearModel {
+            hover,
+            control,
+            inputs: vec![input("amplitude"), input("bias")],
+            frequency: 120.0,
+            floquet_max: 0.2,
+            about: [0.0, 0.0, -3e-3],
+            response: "passive".to_owned(),
+            design: "bimorph from \"µ\"".to_owned(),
+        };
+        let file = |format| {
+            let mut file = Vec::new();
+            model.write(format, &mut file).unwrap();
+            file
+        };
+        let json: serde_json::Value = serde_json::from_slice(&file(LinearFormat::Json)).unwrap();
+        assert_eq!(json["A"][0][7], 9.8);
+        assert_eq!(json["B"][3][1].as_f64(), Some(model.hover.b[(3, 1)]));
+        assert_eq!(json["D"].as_array().map(Vec::len), Some(12));
+        assert_eq!((&json["states"][11], &json["motions"][3]), (&"position_up".into(), &"rate_roll".into()));
+        assert_eq!(json["design"], "bimorph from \"µ\"");
+        for (name, format) in
+            [("json", LinearFormat::Json), ("mat", LinearFormat::Matlab), ("py", LinearFormat::Python)]
+        {
+            std::fs::write(format!("/tmp/hv/model.{name}"), file(format)).unwrap();
+        }
     }
 
     #[test]

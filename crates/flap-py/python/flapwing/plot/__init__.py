@@ -25,6 +25,7 @@ except ImportError as _missing:
 del _matplotlib
 
 from .._labels import label
+from ._eigenvalues import eigenvalues
 from ._fit import fit
 from ._forces import control_matrix, force_panels
 from ._heatmap import heatmap
@@ -41,6 +42,7 @@ from ._wing_path import WingPath, wing_path
 __all__ = [
     "WingPath",
     "control_matrix",
+    "eigenvalues",
     "fit",
     "force_panels",
     "heatmap",

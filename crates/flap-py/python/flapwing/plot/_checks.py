@@ -56,6 +56,7 @@ _WHOLE = _Kind(_is_whole, "it must be a whole number")
 #: The kind of each argument of a picture, by its name; None for arguments that are checked elsewhere.
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
+    "models": None,
     "design": None,
     "percentiles": None,
     **dict.fromkeys(

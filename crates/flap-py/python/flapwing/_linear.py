@@ -1,0 +1,106 @@
+"""The linear model of a vehicle about hover."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _flapwing
+from ._native import Floats
+
+__all__ = ["LinearModel"]
+
+Complexes = np.ndarray[Any, np.dtype[np.complex128]]
+
+
+@dataclass(frozen=True)
+class LinearModel:
+    """The linear model ``x' = A x + B s`` of small deviations `x` from hover, with changes `s` of the inputs.
+
+    `Vehicle.linear` returns this model. All numbers are in SI units. The outputs are the states. The body axes are
+    x forward, y to the left, and z up.
+
+    Attributes
+    ----------
+    A, B, C, D : arrays
+        The matrices of the state space. `C` is the identity and `D` is zero.
+    damping : array, 6 × 6
+        The derivatives of mean force (N) and torque (N m) with respect to velocity (m/s) and rates (rad/s).
+    control : array, 6 × inputs
+        The derivatives of mean force and torque with respect to the inputs.
+    W0 : array
+        The mean force (N) and torque (N m) at the operating point.
+    residual : array
+        `W0` without the weight. It is zero if the vehicle hovers.
+    eigenvalues : complex array
+        The eigenvalues of `A` (1/s), those with the largest real part first.
+    modes : list of str
+        The motion that belongs to each eigenvalue, such as ``"pitch and forward velocity (longitudinal oscillation)"``.
+    states, state_units : list of str
+        Names and units of the states: velocities, rates, angles, and positions on request.
+    inputs, input_units : list of str
+        Names and units of the inputs.
+    input_values : array
+        The values of the inputs at the operating point.
+    wrench : list of str
+        The names of the components of force and torque.
+    drive_frequency : float
+        The drive frequency (Hz).
+    floquet_max : float
+        The largest magnitude of the Floquet multipliers of the wings.
+    warnings : list of str
+        Reasons to doubt the model.
+    """
+
+    A: Floats
+    B: Floats
+    C: Floats
+    D: Floats
+    damping: Floats
+    control: Floats
+    W0: Floats
+    residual: Floats
+    eigenvalues: Complexes
+    modes: list[str]
+    states: list[str]
+    state_units: list[str]
+    inputs: list[str]
+    input_units: list[str]
+    input_values: Floats
+    wrench: list[str]
+    drive_frequency: float
+    floquet_max: float
+    warnings: list[str]
+
+    def statespace(self) -> Any:
+        """Return the model as a ``control.StateSpace`` of python-control, with names of states, inputs and outputs.
+
+        Returns
+        -------
+        control.StateSpace
+
+        Raises
+        ------
+        ImportError
+            python-control is not installed.
+        """
+        try:
+            import control
+        except ImportError as missing:
+            raise ImportError("statespace() requires python-control: pip install control") from missing
+        return control.ss(self.A, self.B, self.C, self.D, states=self.states, inputs=self.inputs, outputs=self.states)
+
+    def __repr__(self) -> str:
+        fastest = self.eigenvalues[0] if len(self.eigenvalues) else float("nan")
+        return f"<flapwing.LinearModel: {len(self.states)} states, {len(self.inputs)} inputs, first eigenvalue {fastest:.4g} 1/s>"
+
+
+def linear_model(
+    design: Any, keywords: dict[str, Any], point: int | None, inputs: list[str] | None, positions: bool
+) -> LinearModel:
+    """Return the linear model of a vehicle."""
+    found: dict[str, Any] = dict(_flapwing.linear(design, keywords, point=point, inputs=inputs, positions=positions))
+    real, imaginary = found.pop("eigenvalues_real"), found.pop("eigenvalues_imag")
+    return LinearModel(eigenvalues=real + 1j * imaginary, **found)

@@ -1,0 +1,102 @@
+//! The linear model of a vehicle about hover.
+
+use flap_core::vehicle::Vehicle;
+use flap_sweep::files::linear_model::LinearModel;
+use flap_sweep::notation::text;
+use flap_sweep::study::control::{Flight, Input};
+use flap_sweep::study::hover::component;
+use nalgebra::DMatrix;
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::point::Chosen;
+use crate::watch::interruptible;
+
+/// Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`.
+#[pyfunction]
+#[pyo3(signature = (design, keywords, /, *, point=None, inputs=None, positions=false))]
+pub(crate) fn linear<'py>(
+    py: Python<'py>,
+    design: &Bound<'py, PyAny>,
+    keywords: &Bound<'py, PyDict>,
+    point: Option<&Bound<'py, PyAny>>,
+    inputs: Option<Vec<String>>,
+    positions: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
+    let vehicle = (chosen.plan.vehicle())
+        .ok_or_else(|| PyValueError::new_err("the design has one wing\nit must be a vehicle"))?;
+    let is_usual = inputs.is_none();
+    let inputs = match inputs {
+        None => Input::usual(vehicle, has_harmonics(&chosen)),
+        Some(names) => named(vehicle, &names)?,
+    };
+    let design = format!("{} from {}", chosen.plan.simulator().name(), chosen.plan.preset());
+    let model = interruptible(py, |interrupted| {
+        let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted };
+        let mut at = flight.effectiveness(&chosen.values, &inputs, None)?;
+        if is_usual {
+            at = at.without_idle(&flight, &chosen.values);
+        }
+        LinearModel::at(&flight, &chosen.values, &at, positions, design)
+    })?;
+    into_python(py, &model.map_err(|error| PyValueError::new_err(error.to_string()))?)
+}
+
+fn has_harmonics(chosen: &Chosen) -> bool {
+    let mut values = chosen.plan.parameters().iter().zip(&chosen.values);
+    let shape = values.find(|(parameter, _)| parameter.name == "drive_shape");
+    shape.and_then(|(parameter, value)| text::option(parameter, *value)) == Some("harmonics")
+}
+
+fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {
+    let inputs = names.iter().map(|name| {
+        let refused = |error| {
+            PyValueError::new_err(format!("inputs: {error}\n`flap vehicle --help` lists words for inputs"))
+        };
+        Input::of(vehicle, name).map_err(refused)
+    });
+    inputs.collect()
+}
+
+/// Returns the model as a dictionary; see `flapwing.LinearModel`.
+fn into_python<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py, PyDict>> {
+    let matrix = |matrix: &DMatrix<f64>| {
+        PyArray2::from_owned_array(py, numpy::ndarray::Array2::from_shape_fn(matrix.shape(), |at| matrix[at]))
+    };
+    let hover = &model.hover;
+    let size = hover.a.nrows();
+    let damping = DMatrix::from_fn(6, 6, |i, j| hover.damping[(i, j)]);
+    let (states, state_units): (Vec<&str>, Vec<&str>) = hover.states().iter().copied().unzip();
+    let (real, imaginary): (Vec<f64>, Vec<f64>) =
+        hover.eigenvalues().iter().map(|one| (one.re, one.im)).unzip();
+    let modes = hover.modes.iter().flat_map(|mode| {
+        let copies = if mode.eigenvalue.im > 0.0 { 2 } else { 1 };
+        core::iter::repeat_n(mode.name(), copies)
+    });
+    let values = model.inputs.iter().map(|input| input.value);
+    let dict = PyDict::new(py);
+    dict.set_item("A", matrix(&hover.a))?;
+    dict.set_item("B", matrix(&hover.b))?;
+    dict.set_item("C", matrix(&DMatrix::identity(size, size)))?;
+    dict.set_item("D", matrix(&DMatrix::zeros(size, model.inputs.len())))?;
+    dict.set_item("damping", matrix(&damping))?;
+    dict.set_item("control", matrix(&model.control))?;
+    dict.set_item("W0", PyArray1::from_slice(py, &hover.wrench))?;
+    dict.set_item("residual", PyArray1::from_slice(py, &hover.residual()))?;
+    dict.set_item("eigenvalues_real", PyArray1::from_vec(py, real))?;
+    dict.set_item("eigenvalues_imag", PyArray1::from_vec(py, imaginary))?;
+    dict.set_item("modes", modes.collect::<Vec<_>>())?;
+    dict.set_item("states", states)?;
+    dict.set_item("state_units", state_units)?;
+    dict.set_item("inputs", model.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>())?;
+    dict.set_item("input_units", model.inputs.iter().map(|input| input.unit.as_str()).collect::<Vec<_>>())?;
+    dict.set_item("input_values", PyArray1::from_iter(py, values))?;
+    dict.set_item("wrench", (0..6).map(component).collect::<Vec<_>>())?;
+    dict.set_item("drive_frequency", model.frequency)?;
+    dict.set_item("floquet_max", model.floquet_max)?;
+    dict.set_item("warnings", model.warnings().iter().map(ToString::to_string).collect::<Vec<_>>())?;
+    Ok(dict)
+}
