@@ -92,7 +92,7 @@ def test_linear_is_the_exported_model(flap, grid, tmp_path):
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
     robot = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
     model = robot.linear(drive_voltage_pp="140 V", drive_frequency="120 Hz", **INERTIA)
-    for name in ("A", "B", "damping", "control", "W0", "inputs", "states"):
+    for name in ("A", "B", "damping", "control_matrix", "W0", "inputs", "states"):
         assert np.array_equal(np.asarray(getattr(model, name)), np.asarray(file[name])), name
     system = model.statespace()
     assert np.allclose(ordered(system.poles()), ordered(model.eigenvalues), rtol=1e-9, atol=1e-9)

@@ -22,8 +22,8 @@ units.
 from ._evaluate import evaluate
 from ._experiments import chirp, forces_along, impulse, track_wing
 from ._flapwing import Diagnostic, Exclusions, Grid, GridError, __version__, presets
-from ._listing import measures, params, states
 from ._linear import LinearModel
+from ._listing import measures, params, states
 from ._live import Live, live
 from ._optimise import optimise
 from ._point import resonance, run, trajectory

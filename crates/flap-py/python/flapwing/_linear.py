@@ -28,7 +28,7 @@ class LinearModel:
         The matrices of the state space. `C` is the identity and `D` is zero.
     damping : array, 6 × 6
         The derivatives of mean force (N) and torque (N m) with respect to velocity (m/s) and rates (rad/s).
-    control : array, 6 × inputs
+    control_matrix : array, 6 × inputs
         The derivatives of mean force and torque with respect to the inputs.
     W0 : array
         The mean force (N) and torque (N m) at the operating point.
@@ -59,7 +59,7 @@ class LinearModel:
     C: Floats
     D: Floats
     damping: Floats
-    control: Floats
+    control_matrix: Floats
     W0: Floats
     residual: Floats
     eigenvalues: Complexes
@@ -94,7 +94,8 @@ class LinearModel:
 
     def __repr__(self) -> str:
         fastest = self.eigenvalues[0] if len(self.eigenvalues) else float("nan")
-        return f"<flapwing.LinearModel: {len(self.states)} states, {len(self.inputs)} inputs, first eigenvalue {fastest:.4g} 1/s>"
+        size = f"{len(self.states)} states, {len(self.inputs)} inputs"
+        return f"<flapwing.LinearModel: {size}, first eigenvalue {fastest:.4g} 1/s>"
 
 
 def linear_model(

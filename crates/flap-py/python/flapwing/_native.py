@@ -209,7 +209,7 @@ class NativeLinear(TypedDict):
     C: Floats
     D: Floats
     damping: Floats
-    control: Floats
+    control_matrix: Floats
     W0: Floats
     residual: Floats
     eigenvalues_real: Floats

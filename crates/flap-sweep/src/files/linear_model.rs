@@ -166,7 +166,7 @@ impl LinearModel {
             ("output_units", texts(&units)),
             ("input_values", Variable::Vector(values)),
             ("damping", Variable::Matrix(damping)),
-            ("control", Variable::Matrix(self.control.clone())),
+            ("control_matrix", Variable::Matrix(self.control.clone())),
             ("W0", Variable::Vector(self.hover.wrench.to_vec())),
             ("wrench", texts(&components)),
             ("wrench_units", texts(&WRENCH_UNITS)),
@@ -208,7 +208,7 @@ fn python(variables: &[(&str, Variable)]) -> String {
 \"\"\"Linear hover model of a flapping-wing vehicle, written by flap. All numbers are in SI units.
 
 x' = A x + B s, where x contains small deviations from hover (`states`) and s the changes of the `inputs` from
-`input_values`. The outputs are the states. `damping` and `control` are the derivatives of mean force and torque
+`input_values`. The outputs are the states. `damping` and `control_matrix` are the derivatives of mean force and torque
 (`wrench`) with respect to `motions` and `inputs`, and `W0` is the mean force and torque at the operating point.
 
 `system` is a `control.StateSpace`, or None if python-control is not installed.
@@ -321,11 +321,9 @@ mod tests {
         assert_eq!(json["D"].as_array().map(Vec::len), Some(12));
         assert_eq!((&json["states"][11], &json["motions"][3]), (&"position_up".into(), &"rate_roll".into()));
         assert_eq!(json["design"], "bimorph from \"µ\"");
-        for (name, format) in
-            [("json", LinearFormat::Json), ("mat", LinearFormat::Matlab), ("py", LinearFormat::Python)]
-        {
-            std::fs::write(format!("/tmp/hv/model.{name}"), file(format)).unwrap();
-        }
+        let module = String::from_utf8(file(LinearFormat::Python)).unwrap();
+        assert!(module.contains("inputs = [\"amplitude\", \"bias\"]\n"), "{module}");
+        assert!(file(LinearFormat::Matlab).starts_with(b"MATLAB 5.0 MAT-file"));
     }
 
     #[test]

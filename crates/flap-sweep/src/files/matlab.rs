@@ -23,11 +23,11 @@ pub enum Variable {
 
 /// Types of data elements.
 const INT8: u32 = 1;
-const UINT16: u32 = 4;
 const INT32: u32 = 5;
 const UINT32: u32 = 6;
 const DOUBLE: u32 = 9;
 const MATRIX: u32 = 14;
+const UTF16: u32 = 17;
 
 /// Classes of arrays.
 const CELL: u32 = 1;
@@ -65,7 +65,7 @@ fn array(name: &str, variable: &Variable) -> io::Result<Vec<u8>> {
             let units: Vec<u16> = text.encode_utf16().collect();
             let rows = usize::from(!units.is_empty());
             let mut content = head(name, CHAR, [rows, units.len()])?;
-            content.extend(element(UINT16, &bytes(units, u16::to_le_bytes))?);
+            content.extend(element(UTF16, &bytes(units, u16::to_le_bytes))?);
             element(MATRIX, &content)
         }
         Variable::Texts(texts) => {
@@ -155,7 +155,7 @@ mod tests {
             &[6, 0, 0, 0, 8, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0],
             &[5, 0, 0, 0, 8, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0],
             &[1, 0, 0, 0, 0, 0, 0, 0],
-            &[4, 0, 2, 0, b'm', 0, 0, 0],
+            &[17, 0, 2, 0, b'm', 0, 0, 0],
         ];
         assert_eq!(file[200..], cell.concat());
     }
