@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator as _;
 use nalgebra::DMatrix;
@@ -11,8 +12,7 @@ use super::matlab::{self, Variable};
 use crate::notation::text;
 use crate::study::control::{Effectiveness, Flight};
 use crate::study::hover::{
-    self, HoverError, HoverModel, HoverWarning, MOTION_PARAMETERS, STATES, WRENCH_TO_SI, WRENCH_UNITS,
-    component,
+    self, HoverError, HoverModel, HoverWarning, STATES, WRENCH_TO_SI, WRENCH_UNITS, component,
 };
 
 /// Input of a linear model, in SI units.
@@ -93,7 +93,7 @@ impl LinearModel {
         hover::check(&body)?;
         let index = |name: &str| Parameter::index(parameters, name);
         let is_moving = |name: &&str| index(name).is_some_and(|index| values[index] != 0.0);
-        if let Some(name) = MOTION_PARAMETERS.iter().find(|name| is_moving(name)) {
+        if let Some(name) = BodyParameters::MOTION.iter().find(|name| is_moving(name)) {
             return Err(HoverError::Moving(name));
         }
         let damping = hover::damping(flight, values, &at.row.state)?;

@@ -18,7 +18,16 @@ use super::{uncertainty, value};
 use crate::plan::{Robot, Value};
 use crate::resonance::DRIVE_FREQUENCY;
 
-pub(super) const KEYS: [&str; 3] = ["about", "total_mass", "wings"];
+pub(super) const KEYS: [&str; 8] = [
+    "about",
+    "total_mass",
+    "body_inertia_roll",
+    "body_inertia_pitch",
+    "body_inertia_yaw",
+    "body_inertia_product",
+    "gravity",
+    "wings",
+];
 pub(super) const WING_KEYS: [&str; 7] =
     ["name", "mirrored", "position", "plane", "preset", "device", "params"];
 pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
@@ -91,8 +100,10 @@ pub(super) fn read(
     if let Some(entry) = table::find(&entries, "about") {
         own.vector(entry, |axis| format!("about_{axis}"));
     }
-    if let Some(entry) = table::find(&entries, "total_mass") {
-        own.number("total_mass", entry);
+    for name in KEYS.into_iter().filter(|key| !["about", "wings"].contains(key)) {
+        if let Some(entry) = table::find(&entries, name) {
+            own.number(name, entry);
+        }
     }
     for (index, wing) in wings.iter().enumerate() {
         own.wing(index, wing);

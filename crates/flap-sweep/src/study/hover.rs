@@ -6,6 +6,7 @@
 
 use core::f64::consts::{LN_2, TAU};
 
+use flap_core::body::BodyParameters;
 use flap_core::vehicle::MassProperties;
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
@@ -25,16 +26,6 @@ pub const STATES: [(&str, &str); 12] = [
     ("position_forward", "m"),
     ("position_left", "m"),
     ("position_up", "m"),
-];
-
-/// Parameters of velocity and rates of the body.
-pub const MOTION_PARAMETERS: [&str; 6] = [
-    "body_velocity_forward",
-    "body_velocity_left",
-    "body_velocity_up",
-    "body_rate_roll",
-    "body_rate_pitch",
-    "body_rate_yaw",
 ];
 
 /// Units of the components of the wrench, in SI units.
@@ -156,7 +147,7 @@ pub fn check(body: &MassProperties) -> Result<(), HoverError> {
 /// # Errors
 /// If the model has no motion of the body, the motion is not periodic, or a derivative is missing.
 pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Matrix6<f64>, HoverError> {
-    let motions = MOTION_PARAMETERS.map(|name| Input::of(flight.vehicle, name));
+    let motions = BodyParameters::MOTION.map(|name| Input::of(flight.vehicle, name));
     let motions: Result<Vec<Input>, _> = motions.into_iter().collect();
     let motions = motions.map_err(|_| HoverError::NoBodyMotion)?;
     let found = flight.effectiveness(values, &motions, Some(begin))?;

@@ -208,26 +208,36 @@ pub(super) fn capitalized(text: &str) -> String {
 pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(KEYS, |key| match key {
         "about" => lengths("Position of the reference point of the torques: forward, to the left, upwards."),
-        "total_mass" => mass(),
-        _ => json!({
+        "wings" => json!({
             "description": "The wings of the vehicle, each in its own table [[vehicle.wings]].",
             "type": "array", "minItems": 1, "maxItems": MOST_WINGS, "items": wing(models),
         }),
+        "total_mass" => measured("Mass of the whole vehicle, in kg or as text with a unit.", true),
+        "body_inertia_product" => {
+            measured("Product of inertia of the whole vehicle about its centre of mass, in kg m^2.", false)
+        }
+        "gravity" => measured("Gravitational acceleration, in m/s^2.", true),
+        axis => {
+            let axis = axis.trim_start_matches("body_inertia_");
+            measured(
+                &format!("Moment of inertia of the whole vehicle about its {axis} axis, in kg m^2."),
+                true,
+            )
+        }
     });
     let mut table = table(about("vehicle"), keys);
     table["required"] = json!(["wings"]);
     table
 }
 
-/// Returns the schema of a mass, with or without its standard error.
-fn mass() -> Value {
-    let about = "Mass of the whole vehicle, in kg or as text with a unit.";
-    let mass = positive(about, true);
-    let keys = properties(VALUE_KEYS, |key| if key == "value" { mass.clone() } else { to(key) });
-    let mut uncertain = table("A mass with its standard error.", keys);
+/// Returns the schema of a number of the whole vehicle, with or without its standard error.
+fn measured(about: &str, is_positive: bool) -> Value {
+    let number = if is_positive { positive(about, true) } else { quantity(about, true) };
+    let keys = properties(VALUE_KEYS, |key| if key == "value" { number.clone() } else { to(key) });
+    let mut uncertain = table("A number with its standard error.", keys);
     uncertain["required"] = json!(["value"]);
     uncertain["not"] = json!({"required": ["sd", "relative_sd"]});
-    json!({"description": about, "anyOf": [mass, uncertain]})
+    json!({"description": about, "anyOf": [number, uncertain]})
 }
 
 /// Returns the schema of a wing.
