@@ -1,6 +1,7 @@
 //! Torques of vehicles, of several papers.
 
 mod coupling;
+mod damping;
 mod drives;
 mod flier;
 mod hinge;
@@ -18,6 +19,7 @@ pub(crate) const PAPER: Paper = Paper {
               - Weber, Dhingra and Fuller (arXiv 2407.00217, 2604.22121)\n\
               - Jimbo, Ozaki, Ohta and Hamaguchi (arXiv 2407.06500)\n\
               - Fuller (RA-L 2019)\n\
+              - the simulators Robofly_simulator (dd292) and robobee_simulator (franklin-h), which are source code\n\
               \n\
               Only the abstracts and first pages of the papers on vehicles were available.\n\
               No available page describes the wings, the actuators and the voltages of a robot completely, and few pages give torques.\n\
@@ -69,6 +71,16 @@ pub(crate) const PAPER: Paper = Paper {
                       The arrangements of the wings in both four-wing vehicles are assumed.",
             quick: true,
             claims: tilted::claims,
+        },
+        Group {
+            title: "Damping of the body's motion",
+            preface: "Two simulators of such robots contain constants for the damping of the body's motion by the wings.\n\
+                      The wings, the drive and the lift of the robot in the wind tunnel are not known.\n\
+                      For the comparison with Robofly_simulator, the vehicle has the preset `jafferis2016` at 140 V and 120 Hz.\n\
+                      For the comparison with robobee_simulator, the vehicle has the preset `jafferis2016-improved` at 165 V and 155 Hz.\n\
+                      The wings are 2 mm left and right of the middle, and 3 mm above the centre of mass.",
+            quick: true,
+            claims: damping::claims,
         },
     ],
 };

@@ -1,15 +1,17 @@
 //! Wings on a moving body, against an independent implementation (`tests/data/body`).
 
-use core::f64::consts::FRAC_PI_4;
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use flap_core::num::Backend;
+use flap_core::num::{Backend, Real as _};
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::quadrature::gauss_legendre;
 use flap_core::simulate::{
-    Change, Gradients, PointRun, Row, Rows, Simulator, SolverSettings, Status, Trajectory, TrajectoryRequest,
-    by_name, preset,
+    Change, Gradients, NoSlope, PointRun, Row, Rows, Simulator, SolverSettings, Status, Trajectory,
+    TrajectoryRequest, by_name, preset,
 };
 use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle};
+
+use nalgebra::{Matrix6, Vector3};
 
 use crate::data::{Record, table};
 
@@ -314,4 +316,156 @@ fn frozen_loads_are_means_over_samples() {
             found[component]
         );
     }
+}
+
+/// The vehicles of `rest.csv` without four-bar, whose lift jumps.
+fn smooth() -> Vec<(String, Pair)> {
+    cases().into_iter().filter(|(name, _)| !name.starts_with("fourbar")).collect()
+}
+
+#[test]
+fn a_vanishing_motion_is_rest() {
+    for (name, pair) in cases() {
+        let rest = pair.wrench(&pair.row());
+        for component in 0..6 {
+            let found = pair.moved(component, 1e-30);
+            assert_wrench(found.wrench(&found.row()), rest, 2e-6, &format!("{name} {}", MOTION[component]));
+        }
+    }
+}
+
+#[test]
+fn mirrored_motions_have_mirrored_wrenches() {
+    for (name, pair) in cases() {
+        for response in ["passive", "frozen"] {
+            let wrench = |motion: [f64; 6]| {
+                let mut pair = pair.copy();
+                pair.choose("body_response", response);
+                for (name, value) in MOTION.iter().zip(motion) {
+                    pair.set(name, value);
+                }
+                pair.wrench(&pair.row())
+            };
+            let one = wrench([0.2, 0.1, -0.1, 3.0, 2.0, -1.0]);
+            let other = wrench([0.2, -0.1, -0.1, -3.0, 2.0, 1.0]);
+            let image = [one[0], -one[1], one[2], -one[3], one[4], -one[5]];
+            assert_wrench(other, image, 1e-9, &format!("{name} {response}"));
+        }
+    }
+}
+
+/// Longitudinal and lateral motion of a vehicle of mirrored wings are not coupled.
+#[test]
+fn mirrored_wings_have_no_coupling() {
+    for (name, pair) in smooth() {
+        let d = pair.damping();
+        for i in 0..6 {
+            for j in 0..6 {
+                let size = (d[i][i] * d[j][j]).abs().sqrt();
+                // Force forward and up, and pitch, against force to the left, roll and yaw.
+                let is_coupling = [0, 2, 4].contains(&i) != [0, 2, 4].contains(&j);
+                assert!(!is_coupling || d[i][j].abs() < 1e-5 * size, "{name}: {i} {j} {}", d[i][j]);
+            }
+        }
+    }
+}
+
+/// The matrix about another point is the matrix of the same motion, whose torques act about that point.
+#[test]
+fn the_damping_matrix_changes_with_the_reference_point() {
+    for (name, pair) in smooth() {
+        let shift = [4e-4, 0.0, 1.5e-3];
+        let mut other = pair.copy();
+        for (axis, by) in ["x", "y", "z"].into_iter().zip(shift) {
+            let index = other.index(&format!("about_{axis}"));
+            other.values[index] += by;
+        }
+        let cross = Vector3::from(shift).cross_matrix();
+        // v′ = v − s × Ω of the new point, and M′ = M − s × F.
+        let mut motion = Matrix6::<f64>::identity();
+        motion.fixed_view_mut::<3, 3>(0, 3).copy_from(&cross);
+        let mut load = Matrix6::<f64>::identity();
+        load.fixed_view_mut::<3, 3>(3, 0).copy_from(&-cross);
+        let matrix = |rows: [[f64; 6]; 6]| Matrix6::from_fn(|i, j| rows[i][j]);
+        let expected = load * matrix(pair.damping()) * motion;
+        let found = matrix(other.damping());
+        for i in 0..6 {
+            for j in 0..6 {
+                let size = (expected[(i, i)] * expected[(j, j)]).abs().sqrt();
+                let error = (found[(i, j)] - expected[(i, j)]).abs() / size;
+                assert!(error < 2e-5, "{name}: {i} {j}: {} {} {error:.1e}", found[(i, j)], expected[(i, j)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_damping_matrix_is_that_of_differences() {
+    for (name, mut pair) in smooth() {
+        pair.solver = SolverSettings { atol: 1e-17, max_steps: 200_000, ..pair.solver.with_rtol(1e-11) };
+        let (found, expected) = (pair.damping(), pair.differences([1e-3, 1e-3, 1e-3, 0.1, 0.1, 0.1]));
+        for i in 0..6 {
+            for j in 0..6 {
+                let size = (expected[i][i] * expected[j][j]).abs().sqrt();
+                let error = (found[i][j] - expected[i][j]).abs() / size;
+                assert!(error < 1e-4, "{name}: {i} {j}: {} {} {error:.1e}", found[i][j], expected[i][j]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_four_bar_has_no_derivatives_on_a_moving_body() {
+    let (_, pair) = cases().pop().unwrap();
+    let row = pair.row();
+    let change =
+        Change { ahead: pair.moved(2, 1e-8).values, behind: pair.moved(2, -1e-8).values, size: 1e-8 };
+    let voltage = pair.index("drive_voltage_pp");
+    let by_voltage = |by: f64| {
+        let mut values = pair.values.clone();
+        values[voltage] += by;
+        values
+    };
+    let other = Change { ahead: by_voltage(1e-6), behind: by_voltage(-1e-6), size: 1e-6 };
+    let run = PointRun::new(Backend::best(), &pair.solver, &pair.values);
+    let found = pair.vehicle.gradient(&run, &row.state, &[change, other]).unwrap();
+    let lift = pair.vehicle.columns().iter().position(|column| column.name == FORCES[2]).unwrap();
+    assert_eq!(found.slopes[0][lift], Err(NoSlope::Kink));
+    assert_eq!(found.slopes[1][lift], Err(NoSlope::Kink), "derivatives use the terms of all changes");
+}
+
+#[test]
+fn readings_without_meaning_on_a_moving_body_are_refused() {
+    for (preset, parameter, option, help) in [
+        ("ozaki2018-large", "flow_direction", "uniform", "set it to \"blade\""),
+        ("jafferis2016", "centre_of_pressure", "literal", "set it to \"folded\" or \"directional\""),
+    ] {
+        let mut pair = Pair::of(preset);
+        pair.choose(parameter, option);
+        assert_eq!(pair.row().status, Status::Periodic, "{preset}");
+        let row = pair.moved(0, 0.1).row();
+        assert_eq!(row.status, Status::Invalid, "{preset}");
+        assert!(row.reason.as_ref().is_some_and(|reason| reason.contains(help)), "{:?}", row.reason);
+    }
+    let mut pair = Pair::of("ozaki2018-large");
+    pair.choose("flow_direction", "blade");
+    pair.choose("added_mass", "lagrangian");
+    assert_eq!(pair.moved(0, 0.1).row().status, Status::Invalid);
+    let mut pair = Pair::of("jafferis2016");
+    pair.set("wing_radius_1", 0.6);
+    assert_eq!(pair.row().status, Status::Periodic);
+    assert!(pair.moved(0, 0.1).row().reason.unwrap().contains("wing_radius_1 must lie between"));
+}
+
+#[test]
+fn angles_are_those_of_the_library() {
+    for i in 0..=400 {
+        let angle = f64::from(i) / 400.0 * FRAC_PI_2;
+        for size in [1e-9, 1.0, 3e5] {
+            let (y, x) = (size * libm::sin(angle).abs(), size * libm::cos(angle).abs());
+            let found = y.angle_over(x);
+            assert!((found - libm::atan2(y, x)).abs() < 1e-15, "{y} {x}: {found}");
+        }
+    }
+    assert_eq!(0.0_f64.angle_over(0.0), 0.0);
 }

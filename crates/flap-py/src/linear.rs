@@ -3,8 +3,8 @@
 use flap_core::vehicle::Vehicle;
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
-use flap_sweep::study::control::{Flight, Input};
-use flap_sweep::study::hover::component;
+use flap_sweep::study::control::{Flight, Input, trim};
+use flap_sweep::study::hover::{self, component};
 use nalgebra::DMatrix;
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -16,13 +16,14 @@ use crate::watch::interruptible;
 
 /// Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`.
 #[pyfunction]
-#[pyo3(signature = (design, keywords, /, *, point=None, inputs=None, positions=false))]
+#[pyo3(signature = (design, keywords, /, *, point=None, inputs=None, trim_to_hover=false, positions=false))]
 pub(crate) fn linear<'py>(
     py: Python<'py>,
     design: &Bound<'py, PyAny>,
     keywords: &Bound<'py, PyDict>,
     point: Option<&Bound<'py, PyAny>>,
     inputs: Option<Vec<String>>,
+    trim_to_hover: bool,
     positions: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
@@ -33,16 +34,27 @@ pub(crate) fn linear<'py>(
         None => Input::usual(vehicle, has_harmonics(&chosen)),
         Some(names) => named(vehicle, &names)?,
     };
+    let targets = match trim_to_hover.then(|| hover::targets(&vehicle.mass_properties(&chosen.values))) {
+        Some(None) => {
+            return Err(PyValueError::new_err("trim: total_mass is not set\nset the mass of the vehicle"));
+        }
+        targets => targets.flatten(),
+    };
     let design = format!("{} from {}", chosen.plan.simulator().name(), chosen.plan.preset());
     let model = interruptible(py, |interrupted| {
         let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted };
-        let mut at = flight.effectiveness(&chosen.values, &inputs, None)?;
+        let mut at =
+            flight.effectiveness(&chosen.values, &inputs, None).map_err(|error| error.to_string())?;
         if is_usual {
             at = at.without_idle(&flight, &chosen.values);
         }
-        LinearModel::at(&flight, &chosen.values, &at, positions, design)
+        if let Some(targets) = &targets {
+            at = trim(&flight, &chosen.values, &at.inputs, targets).map_err(|error| error.to_string())?.at;
+        }
+        let values = at.applied(&chosen.values);
+        LinearModel::at(&flight, &values, &at, positions, design).map_err(|error| error.to_string())
     })?;
-    into_python(py, &model.map_err(|error| PyValueError::new_err(error.to_string()))?)
+    into_python(py, &model.map_err(PyValueError::new_err)?)
 }
 
 fn has_harmonics(chosen: &Chosen) -> bool {

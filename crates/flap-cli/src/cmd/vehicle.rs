@@ -76,10 +76,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
         found.at
     };
-    let mut values = chosen.values.clone();
-    for (input, value) in found.inputs.iter().zip(&found.values) {
-        values[input.parameter] = value * input.factor;
-    }
+    let values = found.applied(&chosen.values);
     let damping = if args.damping { Some(hover::damping(&flight, &values, &found)?) } else { None };
     let model = if args.hover || export.is_some() {
         Some(LinearModel::at(&flight, &values, &found, false, chosen.title())?)

@@ -357,6 +357,7 @@ def linear(
     *,
     point: SupportsIndex | None = None,
     inputs: list[str] | None = None,
+    trim_to_hover: bool = False,
     positions: bool = False,
 ) -> NativeLinear:
     """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""

@@ -99,9 +99,10 @@ class LinearModel:
 
 
 def linear_model(
-    design: Any, keywords: dict[str, Any], point: int | None, inputs: list[str] | None, positions: bool
+    design: Any, keywords: dict[str, Any], point: int | None, inputs: list[str] | None, trim: bool, positions: bool
 ) -> LinearModel:
     """Return the linear model of a vehicle."""
-    found: dict[str, Any] = dict(_flapwing.linear(design, keywords, point=point, inputs=inputs, positions=positions))
+    native = _flapwing.linear(design, keywords, point=point, inputs=inputs, trim_to_hover=trim, positions=positions)
+    found: dict[str, Any] = dict(native)
     real, imaginary = found.pop("eigenvalues_real"), found.pop("eigenvalues_imag")
     return LinearModel(eigenvalues=real + 1j * imaginary, **found)

@@ -120,7 +120,7 @@ class Vehicle(_Entries):
     ``axes``, the mapping is a grid. A parameter NAME of the model applies to all wings. ``left_NAME`` applies only to
     the wing `left`. ``difference_NAME`` is the value of left wings minus the value of right wings. Half of this
     difference is added for wings that are not mirrored, and half is subtracted for mirrored wings. The model leaves out
-    interaction between wings and motion of the body. The body axes are x forward, y to the left, and z up.
+    interaction between wings. The body axes are x forward, y to the left, and z up.
 
     Parameters
     ----------
@@ -184,6 +184,7 @@ class Vehicle(_Entries):
         *,
         inputs: Sequence[str] | None = None,
         point: int | None = None,
+        trim: bool = False,
         positions: bool = False,
         **params: Value,
     ) -> LinearModel:
@@ -200,6 +201,8 @@ class Vehicle(_Entries):
             words. Default: amplitude and bias, and their left-right differences.
         point : int, optional
             The index of a point, if the vehicle is a grid with several points.
+        trim : bool
+            True to change the inputs first, so that the lift equals the weight and all torques are zero.
         positions : bool
             True to add the position to the states.
         **params
@@ -212,7 +215,8 @@ class Vehicle(_Entries):
         Raises
         ------
         ValueError
-            A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
+            A mass property is missing or impossible, an input is unknown, the motion of the wings is not periodic,
+            or no values of the inputs near the point give hover.
 
         Examples
         --------
@@ -226,7 +230,7 @@ class Vehicle(_Entries):
         """
         if isinstance(inputs, str):
             raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
-        return linear_model(self, dict(params), point, None if inputs is None else list(inputs), positions)
+        return linear_model(self, dict(params), point, None if inputs is None else list(inputs), trim, positions)
 
     def __repr__(self) -> str:
         wings = [

@@ -504,6 +504,15 @@ fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
 }
 
 impl Effectiveness {
+    /// Returns the vehicle's values with the values of the inputs.
+    pub fn applied(&self, values: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
+        for (input, value) in self.inputs.iter().zip(&self.values) {
+            values[input.parameter] = value * input.factor;
+        }
+        values
+    }
+
     /// Returns the effectiveness without inputs of negligible effect, unless none would be left.
     pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {

@@ -10,7 +10,7 @@ use flap_core::body::BodyParameters;
 use flap_core::vehicle::MassProperties;
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::{COMPONENTS, ControlError, Flight, Input};
+use super::control::{COMPONENTS, ControlError, Flight, Input, Target};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -152,6 +152,15 @@ pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Mat
     let motions = motions.map_err(|_| HoverError::NoBodyMotion)?;
     let found = flight.effectiveness(values, &motions, Some(begin))?;
     Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
+}
+
+/// Returns the targets of a trim to hover: the upward force is the weight, and there is no torque; `None` if the mass is not
+/// set.
+pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
+    let weight = body.mass * body.gravity;
+    let torques = (3..6).map(|component| Target { component, value: 0.0 });
+    let lift = Target { component: 2, value: weight / WRENCH_TO_SI[2] };
+    weight.is_finite().then(|| core::iter::once(lift).chain(torques).collect())
 }
 
 /// Motion that belongs to one real eigenvalue, or to a pair of complex eigenvalues.

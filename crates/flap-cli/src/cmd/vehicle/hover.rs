@@ -10,7 +10,7 @@ use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
 use flap_sweep::study::control::{Effectiveness, Flight, Target};
-use flap_sweep::study::hover::{self, HoverError, HoverMode, STATES, WRENCH_TO_SI, WRENCH_UNITS, component};
+use flap_sweep::study::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
 use nalgebra::Matrix6;
 
 use super::super::outputs;
@@ -22,9 +22,6 @@ use crate::table::{Table, six_digits};
 
 /// Parameter that keeps the motion of the wings.
 const RESPONSE: &str = "body_response";
-
-/// Components that are zero at hover.
-const TORQUES: [usize; 3] = [3, 4, 5];
 
 /// The vertical force.
 const LIFT: usize = 2;
@@ -52,15 +49,12 @@ pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the targets of `--trim hover`: force equals weight, and no torque.
+/// Returns the targets of `--trim hover`.
 pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
-    let weight = body.mass * body.gravity;
-    if !weight.is_finite() {
+    hover::targets(body).ok_or_else(|| {
         let failure = Failure::usage("--trim hover: total_mass is not set");
-        return Err(failure.help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'"));
-    }
-    let torques = TORQUES.map(|component| Target { component, value: 0.0 });
-    Ok([Target { component: LIFT, value: weight / WRENCH_TO_SI[LIFT] }].into_iter().chain(torques).collect())
+        failure.help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'")
+    })
 }
 
 /// Returns the damping matrix at an operating point (SI).
