@@ -4,7 +4,6 @@ use core::hint::black_box;
 use core::time::Duration;
 use std::time::Instant;
 
-use flap_core::drive::Drive;
 use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::{DirectDrive, FlowDirection};
@@ -16,9 +15,9 @@ use flap_core::ode::step::Step;
 use flap_core::simulate::preset;
 
 const BIMORPH: Bimorph = Bimorph::SINE;
-const DIRECT_DRIVE: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform };
-const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { drive: Drive::SINE, flow: FlowDirection::Blade };
-const FOUR_BAR: FourBar = FourBar { drive: Drive::SINE };
+const DIRECT_DRIVE: DirectDrive = DirectDrive::SINE;
+const DIRECT_DRIVE_BLADES: DirectDrive = DirectDrive { flow: FlowDirection::Blade, ..DirectDrive::SINE };
+const FOUR_BAR: FourBar = FourBar::SINE;
 
 /// Function values per iteration.
 pub(crate) const VALUES: usize = 1024;

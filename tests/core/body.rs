@@ -246,7 +246,8 @@ fn sampled_change(values: &[f64], samples: &Trajectory, up: f64) -> [f64; 2] {
     let number = |name: &str| values[Parameter::index(parameters, name).unwrap()];
     let column = |name: &str| samples.columns.iter().position(|column| column == name).expect(name);
     let states = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"].map(column);
-    let nodes = gauss_legendre(number("strips") as usize);
+    assert_eq!(number("strips"), 16.0);
+    let nodes = gauss_legendre(16);
     let strips: Vec<[f64; 3]> = nodes
         .iter()
         .map(|node| {

@@ -104,8 +104,9 @@ impl BodyTerms {
 }
 
 crate::per_lane! {
-    /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air, in the axes of the wing:
-    /// along a positive stroke, along the span at zero stroke, and along the stroke axis.
+    /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air.
+    ///
+    /// The axes are along a positive stroke, along the span at zero stroke, and along the stroke axis.
     pub struct BodyMotion<R> {
         /// Velocity V.
         pub velocity: [R; 3],
@@ -190,8 +191,10 @@ impl<R: Real> Shoulder<R> {
         sin * (inertia * (self.rate_t * sin + self.rate_z * cos) - product * self.rate_s) * 2.0
     }
 
-    /// Returns the change of the normal acceleration of a wing's sections by the body's motion: of its part per radius
-    /// e₁, of its constant part e₀, and of the pitch acceleration e₂. `rates` are φ̇ and ψ̇ (rad/s).
+    /// Returns the changes [e₀, e₁, e₂] of the normal acceleration of a wing's sections by the body's motion.
+    ///
+    /// e₀ is the change of the constant part, e₁ of the part per radius, and e₂ of the pitch acceleration. `rates` are φ̇
+    /// and ψ̇ (rad/s).
     ///
     /// ```text
     /// u̇_n = r (A + e₁) + e₀ − d (ψ̈ + e₂)

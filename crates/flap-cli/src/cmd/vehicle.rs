@@ -2,6 +2,7 @@
 
 mod hover;
 
+mod parts;
 mod wrench_map;
 
 use std::fmt::Write as _;
@@ -9,21 +10,18 @@ use std::fmt::Write as _;
 use flap_core::simulate::{NoSlope, never};
 use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
-use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::study::control::{
-    COMPONENTS, ControlError, ControlInputError, Effectiveness, Flight, Input, Target, TrimError, trim,
+    COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, TrimError, trim,
 };
 
+use self::parts::{HEADINGS, input, tidy, title};
 use super::point::Chosen;
 use crate::args::{HOVER, OutputFormat, VehicleArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
-
-/// Headings of force and torque components.
-const HEADINGS: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
 /// An input or a component with a smaller share in a combination is not listed.
 const SMALL: f64 = 0.1;
@@ -111,12 +109,6 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
-    let wings: Vec<&str> = vehicle.mounts().iter().map(|mount| mount.name.as_str()).collect();
-    let wings_are = if wings.len() == 1 { "wing" } else { "wings" };
-    format!("{}: a vehicle with the {wings_are} {}", chosen.title(), wings.join(", "))
-}
-
 /// Returns the inputs that the command line selects, or the default inputs.
 fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<Input>, Failure> {
     if names.is_empty() {
@@ -136,24 +128,6 @@ fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<In
         inputs.push(input);
     }
     Ok(inputs)
-}
-
-/// Returns the input called `name`, which the user gave with `option`.
-fn input(vehicle: &Vehicle, chosen: &Chosen, name: &str, option: &str) -> Result<Input, Failure> {
-    Input::of(vehicle, name).map_err(|error| {
-        let failure = Failure::usage(format!("{option}: {error}"));
-        match error {
-            ControlInputError::Unknown(_) => {
-                if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
-                    return failure.help(reason);
-                }
-                let known = Input::names(vehicle);
-                let known = known.iter().map(String::as_str);
-                failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
-            }
-            ControlInputError::Choice(_) => failure,
-        }
-    })
 }
 
 fn is_derived(chosen: &Chosen, input: &Input) -> bool {
@@ -235,11 +209,6 @@ fn table(found: &Effectiveness) -> String {
         matrix.text_within(width),
         combinations.text_within(width)
     )
-}
-
-/// Returns the number, or zero if it is only rounding beside 1 mN or 1 uN·m.
-fn tidy(number: f64) -> f64 {
-    if number.abs() < 1e-12 { 0.0 } else { number }
 }
 
 /// Returns the component of force and the component of torque that an input changes most.

@@ -25,8 +25,7 @@ impl ObliqueStrip<f64> {
         ObliqueStrip { weight: 0.0, radius: 0.0, lever: 0.0, behind: 0.0, chord: 0.0 };
 }
 
-/// Flow past a strip. Its components are those of the strip's velocity, along the wing's normal and along the chord towards
-/// the leading edge.
+/// Flow past a strip: the strip's velocity along the wing's normal, and along the chord towards the leading edge.
 ///
 /// ```text
 /// u_N = u cos ψ − w sin ψ     u_C = u sin ψ + w cos ψ
@@ -151,8 +150,8 @@ impl<R: Real> ObliqueForces<R> {
 
 /// Returns the sums of the forces on the strips of a wing, at a pitch with this sine and cosine.
 ///
-/// `law` returns, for a strip and the flow past it, the forces along normal and chord per weight (m²/s²), and the centre of
-/// pressure behind the pitch axis (chords).
+/// For a strip and the flow past it, `law` returns the forces along normal and chord per weight (m²/s²). It also returns
+/// the centre of pressure behind the pitch axis (chords).
 #[inline(always)]
 pub fn oblique_forces<R: Real>(
     strips: impl Iterator<Item = ObliqueStrip<R>>,

@@ -1,6 +1,5 @@
 //! Numbers in the equations of models.
 
-use super::functions::angle_over;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or one real number per SIMD lane, with all operations that a model's equations need.
@@ -117,4 +116,53 @@ pub trait Real:
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()
     }
+}
+
+/// Coefficients of the rational approximation of (arctan x − x)/x³ in x², for |x| up to tan(π/8).
+///
+/// They are ordered from the highest power: numerator, and denominator without its leading coefficient 1 (Cephes,
+/// `atan.c`; Moshier, 1995).
+const ARCTAN: [[f64; 5]; 2] = [
+    [
+        -8.750_608_600_031_904e-1,
+        -1.615_753_718_733_365e1,
+        -7.500_855_792_314_705e1,
+        -1.228_866_684_490_136_1e2,
+        -6.485_021_904_942_025e1,
+    ],
+    [
+        2.485_846_490_142_306_3e1,
+        1.650_270_098_316_988_5e2,
+        4.328_810_604_912_903e2,
+        4.853_903_996_359_137e2,
+        1.945_506_571_482_614e2,
+    ],
+];
+
+/// tan(π/8).
+const TAN_PI_8: f64 = 0.414_213_562_373_095_05;
+
+/// [`Real::angle_over`].
+#[inline(always)]
+fn angle_over<R: Real>(y: R, x: R) -> R {
+    let (zero, one) = (y.lit(0.0), y.lit(1.0));
+    let steep = x.lt(y);
+    let (short, long) = (x.min(y), x.max(y));
+    let known = zero.lt(long);
+    // The angle of the ratio is at most π/4. Beyond π/8, arctan t = π/4 + arctan((t − 1)/(t + 1)).
+    let large = (long * TAN_PI_8).lt(short);
+    let above = R::select(large, short - long, short);
+    let below = R::select(large, short + long, R::select(known, long, one));
+    let t = above / below;
+    let z = t * t;
+    let [numerator, denominator] = ARCTAN;
+    let mut p = z.lit(numerator[0]);
+    let mut q = z + denominator[0];
+    for i in 1..5 {
+        p = p.mul_add(z, z.lit(numerator[i]));
+        q = q.mul_add(z, z.lit(denominator[i]));
+    }
+    let arctan = (t * z).mul_add(p / q, t);
+    let angle = R::select(large, arctan + core::f64::consts::FRAC_PI_4, arctan);
+    R::select(steep, -angle + core::f64::consts::FRAC_PI_2, angle)
 }

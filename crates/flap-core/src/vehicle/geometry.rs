@@ -24,8 +24,9 @@ impl Place {
         Rotation3::from_euler_angles(roll, pitch, yaw)
     }
 
-    /// Returns velocity and angular velocity of the shoulder in the axes of the wing, for a motion of the body (m/s and
-    /// rad/s) whose velocity is that of the point `about` (m).
+    /// Returns velocity (m/s) and angular velocity (rad/s) of the shoulder in the axes of the wing.
+    ///
+    /// `body` contains the velocity of the point `about` (m), and the rates of the body.
     ///
     /// ```text
     /// V = Qᵀ (v + Ω × (p − a))     Ω_wing = Qᵀ Ω

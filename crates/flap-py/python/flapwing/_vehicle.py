@@ -215,8 +215,8 @@ class Vehicle(_Entries):
         Raises
         ------
         ValueError
-            A mass property is missing or impossible, an input is unknown, the motion of the wings is not periodic,
-            or no values of the inputs near the point give hover.
+            A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
+            With `trim`: no values of the inputs near the point give hover.
 
         Examples
         --------

@@ -204,11 +204,10 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
     }
     match parameter.unit {
         "V" => of("drive_voltage_pp"),
-        "" | "rad" => Some(1.0),
+        "" | "rad" | "m/s" => Some(1.0),
         "m" => Some(1e-3),
         "N*m*s" => Some(1e-9),
         "rad/m^3" => Some(1e9),
-        "m/s" => Some(1.0),
         "rad/s" => Some(100.0),
         "kg" => Some(1e-6),
         "kg*m^2" => Some(1e-11),

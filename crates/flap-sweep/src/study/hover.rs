@@ -466,8 +466,8 @@ mod tests {
     /// The wrench of a body that hovers.
     const HOVER: [f64; 6] = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0];
 
-    fn model(damping: Matrix6<f64>) -> HoverModel {
-        HoverModel::new(BODY, damping, &DMatrix::zeros(6, 0), HOVER, false).expect("a model")
+    fn model(damping: &Matrix6<f64>) -> HoverModel {
+        HoverModel::new(BODY, *damping, &DMatrix::zeros(6, 0), HOVER, false).expect("a model")
     }
 
     /// Returns a damping matrix with the given entries (row, column, value).
@@ -481,7 +481,7 @@ mod tests {
 
     #[test]
     fn gravity_pulls_towards_the_lowered_side() {
-        let model = model(Matrix6::zeros());
+        let model = model(&Matrix6::zeros());
         // The nose is lowered, and the left side is lifted.
         assert_eq!((model.a[(0, 7)], model.a[(1, 6)]), (10.0, -10.0));
         assert_eq!((model.a[(6, 3)], model.a[(7, 4)], model.a[(8, 5)]), (1.0, 1.0, 1.0));
@@ -505,7 +505,7 @@ mod tests {
     #[test]
     fn times_and_names_of_uncoupled_motions() {
         // Vertical motion decays at 2 1/s, and yaw at 5 1/s. Other motions have no damping.
-        let model = model(damping(&[(2, 2, -2e-4), (5, 5, -2e-8)]));
+        let model = model(&damping(&[(2, 2, -2e-4), (5, 5, -2e-8)]));
         let found: Vec<(f64, String)> =
             model.modes.iter().map(|mode| (mode.eigenvalue.re, mode.name())).collect();
         assert_eq!(found.len(), 9);
@@ -523,7 +523,7 @@ mod tests {
     #[test]
     fn a_torque_against_velocity_makes_an_oscillation_grow() {
         // λ³ = g M_u / I_y = −10 · 2.4e-6 / 3e-9 = −8000: one real root −20, and 10 ± 17.32 i.
-        let model = model(damping(&[(4, 0, -2.4e-6)]));
+        let model = model(&damping(&[(4, 0, -2.4e-6)]));
         let first = &model.modes[0];
         assert!((first.eigenvalue - Complex::new(10.0, 300.0_f64.sqrt())).norm() < 1e-9, "{first:?}");
         assert_eq!(first.name(), "pitch and forward velocity (longitudinal oscillation)");
@@ -542,7 +542,7 @@ mod tests {
 
     #[test]
     fn a_torque_along_velocity_makes_a_motion_diverge() {
-        let model = model(damping(&[(3, 1, -1.6e-6)]));
+        let model = model(&damping(&[(3, 1, -1.6e-6)]));
         // λ³ = −g L_v / I_x = 10 · 1.6e-6 / 2e-9 = 8000.
         assert!((model.modes[0].eigenvalue.re - 20.0).abs() < 1e-9);
         assert_eq!(model.modes[0].name(), "roll and sideways velocity (lateral divergence)");
@@ -572,7 +572,7 @@ mod tests {
 
     #[test]
     fn warnings_begin_at_their_limits() {
-        let model = model(damping(&[(2, 2, -5e-3), (5, 5, -2e-8)]));
+        let model = model(&damping(&[(2, 2, -5e-3), (5, 5, -2e-8)]));
         // The fastest mode has 50 1/s, and exp(−1.5) per period is a decay of 0.5 f per second.
         let multiplier = (-1.5_f64).exp();
         assert_eq!(model.warnings(100.1, multiplier), []);

@@ -111,7 +111,9 @@ pub(super) fn damping_table(damping: &Matrix6<f64>) -> String {
             .map(|unit| if unit.is_empty() { String::new() } else { format!("per {unit}") })
             .collect::<Vec<_>>(),
     );
-    damping_rows(&tidy, six_digits).into_iter().for_each(|row| table.row(row));
+    for row in damping_rows(&tidy, six_digits) {
+        table.row(row);
+    }
     format!(
         "\nChange of force and torque with velocity and rates of the body (damping matrix):\n\n{}",
         table.text_within(console::width())
@@ -146,7 +148,7 @@ pub(super) fn mode_table(model: &LinearModel) -> String {
     let limits = model.hover.residual_limits();
     let mut table = Table::with_headings(&["residual", "unit", "value", "limit"]);
     for (i, residual) in residual.into_iter().enumerate() {
-        let limit = limits[usize::from(i >= LIFT + 1)];
+        let limit = limits[usize::from(i > LIFT)];
         let residual = if residual.abs() < NOTHING * limit { 0.0 } else { residual };
         table.row([
             component(i).to_owned(),
@@ -164,7 +166,7 @@ pub(super) fn mode_table(model: &LinearModel) -> String {
     );
     let headings = ["eigenvalue (1/s)", "doubles in (s)", "halves in (s)", "period (s)", "mode"];
     let mut modes = Table::with_headings(&headings);
-    let four = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| four_digits(number));
+    let four = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), four_digits);
     for mode in &model.hover.modes {
         let value = mode.eigenvalue;
         let eigenvalue = if value.im == 0.0 {

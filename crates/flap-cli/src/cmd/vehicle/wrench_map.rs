@@ -10,7 +10,7 @@ use flap_sweep::study::control::COMPONENTS;
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
 use serde_json::{Value, json};
 
-use super::{HEADINGS, input, tidy, title};
+use super::parts::{HEADINGS, input, tidy, title};
 use crate::args::{OutputFormat, VehicleArgs};
 use crate::cmd::point::{self, Chosen};
 use crate::console;

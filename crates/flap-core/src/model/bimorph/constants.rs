@@ -4,8 +4,8 @@
 //! `docs/models/bimorph.md`. Products of constants that the equations of motion use are computed here.
 
 use super::actuator::Actuator;
-use super::moving::Moving;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
+use super::strips::Moving;
 use crate::drive::{DriveConstants, Shape};
 use crate::linkage::structural_damping;
 use crate::parameter::Invalid;

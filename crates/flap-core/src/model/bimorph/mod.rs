@@ -12,6 +12,7 @@ mod model;
 mod moving;
 mod params;
 mod rhs;
+mod strips;
 mod transmission;
 
 pub use constants::Constants;

@@ -3,12 +3,13 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::constants::Constants;
-use super::moving::{self, Air, Moving, air_at};
+use super::moving::{self, Air, air_at};
 use super::params::{CentreOfPressure, Params};
 use super::rhs::{
     Plate, charging_power, currents, derivative, double_angle, leakage, lift_and_drag, load, plate_forces,
     plates, secant_stiffness, stroke_damping, tip_drag,
 };
+use super::strips::Moving;
 use super::transmission::{Law, Transmission, stroke};
 use crate::aero::Wing;
 use crate::body::BodyTerms;

@@ -6,7 +6,7 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::chord::{BLADES, blades};
-use super::moving::Moving;
+use super::motion::Moving;
 use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::Strips;
 use crate::drive::DriveConstants;

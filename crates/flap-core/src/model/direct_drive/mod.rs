@@ -7,6 +7,7 @@
 mod chord;
 mod constants;
 mod model;
+mod motion;
 mod moving;
 mod params;
 mod rhs;

@@ -1,7 +1,8 @@
 //! The direct-drive model: equations of motion, signals, columns of rows, and single motions.
 
 use super::constants::Constants;
-use super::moving::{self, Moving};
+use super::motion::Moving;
+use super::moving;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use crate::aero::{Wing, chord_table};
@@ -226,7 +227,7 @@ impl Model<4> for DirectDrive {
         let (air, added, translational) = if self.body == BodyTerms::All {
             let moving = moving::air(c, &y, [sin, cos]);
             let power = moving.translational_power([phi_dot, psi_dot], cos);
-            (moving.air, moving.whole_added_mass(c, [sin, cos], &slope), power)
+            (moving.forces, moving.whole_added_mass(c, [sin, cos], &slope), power)
         } else {
             let air = aerodynamics(c, self.flow, side, &y, sin, cos);
             let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
@@ -280,7 +281,7 @@ impl Model<4> for DirectDrive {
             (aerodynamics(c, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
         } else {
             let moving = moving::air(c, &y, [sin, cos]);
-            (moving.air, moving.whole_added_mass(c, [sin, cos], &slope))
+            (moving.forces, moving.whole_added_mass(c, [sin, cos], &slope))
         };
         load(c, &air, &added, &y, [sin, cos])
     }

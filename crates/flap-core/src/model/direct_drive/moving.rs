@@ -1,70 +1,20 @@
 //! The wing of the direct-drive model on a moving body.
 //!
-//! Body motion requires the blade elements, each of which has its own direction of flow. At zero body motion, their forces are
-//! those of [`super::rhs`], to rounding.
+//! Body motion requires the blade elements, each of which has its own direction of flow. At zero body motion, [`super::rhs`]
+//! has the same forces, to rounding.
 
-use core::f64::consts::FRAC_PI_4;
-
-use super::chord::elements;
 use super::constants::Constants;
-use super::params::{AddedMass, CentreOfPressure, FlowDirection, Params};
 use super::rhs::{AddedMassLoad, Aerodynamics, added_mass, balance_in};
-use crate::aero::{oblique_forces, sum};
-use crate::body::{BodyMotion, BodyTerms, Shoulder};
+use crate::aero::oblique_forces;
+use crate::body::Shoulder;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
-use crate::parameter::Invalid;
-
-crate::per_lane! {
-    /// Motion of the body, and the added mass on which it acts.
-    pub struct Moving<R> {
-        /// Motion of the shoulder.
-        pub motion: BodyMotion<R>,
-        /// Added mass f₀ = π/4 ρ ∫ c² dr (kg).
-        pub f0: R,
-    }
-}
-
-impl Moving<f64> {
-    /// A body at rest.
-    pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, f0: 0.0 };
-
-    /// Returns the constants of a point with these terms.
-    ///
-    /// # Errors
-    /// If another reading of the paper is required.
-    pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
-        if terms == BodyTerms::None {
-            return Ok(Moving::REST);
-        }
-        if p.flow_direction == FlowDirection::Uniform {
-            return Err(Invalid::together(
-                &["flow_direction", "body_velocity_forward"],
-                "flow_direction = \"uniform\" has no meaning on a moving body: set it to \"blade\"",
-            ));
-        }
-        if p.centre_of_pressure == CentreOfPressure::Literal {
-            return Err(Invalid::together(
-                &["centre_of_pressure", "body_velocity_forward"],
-                "centre_of_pressure = \"literal\" has no meaning on a moving body: set it to \"folded\" or \"directional\"",
-            ));
-        }
-        if p.added_mass == AddedMass::Lagrangian {
-            return Err(Invalid::together(
-                &["added_mass", "body_velocity_forward"],
-                "added_mass = \"lagrangian\" has no equations for a moving body: set it to \"paper\"",
-            ));
-        }
-        let f0 = FRAC_PI_4 * p.air_density * sum(&elements(p), |_, c| c * c);
-        Invalid::unless_finite(Moving { motion: p.body.motion(), f0 })
-    }
-}
 
 /// Forces of the air on a wing, and what the body's motion adds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Air<R> {
     /// Translational and rotational aerodynamics.
-    pub(super) air: Aerodynamics<R>,
+    pub(super) forces: Aerodynamics<R>,
     /// Load of the added mass due to the motion of the body.
     pub(super) added: AddedMassLoad<R>,
     /// Inertial moment per rate g (N·m·s), see [`Shoulder::gyroscopic`].
@@ -76,9 +26,9 @@ impl<R: Real> Air<R> {
     /// mean is not zero.
     #[inline(always)]
     pub(super) fn translational_power(&self, [phi_dot, psi_dot]: [R; 2], cos: R) -> R {
-        let Air { air, added, .. } = self;
-        -((air.stroke_moment + added.chord_moment * cos) * phi_dot
-            + (air.pitch_moment + added.span_moment) * psi_dot)
+        let Air { forces, added, .. } = self;
+        -((forces.stroke_moment + added.chord_moment * cos) * phi_dot
+            + (forces.pitch_moment + added.span_moment) * psi_dot)
     }
 
     /// Returns the load of the whole added mass at known accelerations.
@@ -120,7 +70,7 @@ pub(super) fn air<R: Real>(c: &Constants<R>, y: &[R; 4], pitch: [R; 2]) -> Air<R
     let [lift_moment, drag_moment] = forces.moments(pitch);
     let rate = shoulder.pitch_rate(psi_dot);
     Air {
-        air: Aerodynamics {
+        forces: Aerodynamics {
             lift,
             drag,
             stroke_moment: -drag_moment,
@@ -155,13 +105,13 @@ fn added_by_motion<R: Real>(
 }
 
 /// Returns mass matrix and generalised forces on a moving body. The load of the added mass and the inertial moments −g φ̇ and
-/// g ψ̇ are added to those of [`balance_in`].
+/// g ψ̇ are added to the moments of [`balance_in`].
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, y: &[R; 4]) -> Balance<R> {
     let [_, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
-    let Air { air, added, gyroscopic } = air(c, y, [sin, cos]);
-    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, &air, y, [sin, cos]);
+    let Air { forces, added, gyroscopic } = air(c, y, [sin, cos]);
+    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, &forces, y, [sin, cos]);
     Balance {
         mass,
         stroke_moment: stroke_moment + added.chord_moment * cos + gyroscopic * psi_dot,

@@ -5,16 +5,15 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::moving::Moving;
-use super::params::{AddedMassSign, Arms, MAX_STRIPS, Params, Quadrature, STRIPS};
-use crate::aero::{Cut, Strips, check_chords, cut, sum};
+use super::params::{AddedMassSign, MAX_STRIPS, Params};
+use super::strips::{Moving, arms, strips};
+use crate::aero::{Cut, Strips, sum};
 use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, SliderCrank, structural_damping};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
-use crate::quadrature::{gauss_legendre, midpoints};
 
 crate::per_lane! {
     /// The actuator in series with a spring.
@@ -175,26 +174,6 @@ impl Constants<f64> {
     }
 }
 
-/// Returns the wing cut into strips.
-pub(super) fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
-    Invalid::unless_within("strips", p.strips, STRIPS)?;
-    p.chords.check()?;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "checked to be a small whole number"
-    )]
-    let count = p.strips as usize;
-    let nodes = match p.quadrature {
-        Quadrature::Gauss => gauss_legendre(count),
-        Quadrature::Midpoint => midpoints(count),
-    };
-    let cuts = cut(&nodes, p.wing_offset, p.wing_length, |x| p.chord(x));
-    let terms = &["chord_term_0", "chord_term_1", "chord_term_2", "chord_term_3", "chord_term_4"];
-    check_chords(&cuts, terms)?;
-    Ok(cuts)
-}
-
 /// Returns actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
 ///
 /// The unimorph's tip follows Smits and Choi (1991): δ = γV − F/k_a.
@@ -290,15 +269,6 @@ fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
         hinge_damping: p.hinge_damping + p.hinge.damping(p.hinge_stiffness, rate),
         hinge_strain: p.hinge.strain_per_angle(),
         hinge_stiffness: p.hinge_stiffness,
-    }
-}
-
-/// Returns κ, the distance from the rotation axis to the mid-chord in (8), and χ₀, the offset in (17); both in
-/// chords.
-pub(super) fn arms(p: &Params) -> [f64; 2] {
-    match p.arms {
-        Arms::Printed => [0.5, 0.0],
-        Arms::Axis => [0.5 - p.axis_position, p.axis_position],
     }
 }
 

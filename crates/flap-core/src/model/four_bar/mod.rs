@@ -15,6 +15,7 @@ mod model;
 mod moving;
 mod params;
 mod rhs;
+mod strips;
 
 pub use constants::Constants;
 pub use model::{FourBar, Signals};

@@ -2,11 +2,12 @@
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load, side_of};
 use super::constants::Constants;
-use super::moving::{self, Moving};
+use super::moving;
 use super::params::Params;
 use super::rhs::{
     balance, charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
 };
+use super::strips::Moving;
 use crate::aero::{Wing, chord_table};
 use crate::body::BodyTerms;
 use crate::drive::{Drive, DriveConstants, Wave};
@@ -286,7 +287,7 @@ impl Model<4> for FourBar {
         )
     }
 
-    /// On a moving body, the lift of each strip jumps at a time of its own, which is not located.
+    /// On a moving body, the lift of each strip jumps at another time, and these times are not located.
     fn has_slopes(&self) -> bool {
         self.body == BodyTerms::None
     }

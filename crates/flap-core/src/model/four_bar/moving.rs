@@ -1,52 +1,24 @@
 //! The wing of the four-bar model on a moving body.
 //!
-//! Each strip has its own direction of flow and its own jump of the lift. At zero body motion, the forces of the strips are
-//! those of [`super::aerodynamics`], to rounding.
+//! Each strip has its own direction of flow and its own jump of the lift. At zero body motion,
+//! [`super::aerodynamics`] has the same forces, to rounding.
 //!
 //! The pitch ψ of [`crate::body`] is −φ.
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::aerodynamics::{Aerodynamics, coefficients, load_in};
-use super::constants::{Constants, arms, strips};
-use super::params::Params;
+use super::constants::Constants;
 use super::rhs::{Transmission, balance_in};
-use crate::aero::{Flow, ObliqueForces, ObliqueStrip, oblique_forces, sum};
-use crate::body::{BodyMotion, BodyTerms, Sections, Shoulder};
+use crate::aero::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
+use crate::body::{Sections, Shoulder};
 use crate::model::Load;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
-use crate::parameter::Invalid;
 
-/// Sine of the angle between flow and normal below which the direction of the chordwise flow is that of the recorded side.
+/// Sine of the angle between flow and normal below which the side determines the direction of the chordwise flow.
 const GRAZING: f64 = 1e-9;
-
-crate::per_lane! {
-    /// Motion of the body, and the parts of the wing on which it acts.
-    pub struct Moving<R> {
-        /// Motion of the shoulder.
-        pub motion: BodyMotion<R>,
-        /// Distance of the mid-chord behind the rotation axis in (8), κ (chords).
-        pub behind: R,
-        /// Added mass Σ π/4 ρ c²Δr (kg).
-        pub added: R,
-    }
-}
-
-impl Moving<f64> {
-    /// A body at rest.
-    pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, behind: 0.0, added: 0.0 };
-
-    /// Returns the constants of a point with these terms.
-    pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
-        if terms == BodyTerms::None {
-            return Ok(Moving::REST);
-        }
-        let added = FRAC_PI_4 * p.air_density * sum(&strips(p)?, |_, c| c * c);
-        Invalid::unless_finite(Moving { motion: p.body.motion(), behind: arms(p)[0], added })
-    }
-}
 
 /// Returns the sign of u_C, the direction of the flow along the chord.
 ///
@@ -216,8 +188,8 @@ fn motion_within<R: Real>(
 
 /// Returns the time integral of the load at the shoulder over a step.
 ///
-/// The flow past each strip keeps the direction that it has at the beginning of the step, so the load is smooth. Where a strip's
-/// flow changes its direction, the difference of the loads in both directions is added, from there to the end of the step.
+/// The flow past each strip keeps the direction that it has at the beginning of the step, so the load is smooth. If the
+/// flow past a strip turns, the difference of the loads in both directions is added while the flow is reversed.
 ///
 /// `state` returns the state of the wing from the integrated state at a time, and `slope` its derivative.
 #[inline(always)]
