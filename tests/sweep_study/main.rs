@@ -3,6 +3,7 @@
 mod basins;
 mod driven;
 mod edges;
+mod flight;
 mod hover;
 mod optimum;
 mod resonance;

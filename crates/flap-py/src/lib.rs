@@ -15,6 +15,7 @@ mod error;
 mod evaluate;
 mod experiments;
 mod film;
+mod flight;
 mod grid;
 mod grid_text;
 mod labels;
@@ -51,6 +52,7 @@ mod _flapwing {
         evaluate::{check, evaluate},
         experiments::{chirp, forces_along, impulse},
         film::track_wing,
+        flight::fly,
         grid::{Exclusions, Grid},
         grid_text::text_of,
         labels::{better, printed, scale, split_unit, unit_of, words},

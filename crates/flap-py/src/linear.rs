@@ -63,7 +63,7 @@ fn has_harmonics(chosen: &Chosen) -> bool {
     shape.and_then(|(parameter, value)| text::option(parameter, *value)) == Some("harmonics")
 }
 
-fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {
+pub(crate) fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {
     let inputs = names.iter().map(|name| {
         let refused = |error| {
             PyValueError::new_err(format!("inputs: {error}\n`flap vehicle --help` lists words for inputs"))

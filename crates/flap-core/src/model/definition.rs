@@ -5,6 +5,7 @@ use super::signal::{OverWings, SignalCycle};
 use super::signals::{SignalSet, SignalsOf};
 use super::totals::Totals;
 use crate::aero::Wing;
+use crate::body::BodyMotion;
 use crate::drive::DriveConstants;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
@@ -165,6 +166,14 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
 
     /// Returns the drive of a point. The signals' harmonics refer to its phase.
     fn drive<R: Real>(c: &Self::Constants<R>) -> &DriveConstants<R>;
+
+    /// Returns the constants of a point with another motion of the body. By default the constants do not depend on it.
+    ///
+    /// The constants must belong to a point with motion of the body.
+    fn with_motion(c: &Self::Constants<f64>, motion: BodyMotion<f64>) -> Self::Constants<f64> {
+        let _ = motion;
+        *c
+    }
 
     /// Returns the signals at an instant, in SI units.
     fn signals<R: Real>(

@@ -10,6 +10,7 @@ mod jobs;
 mod lanes;
 mod linear;
 mod march;
+mod moving_wing;
 mod orbit_row;
 mod period_map;
 mod periods;
@@ -24,6 +25,7 @@ mod single;
 
 pub use gradient::{Change, Gradient, NoSlope};
 pub use jobs::{Jobs, LaneUse, Point};
+pub use moving_wing::MovingWing;
 pub use request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, RequestError, Trajectory,
     TrajectoryRequest, Unfinished,

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use super::gradient::{Change, Gradient, GradientAt};
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
+use super::moving_wing::{MovingWing, moving_wing};
 use super::request::{Period, Trajectory, TrajectoryRequest, Unfinished};
 use super::row::{Column, Row, columns};
 use super::sampler;
@@ -272,5 +273,9 @@ impl<M: Model<N>, const N: usize> Motions for Runner<M, N> {
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Unfinished> {
         ask::<M, _, N>(&self.model, run, TrajectoryFrom { begin, request })
+    }
+
+    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished> {
+        moving_wing(&self.model, values)
     }
 }

@@ -6,6 +6,7 @@ use std::vec::IntoIter;
 
 use super::gradient::{Change, Gradient};
 use super::jobs::{Jobs, Point};
+use super::moving_wing::MovingWing;
 use super::request::{
     ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
     Unfinished,
@@ -206,6 +207,15 @@ pub trait Motions: Gradients {
         begin: Option<&[f64]>,
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Unfinished>;
+
+    /// Returns the equations of a wing with these values, for any motion of its shoulder.
+    ///
+    /// Velocity and rates of the body in `values` must not all be zero: they select the equations. Their size has no
+    /// effect.
+    ///
+    /// # Errors
+    /// [`Unfinished::Invalid`] if the values are impossible together.
+    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished>;
 }
 
 /// Experiments on single points: another drive or motion replaces the point's own.

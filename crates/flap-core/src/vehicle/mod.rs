@@ -14,10 +14,12 @@ mod geometry;
 mod gradient;
 mod layout;
 mod mount;
+mod moving;
 mod parameters;
 mod rows;
 
 pub use geometry::{FORCES, TORQUES};
 pub use layout::Vehicle;
 pub use mount::{DIFFERENCE, MOST_WINGS, Mount, VehicleError};
+pub use moving::MovingWings;
 pub use parameters::{MassProperties, of_all_wings, standing};

@@ -257,6 +257,16 @@ impl Table {
         Ok(own_values)
     }
 
+    /// Returns the values with a motion of the body that is not zero at any wing, if the model has such parameters.
+    pub(super) fn in_motion(&self, values: &[f64]) -> Vec<f64> {
+        let mut moving = values.to_vec();
+        if let Some(motion) = self.motion {
+            motion.into_iter().for_each(|index| moving[index] = 0.0);
+            moving[motion[0]] = 1.0;
+        }
+        moving
+    }
+
     /// Replaces the motion of the body in a wing's values by the motion of its shoulder.
     fn turn_motion(&self, values: &[f64], wing: usize, own_values: &mut [f64]) {
         let Some(motion) = self.motion else { return };

@@ -5,8 +5,8 @@ its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, a
 `respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
 changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
 `fit` fits parameters to readings. `optimise` finds the best design within the axes of a grid. `wrench_map` fits a
-quadratic map of the forces and torques of a vehicle. `live` opens a page in the browser, with sliders for the
-parameters and curves that change with the sliders.
+quadratic map of the forces and torques of a vehicle, and `fly` simulates its flight. `live` opens a page in the
+browser, with sliders for the parameters and curves that change with the sliders.
 
 Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
 Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.
@@ -22,6 +22,7 @@ units.
 from ._evaluate import evaluate
 from ._experiments import chirp, forces_along, impulse, track_wing
 from ._flapwing import Diagnostic, Exclusions, Grid, GridError, __version__, presets
+from ._flight import fly
 from ._linear import LinearModel
 from ._listing import measures, params, states
 from ._live import Live, live
@@ -83,6 +84,7 @@ __all__ = [
     "edges",
     "evaluate",
     "fit",
+    "fly",
     "forces_along",
     "impulse",
     "live",

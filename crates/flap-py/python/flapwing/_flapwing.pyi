@@ -39,6 +39,7 @@ __all__ = [
     "correlations",
     "edges",
     "evaluate",
+    "fly",
     "forces_along",
     "identity",
     "impulse",
@@ -361,6 +362,21 @@ def linear(
     positions: bool = False,
 ) -> NativeLinear:
     """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""
+
+def fly(
+    design: Any,
+    keywords: dict[str, Any],
+    /,
+    *,
+    point: SupportsIndex | None,
+    seconds: SupportsFloat | str,
+    disturbance: list[tuple[str, SupportsFloat | str]],
+    gains: list[list[float]] | None,
+    inputs: list[str],
+    averaged: bool,
+    samples: SupportsIndex | None,
+) -> NativeTable:
+    """Simulate the flight of a vehicle; see `flapwing.fly`."""
 
 def chirp(
     design: Any,

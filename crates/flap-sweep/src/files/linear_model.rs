@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator as _;
 use nalgebra::DMatrix;
@@ -92,10 +91,7 @@ impl LinearModel {
         let body = vehicle.mass_properties(values);
         hover::check(&body)?;
         let index = |name: &str| Parameter::index(parameters, name);
-        let is_moving = |name: &&str| index(name).is_some_and(|index| values[index] != 0.0);
-        if let Some(name) = BodyParameters::MOTION.iter().find(|name| is_moving(name)) {
-            return Err(HoverError::Moving(name));
-        }
+        hover::at_rest(vehicle, values)?;
         let damping = hover::damping(flight, values, &at.row.state)?;
         let control = DMatrix::from_fn(6, at.inputs.len(), |i, j| {
             at.matrix[(i, j)] * WRENCH_TO_SI[i] / at.inputs[j].factor

@@ -495,7 +495,7 @@ const VELOCITY_STEP: f64 = 0.01;
 const RATE_STEP: f64 = 1.0;
 
 /// Returns the values, with the values of all wings in place of unset parameters of one wing.
-fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
+pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {
         filled[input.parameter] = standing(parameters(vehicle), values, input.parameter);

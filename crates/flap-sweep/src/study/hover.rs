@@ -7,7 +7,9 @@
 use core::f64::consts::{LN_2, TAU};
 
 use flap_core::body::BodyParameters;
-use flap_core::vehicle::MassProperties;
+use flap_core::parameter::Parameter;
+use flap_core::simulate::Simulator as _;
+use flap_core::vehicle::{MassProperties, Vehicle};
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
 use super::control::{COMPONENTS, ControlError, Flight, Input, Target};
@@ -138,6 +140,19 @@ pub fn check(body: &MassProperties) -> Result<(), HoverError> {
         return Err(HoverError::Triangle(principal));
     }
     Ok(())
+}
+
+/// Checks that velocity and rates of the body are zero.
+///
+/// # Errors
+/// The first one that is not zero.
+pub fn at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<(), HoverError> {
+    let index = |name: &str| Parameter::index(vehicle.parameters(), name);
+    let is_moving = |name: &&&str| index(name).is_some_and(|index| values[index] != 0.0);
+    match BodyParameters::MOTION.iter().find(is_moving) {
+        Some(name) => Err(HoverError::Moving(name)),
+        None => Ok(()),
+    }
 }
 
 /// Returns the derivatives of force (N) and torque (N·m) with respect to velocity (m/s) and rates (rad/s) of the body.
@@ -335,12 +350,17 @@ pub fn component(i: usize) -> &'static str {
     COMPONENTS[i].rsplit_once('_').map_or(COMPONENTS[i], |(name, _)| name)
 }
 
-/// Returns the inverse of the matrix of mass and inertia; `None` if there is none.
-fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
+/// Returns the inertia matrix (kg·m²).
+pub(super) fn inertia(body: &MassProperties) -> Matrix3<f64> {
     let mut inertia = Matrix3::from_diagonal(&body.inertia.into());
     (inertia[(0, 2)], inertia[(2, 0)]) = (-body.product, -body.product);
+    inertia
+}
+
+/// Returns the inverse of the matrix of mass and inertia; `None` if there is none.
+pub(super) fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
     let mut inverse = Matrix6::from_diagonal(&Vector6::repeat(1.0 / body.mass));
-    inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia.try_inverse()?);
+    inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia(body).try_inverse()?);
     Some(inverse)
 }
 

@@ -4,6 +4,7 @@
 pub mod control;
 pub mod deviation;
 pub mod experiment;
+pub mod flight;
 pub mod hover;
 pub mod linked;
 pub mod optimum;

@@ -12,7 +12,7 @@ use super::rhs::{
 use super::strips::Moving;
 use super::transmission::{Law, Transmission, stroke};
 use crate::aero::Wing;
-use crate::body::BodyTerms;
+use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::Measure::{Peak, PeakToPeak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -342,6 +342,10 @@ impl Model<4> for Bimorph {
     #[inline(always)]
     fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
+    }
+
+    fn with_motion(c: &Constants<f64>, motion: BodyMotion<f64>) -> Constants<f64> {
+        Constants { moving: Moving { motion, ..c.moving }, ..*c }
     }
 
     #[inline(always)]

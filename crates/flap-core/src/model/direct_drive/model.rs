@@ -6,7 +6,7 @@ use super::moving;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use crate::aero::{Wing, chord_table};
-use crate::body::BodyTerms;
+use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -215,6 +215,10 @@ impl Model<4> for DirectDrive {
     #[inline(always)]
     fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
+    }
+
+    fn with_motion(c: &Constants<f64>, motion: BodyMotion<f64>) -> Constants<f64> {
+        Constants { moving: Moving { motion, ..c.moving }, ..*c }
     }
 
     #[inline(always)]

@@ -9,7 +9,7 @@ use super::rhs::{
 };
 use super::strips::Moving;
 use crate::aero::{Wing, chord_table};
-use crate::body::BodyTerms;
+use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
@@ -192,6 +192,10 @@ impl Model<4> for FourBar {
     #[inline(always)]
     fn drive<R: Real>(c: &Constants<R>) -> &DriveConstants<R> {
         &c.drive
+    }
+
+    fn with_motion(c: &Constants<f64>, motion: BodyMotion<f64>) -> Constants<f64> {
+        Constants { moving: Moving { motion, ..c.moving }, ..*c }
     }
 
     #[inline(always)]

@@ -1,0 +1,134 @@
+"""Flights of vehicles over time."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import Any, SupportsIndex
+
+import numpy as np
+
+from . import _arguments, _flapwing, _workers
+from ._mistakes import reading, refused
+from ._native import NativeTable
+from ._progress import Progress, one_step
+from ._table import Table
+from ._types import Design, Executor, Value
+
+__all__ = ["fly"]
+
+
+def fly(
+    design: Design,
+    /,
+    *,
+    seconds: Value,
+    disturbance: Mapping[str, Value] | None = None,
+    gains: Any = None,
+    inputs: Sequence[str] | None = None,
+    averaged: bool = False,
+    samples: SupportsIndex | None = None,
+    point: SupportsIndex | None = None,
+    progress: Progress = False,
+    client: Executor | None = None,
+    **keywords: Value,
+) -> Table:
+    """Simulate the flight of a vehicle: the coupled motion of its wings and its body, with or without a controller.
+
+    The flight begins with settled wings. The wings respond to velocity and rates of the body, but not to its
+    acceleration. The body does not feel the inertia of the wings, which are light. The point `about` must be the centre
+    of mass. The flight requires `total_mass` and the parameters `body_inertia_roll`, `body_inertia_pitch` and
+    `body_inertia_yaw`.
+
+    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``, where x contains the means of
+    nine states over the last beat: velocities, rates and angles.
+
+    A flight that cannot go on, for example because an input leaves its range, ends early with a UserWarning.
+
+    Parameters
+    ----------
+    design : Vehicle, str, path, dict or Grid
+        A vehicle, or a grid with a vehicle.
+    seconds : float or str
+        Duration: a number in seconds, or text with a unit. The flight ends at the end of a wing beat.
+    disturbance : dict of str to float or str, optional
+        States of the body at the beginning, by the names of `LinearModel.states`, such as ``{"rate_pitch": 2.0}``:
+        numbers in SI units, or text with units. They do not contain the vibration within each beat. Default: rest.
+    gains : array_like of shape (inputs, 9), optional
+        Gains of the controller in SI units, such as the result K of ``control.lqr``. Default: no controller.
+    inputs : sequence of str, optional
+        Names of the inputs: parameters, or words as for `Vehicle.linear`. With `gains`, `inputs` are required. The
+        values of the inputs are columns.
+    averaged : bool, optional
+        True to follow the linear model about hover, with exact steps. The default is the coupled motion.
+    samples : int, optional
+        Number of samples in each wing beat. By default, each row contains the means over a beat.
+    point : int, optional
+        The index of a point, if the vehicle is a grid with several points.
+    progress : bool or function, optional
+        As for `sweep`; the flight is one step.
+    client : executor, optional
+        Simulate on a worker of an executor, as for `sweep`.
+    **keywords : float or str
+        Parameters of the vehicle and solver settings, as for `run`.
+
+    Returns
+    -------
+    Table
+        One row for each wing beat, with the time at its middle. The columns are `time_s`, velocities and rates in body
+        axes, angles (yaw, then pitch, then roll lead to the attitude), the position in fixed axes, the inputs in SI
+        units, and force and torque of the air.
+
+    Raises
+    ------
+    ValueError
+        The design is no vehicle, a mass property is missing or impossible, a state or an input is unknown, `gains` have
+        another shape, or the motion of the wings is not periodic.
+    TypeError
+        An argument has the wrong type.
+
+    Examples
+    --------
+    >>> place = ["0 mm", "2 mm", "0 mm"]
+    >>> wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    >>> vehicle = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+    >>> inertia = {"body_inertia_roll": 1.5e-9, "body_inertia_pitch": 1.5e-9, "body_inertia_yaw": 0.5e-9}
+    >>> point = {"drive_voltage_pp": "140 V", "drive_frequency": "120 Hz"}
+    >>> flight = flapwing.fly(vehicle, seconds=0.05, disturbance={"velocity_forward": "0.1 m/s"}, **point, **inertia)
+    >>> len(flight)
+    6
+    """
+    if gains is not None and inputs is None:
+        raise ValueError("`gains` require `inputs`\ngive the names of the inputs, one for each row of `gains`")
+    if isinstance(inputs, str):
+        raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
+    if disturbance is not None and not isinstance(disturbance, Mapping):
+        raise refused("disturbance", disturbance, 'it must be a dictionary, such as {"velocity_forward": "0.1 m/s"}')
+    with one_step(progress):
+        native: NativeTable = _workers.call(
+            client,
+            _flapwing.fly,
+            design,
+            dict(keywords),
+            point=point,
+            seconds=seconds,
+            disturbance=[] if disturbance is None else list(disturbance.items()),
+            gains=None if gains is None else _matrix(gains),
+            inputs=[] if inputs is None else list(inputs),
+            averaged=_arguments.flag("averaged", averaged),
+            samples=samples,
+        )
+    for text in native["warnings"]:
+        warnings.warn(text, stacklevel=2)
+    return Table._of(native, keywords=keywords)
+
+
+def _matrix(gains: Any) -> list[list[float]]:
+    """Return the gains as rows of numbers."""
+    allowed = "it must be a matrix of numbers: one row for each input, one column for each of nine states"
+    with reading("gains", gains, allowed):
+        matrix = np.asarray(gains, dtype=np.float64)
+    if matrix.ndim != 2:
+        raise ValueError(f"`gains` has {matrix.ndim} dimensions\n{allowed}")
+    rows: list[list[float]] = matrix.tolist()
+    return rows

@@ -1,0 +1,574 @@
+//! Flight of a vehicle over time: the coupled motion of wings and body, or the linear model about hover.
+//!
+//! The body is rigid, with the wrench of the air on the wings at each instant. The wings respond to velocity and rates
+//! of the body, but not to its acceleration. The body does not feel the inertia of the wings, which are light.
+//!
+//! A feedback of the states changes the inputs at the beginning of each wing beat. It uses means over the last beat.
+
+use core::f64::consts::TAU;
+
+use flap_core::ode::tableau::{A, B, C, E, STAGES};
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{Simulator as _, Status, Unfinished};
+use flap_core::vehicle::{MassProperties, MovingWings};
+use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+use super::control::{COMPONENTS, ControlError, Flight, Input, own_values};
+use super::hover::{HoverError, STATES, WRENCH_TO_SI, at_rest, check, inertia, inverse_mass};
+use crate::files::linear_model::LinearModel;
+
+/// Number of states of a disturbance and of the feedback: velocities, rates and angles.
+pub const FED_BACK: usize = 9;
+
+/// Largest number of wing beats.
+const MOST_BEATS: f64 = 1e6;
+
+/// A flight to be simulated.
+#[derive(Clone, Debug)]
+pub struct FlightRequest {
+    /// Duration (s). The flight ends with the wing beat that contains this time.
+    pub seconds: f64,
+    /// Velocities (m/s), rates (rad/s) and angles (rad) of the body at the beginning, without the vibration of each beat.
+    pub disturbance: [f64; FED_BACK],
+    /// Inputs, which are columns of the record.
+    pub inputs: Vec<Input>,
+    /// Gains K of a feedback: the inputs are their values at the point minus K x. Inputs × [`FED_BACK`], in SI units.
+    pub gains: Option<DMatrix<f64>>,
+    /// True for the linear model about hover in place of the coupled motion.
+    pub is_averaged: bool,
+    /// Number of samples in each beat. Without samples, each row contains means over a beat.
+    pub samples: Option<u32>,
+}
+
+/// A simulated flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlightRecord {
+    /// Names of the columns: time, states, inputs, and force and torque.
+    pub columns: Vec<String>,
+    /// One row for each beat, at its middle, or for each sample.
+    pub rows: Vec<Vec<f64>>,
+    /// Reason for an early end; `None` if the flight reaches its duration.
+    pub end: Option<String>,
+}
+
+/// Reason for a missing flight.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlightError {
+    /// The duration is impossible.
+    #[error("a flight of {0} s is impossible: the duration must be positive, with at most 1e6 wing beats")]
+    Seconds(f64),
+    /// The disturbance is infinite or NaN.
+    #[error("the disturbance of {0} is not finite")]
+    Disturbance(&'static str),
+    /// The number of samples is zero.
+    #[error("0 samples in a wing beat are too few: at least 1 is required")]
+    Samples,
+    /// The matrix of gains has another shape, or has entries that are not finite.
+    #[error(
+        "the gains have {rows} rows and {columns} columns, but must be {inputs} x {FED_BACK} finite numbers: one row for \
+         each input, one column for each velocity, rate and angle"
+    )]
+    Gains {
+        /// Number of rows.
+        rows: usize,
+        /// Number of columns.
+        columns: usize,
+        /// Number of inputs.
+        inputs: usize,
+    },
+    /// The hover model, or the settled motion of the wings, cannot be computed.
+    #[error(transparent)]
+    Hover(#[from] HoverError),
+}
+
+impl From<ControlError> for FlightError {
+    fn from(error: ControlError) -> FlightError {
+        HoverError::from(error).into()
+    }
+}
+
+impl From<Unfinished> for FlightError {
+    fn from(error: Unfinished) -> FlightError {
+        ControlError::from(error).into()
+    }
+}
+
+/// Simulates the flight from the settled motion of the wings at these values of the vehicle's parameters.
+///
+/// # Errors
+/// If the request is impossible, mass properties are missing, the point has a moving body, or the motion of the wings is
+/// not periodic. A flight that fails later has a record that ends early.
+pub fn fly(
+    flight: &Flight<'_>,
+    values: &[f64],
+    request: &FlightRequest,
+) -> Result<FlightRecord, FlightError> {
+    let FlightRequest { seconds, disturbance, inputs, gains, is_averaged, samples } = request;
+    if let Some(i) = disturbance.iter().position(|number| !number.is_finite()) {
+        return Err(FlightError::Disturbance(STATES[i].0));
+    }
+    if *samples == Some(0) {
+        return Err(FlightError::Samples);
+    }
+    if let Some(gains) = gains {
+        let (rows, columns) = gains.shape();
+        let is_finite = gains.iter().all(|gain| gain.is_finite());
+        if (rows, columns) != (inputs.len(), FED_BACK) || !is_finite {
+            return Err(FlightError::Gains { rows, columns, inputs: inputs.len() });
+        }
+    }
+    let body = flight.vehicle.mass_properties(values);
+    check(&body)?;
+    at_rest(flight.vehicle, values)?;
+    let values = own_values(flight.vehicle, values, inputs);
+    let point: Vec<f64> = inputs.iter().map(|input| values[input.parameter]).collect();
+    let mut motion: Box<dyn Motion + '_> = if *is_averaged {
+        Box::new(Averaged::new(flight, &values, inputs, disturbance)?)
+    } else {
+        Box::new(Coupled::new(flight, values, &body, inputs, disturbance)?)
+    };
+    if !(*seconds > 0.0 && *seconds <= MOST_BEATS * motion.period()) {
+        return Err(FlightError::Seconds(*seconds));
+    }
+    let parts = samples.unwrap_or(1);
+    let mut record = FlightRecord { columns: columns(inputs), rows: Vec::new(), end: None };
+    let (mut time, mut now) = (0.0, point.clone());
+    while time < seconds * (1.0 - 1e-12) {
+        if (flight.interrupted)() {
+            return Err(Unfinished::Interrupted.into());
+        }
+        let period = motion.period();
+        let mut rows = Vec::new();
+        for part in 0..parts {
+            let [from, to] = [part, part + 1].map(|part| period * f64::from(part) / f64::from(parts));
+            if samples.is_some() {
+                rows.push(row(time + from, &motion.state(from), &now));
+            }
+            if let Err(reason) = motion.advance(from, to) {
+                record.end = Some(reason);
+                return Ok(record);
+            }
+        }
+        let means = motion.end_beat();
+        if samples.is_none() {
+            rows.push(row(time + 0.5 * period, &means, &now));
+        }
+        record.rows.append(&mut rows);
+        time += period;
+        if let Some(gains) = gains {
+            let change = gains * DVector::from_column_slice(&means.states[..FED_BACK]);
+            now = point.iter().zip(change.iter()).map(|(value, change)| value - change).collect();
+            if let Err(reason) = motion.set_inputs(&now) {
+                record.end = Some(reason);
+                return Ok(record);
+            }
+        }
+    }
+    Ok(record)
+}
+
+/// Returns the names of the columns of a record.
+fn columns(inputs: &[Input]) -> Vec<String> {
+    let states = STATES.iter().map(|(name, unit)| format!("{name}_{}", unit.replace('/', "_")));
+    let names = core::iter::once("time_s".to_owned()).chain(states);
+    let names = names.chain(inputs.iter().map(|input| input.name.clone()));
+    names.chain(COMPONENTS.iter().map(|&name| name.to_owned())).collect()
+}
+
+fn row(time: f64, at: &BodyState, inputs: &[f64]) -> Vec<f64> {
+    let wrench = at.wrench.iter().zip(WRENCH_TO_SI).map(|(component, unit)| component / unit);
+    let states = at.states.iter().chain(inputs).copied();
+    core::iter::once(time).chain(states).chain(wrench).collect()
+}
+
+/// States of the body, see [`STATES`], with force (N) and torque (N·m).
+struct BodyState {
+    states: [f64; 12],
+    wrench: [f64; 6],
+}
+
+/// Motion of a vehicle, beat by beat.
+trait Motion {
+    /// Returns the duration of the current beat (s).
+    fn period(&self) -> f64;
+
+    /// Advances the motion between two times within the beat (s), or returns the reason for its end.
+    fn advance(&mut self, from: f64, to: f64) -> Result<(), String>;
+
+    /// Returns the state at a time within the beat (s), up to which the motion has advanced.
+    fn state(&mut self, time: f64) -> BodyState;
+
+    /// Ends the beat and returns its means.
+    fn end_beat(&mut self) -> BodyState;
+
+    /// Changes the inputs (SI) for the next beat, or returns the reason why they are impossible.
+    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String>;
+}
+
+/// Number of states of the body: velocities, rates, attitude as a quaternion, and position.
+const BODY: usize = 13;
+
+/// Number of integrals over a beat: of the states of the body, and of force and torque.
+const INTEGRALS: usize = BODY + 6;
+
+/// Sizes of the body's states, to which tolerances refer.
+const BODY_SCALE: [f64; BODY] = [0.1, 0.1, 0.1, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
+
+/// The coupled motion of wings and body.
+///
+/// ```text
+/// m (v̇ + ω × v) = F − m g Rᵀ e_z     I ω̇ + ω × I ω = M     q̇ = ½ q (0, ω)     ẋ = R v
+/// ```
+struct Coupled<'a> {
+    flight: &'a Flight<'a>,
+    values: Vec<f64>,
+    inputs: &'a [Input],
+    equations: Equations,
+    /// States of wings and body, and integrals since the beginning of the beat.
+    y: Vec<f64>,
+    integrator: Integrator,
+    /// Last yaw angle (rad), which is continuous over full turns.
+    heading: f64,
+}
+
+/// Equations of the coupled motion.
+struct Equations {
+    wings: MovingWings,
+    /// Number of states of all wings.
+    of_wings: usize,
+    mass: f64,
+    gravity: f64,
+    inertia: Matrix3<f64>,
+    inverse: Matrix3<f64>,
+}
+
+impl<'a> Coupled<'a> {
+    fn new(
+        flight: &'a Flight<'a>,
+        values: Vec<f64>,
+        body: &MassProperties,
+        inputs: &'a [Input],
+        disturbance: &[f64; FED_BACK],
+    ) -> Result<Coupled<'a>, FlightError> {
+        let row = flight.row(&values, None);
+        if (flight.interrupted)() {
+            return Err(Unfinished::Interrupted.into());
+        }
+        if row.status != Status::Periodic {
+            return Err(ControlError::NotPeriodic { status: row.status, reason: row.reason }.into());
+        }
+        let inertia = inertia(body);
+        let inverse = inertia.try_inverse().ok_or(HoverError::NotPositive)?;
+        let wings = flight.vehicle.moving_wings(&values)?;
+        let of_wings = row.state.len();
+        let mut scale = wings.scale();
+        scale.extend(BODY_SCALE);
+        scale.resize(of_wings + BODY + INTEGRALS, f64::INFINITY);
+        let period = wings.period();
+        let equations =
+            Equations { wings, of_wings, mass: body.mass, gravity: body.gravity, inertia, inverse };
+        let integrator = Integrator {
+            rtol: flight.solver.rtol,
+            most_steps: flight.solver.max_steps,
+            scale,
+            step: period / 200.0,
+        };
+        let mut coupled =
+            Coupled { flight, values, inputs, equations, y: Vec::new(), integrator, heading: disturbance[8] };
+        coupled.begin(&row.state, &[0.0; FED_BACK]);
+        let vibration = coupled.vibration().map_err(|_| Unfinished::Diverged)?;
+        let start: [f64; FED_BACK] = core::array::from_fn(|i| disturbance[i] - vibration[i]);
+        coupled.begin(&row.state, &start);
+        Ok(coupled)
+    }
+
+    /// Begins with settled wings, and velocities, rates and angles of the body.
+    fn begin(&mut self, wings: &[f64], body: &[f64; FED_BACK]) {
+        let [roll, pitch, yaw] = [body[6], body[7], body[8]];
+        let attitude = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        self.y = wings.to_vec();
+        self.y.extend(&body[..6]);
+        self.y.extend([attitude.w, attitude.i, attitude.j, attitude.k]);
+        self.y.resize(self.integrator.scale.len(), 0.0);
+    }
+
+    /// Returns the mean of velocities, rates and angles over the first beat that is due to vibration alone.
+    ///
+    /// It is the mean over a beat that begins at rest, less the mean of a steady change to the state at its end.
+    fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
+        let period = self.period();
+        self.advance(0.0, period)?;
+        let end = self.body(&self.y[self.equations.of_wings..]);
+        let mean = self.means(period);
+        Ok(core::array::from_fn(|i| mean[i] - 0.5 * end[i]))
+    }
+
+    /// Returns the states of the body, see [`STATES`]; `body` begins with the body's integrated states.
+    fn body(&self, body: &[f64]) -> [f64; 12] {
+        let attitude = UnitQuaternion::from_quaternion(quaternion(&body[6..10]));
+        let (roll, pitch, yaw) = attitude.euler_angles();
+        let yaw = yaw + TAU * ((self.heading - yaw) / TAU).round();
+        [body[0], body[1], body[2], body[3], body[4], body[5], roll, pitch, yaw, body[10], body[11], body[12]]
+    }
+
+    /// Returns the mean states over a beat. Angles are those of the mean quaternion.
+    fn means(&self, period: f64) -> [f64; 12] {
+        let integrals = &self.y[self.equations.of_wings + BODY..];
+        self.body(&integrals[..BODY].iter().map(|integral| integral / period).collect::<Vec<f64>>())
+    }
+}
+
+impl Motion for Coupled<'_> {
+    fn period(&self) -> f64 {
+        self.equations.wings.period()
+    }
+
+    fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
+        self.integrator.advance(&self.equations, [from, to], &mut self.y)
+    }
+
+    fn state(&mut self, time: f64) -> BodyState {
+        let mut slope = vec![0.0; self.y.len()];
+        self.equations.derivative(time, &self.y, &mut slope);
+        let states = self.body(&self.y[self.equations.of_wings..]);
+        self.heading = states[8];
+        let wrench = slope.len() - 6;
+        BodyState { states, wrench: core::array::from_fn(|i| slope[wrench + i]) }
+    }
+
+    fn end_beat(&mut self) -> BodyState {
+        let period = self.period();
+        let states = self.means(period);
+        self.heading = states[8];
+        let wrench = self.y.len() - 6;
+        let wrench = core::array::from_fn(|i| self.y[wrench + i] / period);
+        // Rounding and errors of integration change the length of the quaternion.
+        let begin = self.equations.of_wings;
+        let attitude = UnitQuaternion::from_quaternion(quaternion(&self.y[begin + 6..]));
+        self.y[begin + 6..begin + 10].copy_from_slice(&[attitude.w, attitude.i, attitude.j, attitude.k]);
+        self.y[begin + BODY..].fill(0.0);
+        BodyState { states, wrench }
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String> {
+        for (input, &value) in self.inputs.iter().zip(inputs) {
+            let parameter: &Parameter<'_> = &self.flight.vehicle.parameters()[input.parameter];
+            if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind
+                && !range.contains(value)
+            {
+                return Err(format!("{} is {value}, but must be {}", parameter.name, range.describe()));
+            }
+            self.values[input.parameter] = value;
+        }
+        let wings = self.flight.vehicle.moving_wings(&self.values);
+        self.equations.wings = wings.map_err(|error| error.to_string())?;
+        Ok(())
+    }
+}
+
+/// Returns the quaternion (w, x, y, z).
+fn quaternion(numbers: &[f64]) -> Quaternion<f64> {
+    Quaternion::new(numbers[0], numbers[1], numbers[2], numbers[3])
+}
+
+impl Equations {
+    /// Computes the derivative of states and integrals.
+    fn derivative(&self, t: f64, y: &[f64], slope: &mut [f64]) {
+        let (wings, rest) = y.split_at(self.of_wings);
+        let (of_wings, of_rest) = slope.split_at_mut(self.of_wings);
+        let motion: [f64; 6] = core::array::from_fn(|i| rest[i]);
+        let wrench = self.wings.derivative(t, wings, &motion, of_wings);
+        let velocity = Vector3::new(rest[0], rest[1], rest[2]);
+        let rate = Vector3::new(rest[3], rest[4], rest[5]);
+        let attitude = quaternion(&rest[6..10]);
+        let turned = UnitQuaternion::from_quaternion(attitude);
+        let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+        let torque = Vector3::new(wrench[3], wrench[4], wrench[5]);
+        let weight = turned.inverse_transform_vector(&Vector3::new(0.0, 0.0, -self.gravity));
+        let acceleration = force / self.mass + weight - rate.cross(&velocity);
+        let angular = self.inverse * (torque - rate.cross(&(self.inertia * rate)));
+        let turn = attitude * Quaternion::from_imag(rate * 0.5);
+        let travel = turned * velocity;
+        of_rest[..3].copy_from_slice(acceleration.as_slice());
+        of_rest[3..6].copy_from_slice(angular.as_slice());
+        of_rest[6..10].copy_from_slice(&[turn.w, turn.i, turn.j, turn.k]);
+        of_rest[10..BODY].copy_from_slice(travel.as_slice());
+        of_rest[BODY..2 * BODY].copy_from_slice(&rest[..BODY]);
+        of_rest[2 * BODY..].copy_from_slice(&wrench);
+    }
+}
+
+/// Dormand-Prince 5(4) with step-size control, for any number of states.
+struct Integrator {
+    /// Tolerance relative to the size of each state.
+    rtol: f64,
+    /// Largest number of steps of an integration.
+    most_steps: u32,
+    /// Size of each state; infinite if its error does not count.
+    scale: Vec<f64>,
+    /// Next step (s).
+    step: f64,
+}
+
+impl Integrator {
+    /// Integrates from the first to the second time (s), or returns the reason for a failure.
+    fn advance(
+        &mut self,
+        equations: &Equations,
+        [from, to]: [f64; 2],
+        y: &mut Vec<f64>,
+    ) -> Result<(), String> {
+        let counted = self.scale.iter().filter(|scale| scale.is_finite()).count() as f64;
+        let mut k = vec![vec![0.0; y.len()]; STAGES];
+        let mut next = vec![0.0; y.len()];
+        let mut t = from;
+        equations.derivative(t, y, &mut k[0]);
+        for _ in 0..self.most_steps {
+            let is_last = t + self.step * (1.0 + 1e-9) >= to;
+            let h = if is_last { to - t } else { self.step };
+            for stage in 1..STAGES {
+                for (i, next) in next.iter_mut().enumerate() {
+                    let sum: f64 = (0..stage).map(|j| A[stage][j] * k[j][i]).sum();
+                    *next = h.mul_add(sum, y[i]);
+                }
+                // The last stage has the weights of the new state.
+                debug_assert!(stage + 1 < STAGES || A[stage][..] == B[..6]);
+                equations.derivative(C[stage].mul_add(h, t), &next, &mut k[stage]);
+            }
+            let square = |i: usize| {
+                let error: f64 = (0..STAGES).map(|j| E[j] * k[j][i]).sum();
+                let size = self.scale[i] + y[i].abs().max(next[i].abs());
+                (h * error / (self.rtol * size)).powi(2)
+            };
+            let error = ((0..y.len()).map(square).sum::<f64>() / counted).sqrt();
+            if !(error.is_finite() && h > 0.0) {
+                return Err("the motion diverges".to_owned());
+            }
+            let factor = (0.9 * error.powf(-0.2)).clamp(0.2, 5.0);
+            if error > 1.0 {
+                self.step = h * factor.min(1.0);
+                if t + self.step <= t {
+                    return Err("the motion needs steps that are too small".to_owned());
+                }
+                continue;
+            }
+            core::mem::swap(y, &mut next);
+            k.swap(0, STAGES - 1);
+            if is_last {
+                // The last step may be short.
+                self.step = self.step.max(h * factor);
+                return Ok(());
+            }
+            t += h;
+            self.step = h * factor;
+        }
+        Err("the motion needs more than max_steps steps in a drive period".to_owned())
+    }
+}
+
+/// The linear model about hover, with the mean wrench over each beat.
+struct Averaged {
+    model: LinearModel,
+    /// Values of the inputs at the point (SI).
+    point: Vec<f64>,
+    /// Changes of the inputs.
+    change: DVector<f64>,
+    /// Accelerations by the residual of the point.
+    residual: DVector<f64>,
+    state: DVector<f64>,
+    /// Integral of the states since the beginning of the beat.
+    integral: DVector<f64>,
+    /// Drive frequency (Hz), and its place among the inputs.
+    frequency: f64,
+    frequency_input: Option<usize>,
+}
+
+impl Averaged {
+    fn new(
+        flight: &Flight<'_>,
+        values: &[f64],
+        inputs: &[Input],
+        disturbance: &[f64; FED_BACK],
+    ) -> Result<Averaged, FlightError> {
+        let at = flight.effectiveness(values, inputs, None)?;
+        let model = LinearModel::at(flight, values, &at, true, String::new())?;
+        let states = model.hover.a.nrows();
+        let inverse = inverse_mass(&model.hover.body).ok_or(HoverError::NotPositive)?;
+        let mut residual = DVector::zeros(states);
+        residual.rows_mut(0, 6).copy_from(&(inverse * nalgebra::Vector6::from(model.hover.residual())));
+        let mut state = DVector::zeros(states);
+        state.rows_mut(0, FED_BACK).copy_from_slice(disturbance);
+        let parameters = flight.vehicle.parameters();
+        let drives = |input: &Input| parameters[input.parameter].name == "drive_frequency";
+        Ok(Averaged {
+            point: inputs.iter().map(|input| values[input.parameter]).collect(),
+            change: DVector::zeros(inputs.len()),
+            residual,
+            integral: DVector::zeros(states),
+            state,
+            frequency: model.frequency,
+            frequency_input: inputs.iter().position(drives),
+            model,
+        })
+    }
+
+    fn body(&self, states: &DVector<f64>) -> BodyState {
+        let hover = &self.model.hover;
+        let wrench = hover.damping * states.fixed_rows::<6>(0) + &self.model.control * &self.change;
+        BodyState {
+            states: core::array::from_fn(|i| states[i]),
+            wrench: core::array::from_fn(|i| hover.wrench[i] + wrench[i]),
+        }
+    }
+}
+
+impl Motion for Averaged {
+    fn period(&self) -> f64 {
+        1.0 / self.frequency
+    }
+
+    /// Advances by the exponential of the matrix of states, their integrals, and a constant.
+    fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
+        let hover = &self.model.hover;
+        let n = self.state.len();
+        let mut matrix = DMatrix::zeros(2 * n + 1, 2 * n + 1);
+        matrix.view_mut((0, 0), (n, n)).copy_from(&hover.a);
+        matrix.view_mut((0, 2 * n), (n, 1)).copy_from(&(&hover.b * &self.change + &self.residual));
+        matrix.view_mut((n, 0), (n, n)).fill_with_identity();
+        let mut y = DVector::zeros(2 * n + 1);
+        y.rows_mut(0, n).copy_from(&self.state);
+        y.rows_mut(n, n).copy_from(&self.integral);
+        y[2 * n] = 1.0;
+        let y = (matrix * (to - from)).exp() * y;
+        if !y.iter().all(|number| number.is_finite()) {
+            return Err("the motion diverges".to_owned());
+        }
+        self.state.copy_from(&y.rows(0, n));
+        self.integral.copy_from(&y.rows(n, n));
+        Ok(())
+    }
+
+    fn state(&mut self, _time: f64) -> BodyState {
+        self.body(&self.state)
+    }
+
+    fn end_beat(&mut self) -> BodyState {
+        let means = &self.integral / self.period();
+        self.integral.fill(0.0);
+        self.body(&means)
+    }
+
+    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String> {
+        self.change = DVector::from_iterator(
+            inputs.len(),
+            inputs.iter().zip(&self.point).map(|(value, point)| value - point),
+        );
+        if let Some(input) = self.frequency_input {
+            self.frequency = inputs[input];
+            if self.frequency <= 0.0 {
+                return Err(format!("drive_frequency is {} Hz, but must be positive", self.frequency));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,186 @@
+//! Flights of a vehicle over time: conservation laws, symmetry, and the linear model.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
+
+use flap_core::simulate::never;
+use flap_sweep::plan::Plan;
+use flap_sweep::study::control::{Flight, Input};
+use flap_sweep::study::flight::{FED_BACK, FlightError, FlightRecord, FlightRequest, fly};
+use flap_sweep::study::hover::STATES;
+use nalgebra::{DMatrix, Rotation3, Vector3};
+
+use crate::support::plan;
+
+/// The case `t1_140` of `tests/data/body`. Its weight is the lift.
+const ROBOT: &str = "\
+preset = \"jafferis2016\"
+[vehicle]
+about = [0, 0, \"-3 mm\"]
+total_mass = 6.915643907926958e-5
+body_inertia_roll = 1.5e-9
+body_inertia_pitch = 1.5e-9
+body_inertia_yaw = 0.5e-9
+[[vehicle.wings]]
+name = \"left\"
+position = [0, \"2 mm\", 0]
+[[vehicle.wings]]
+name = \"right\"
+position = [0, \"2 mm\", 0]
+mirrored = true
+[params]
+drive_voltage_pp = \"140 V\"
+drive_frequency = \"120 Hz\"
+";
+
+const REST: FlightRequest = FlightRequest {
+    seconds: 0.2,
+    disturbance: [0.0; FED_BACK],
+    inputs: Vec::new(),
+    gains: None,
+    is_averaged: false,
+    samples: None,
+};
+
+fn try_to_fly(plan: &Plan, request: &FlightRequest) -> Result<FlightRecord, FlightError> {
+    let flight = Flight { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
+    fly(&flight, &plan.point(0).values, request)
+}
+
+fn flown(plan: &Plan, request: &FlightRequest) -> FlightRecord {
+    let record = try_to_fly(plan, request).unwrap();
+    assert_eq!(record.end, None);
+    record
+}
+
+/// The request with one state of the disturbance.
+fn disturbed(state: usize, by: f64) -> FlightRequest {
+    let mut disturbance = [0.0; FED_BACK];
+    disturbance[state] = by;
+    FlightRequest { disturbance, ..REST.clone() }
+}
+
+/// A tumbling body in vacuum falls on a parabola, and keeps energy and angular momentum.
+#[test]
+fn a_body_in_vacuum_falls_freely() {
+    let vacuum = ROBOT.replace("140 V", "0 V") + "air_density = 0\n";
+    let vacuum = plan(&vacuum.replace("body_inertia_yaw", "body_inertia_product = 0.2e-9\nbody_inertia_yaw"));
+    let disturbance = [0.3, -0.2, 0.5, 20.0, -30.0, 40.0, 0.1, 0.2, 0.3];
+    let record =
+        flown(&vacuum, &FlightRequest { seconds: 0.1, disturbance, samples: Some(3), ..REST.clone() });
+    let (mass, gravity, moments, product) =
+        (6.915_643_907_926_958e-5, 9.80665, [1.5e-9, 1.5e-9, 0.5e-9], 0.2e-9);
+    let at = |row: &[f64]| {
+        let velocity = Vector3::new(row[1], row[2], row[3]);
+        let rate = Vector3::new(row[4], row[5], row[6]);
+        let turned = Rotation3::from_euler_angles(row[7], row[8], row[9]);
+        let spin = Vector3::new(
+            moments[0] * rate.x - product * rate.z,
+            moments[1] * rate.y,
+            moments[2] * rate.z - product * rate.x,
+        );
+        let energy = 0.5 * (mass * velocity.norm_squared() + rate.dot(&spin)) + mass * gravity * row[12];
+        (turned * velocity, turned * spin, energy)
+    };
+    assert_eq!(record.rows.len(), 36);
+    let (velocity, spin, energy) = at(&record.rows[0]);
+    for row in &record.rows {
+        let time = row[0];
+        let (now, spin_now, energy_now) = at(row);
+        assert!((energy_now / energy - 1.0).abs() < 1e-5, "{energy_now} J after {energy} J at {time} s");
+        assert!((spin_now - spin).norm() < 1e-5 * spin.norm(), "{spin_now} after {spin} at {time} s");
+        let fallen = velocity - Vector3::new(0.0, 0.0, gravity * time);
+        assert!((now - fallen).norm() < 1e-6, "{now} instead of {fallen} at {time} s");
+        let place = velocity * time - Vector3::new(0.0, 0.0, 0.5 * gravity * time * time);
+        assert!((Vector3::new(row[10], row[11], row[12]) - place).norm() < 1e-7);
+        assert!(row[13..].iter().all(|component| *component == 0.0));
+    }
+}
+
+/// Differences of a disturbed and an undisturbed flight are those of the linear model.
+#[test]
+fn small_disturbances_are_those_of_the_linear_model() {
+    let plan = plan(ROBOT);
+    let at_rest = flown(&plan, &REST);
+    assert_eq!(at_rest.rows.len(), 24);
+    // Sizes that a disturbance of 0.02 m/s reaches: velocities, rates, angles.
+    for (state, by) in [(0, 0.02), (1, 0.02), (2, 0.02), (3, 1.0), (4, 1.0), (5, 1.0), (6, 0.02), (7, 0.02)] {
+        let request = disturbed(state, by);
+        let coupled = flown(&plan, &request);
+        let averaged = flown(&plan, &FlightRequest { is_averaged: true, ..request });
+        let mut errors = [0.0_f64; FED_BACK];
+        let mut sizes = [0.0_f64; FED_BACK];
+        for ((coupled, averaged), rest) in coupled.rows.iter().zip(&averaged.rows).zip(&at_rest.rows) {
+            assert!((coupled[0] - averaged[0]).abs() < 1e-12);
+            for i in 0..FED_BACK {
+                errors[i] = errors[i].max((coupled[1 + i] - rest[1 + i] - averaged[1 + i]).abs());
+                sizes[i] = sizes[i].max(averaged[1 + i].abs());
+            }
+        }
+        eprintln!("{} {by}: errors {errors:?} of {sizes:?}", STATES[state].0);
+    }
+}
+
+/// Without a disturbance, a trimmed vehicle stays.
+#[test]
+fn a_vehicle_at_hover_stays() {
+    let record = flown(&plan(ROBOT), &REST);
+    for row in record.rows.iter().step_by(6) {
+        eprintln!("{row:?}");
+    }
+}
+
+/// The mirrored disturbance gives the mirrored flight.
+#[test]
+fn a_mirrored_disturbance_gives_a_mirrored_flight() {
+    let plan = plan(ROBOT);
+    let mirror =
+        [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+    let disturbance = [0.05, 0.08, -0.03, 1.0, 2.0, -3.0, 0.05, 0.02, 0.1];
+    let other = core::array::from_fn(|i| disturbance[i] * mirror[i]);
+    let [one, other] = [disturbance, other].map(|disturbance| {
+        flown(&plan, &FlightRequest { disturbance, samples: Some(2), ..REST.clone() }).rows
+    });
+    let mut largest = [0.0_f64; 18];
+    let mut errors = [0.0_f64; 18];
+    for (one, other) in one.iter().zip(&other) {
+        for i in 0..18 {
+            largest[i] = largest[i].max(one[1 + i].abs());
+            errors[i] = errors[i].max((one[1 + i] - mirror[i] * other[1 + i]).abs());
+        }
+    }
+    for i in 0..18 {
+        assert!(errors[i] < 1e-9 * largest[i], "{} of {} in column {}", errors[i], largest[i], i + 1);
+    }
+}
+
+/// A feedback of the pitch angle turns the amplitude's difference into a torque, and its inputs are columns.
+#[test]
+fn impossible_flights_are_refused() {
+    let plan = plan(ROBOT);
+    let refused = |request: FlightRequest| try_to_fly(&plan, &request).unwrap_err().to_string();
+    assert!(refused(FlightRequest { seconds: 0.0, ..REST.clone() }).starts_with("a flight of 0 s"));
+    assert!(refused(FlightRequest { samples: Some(0), ..REST.clone() }).starts_with("0 samples"));
+    assert!(refused(disturbed(3, f64::NAN)).starts_with("the disturbance of rate_roll"));
+    let inputs = vec![Input::of(plan.vehicle().unwrap(), "bias").unwrap()];
+    let gains = Some(DMatrix::zeros(2, FED_BACK));
+    let message = refused(FlightRequest { inputs: inputs.clone(), gains, ..REST.clone() });
+    assert!(message.starts_with("the gains have 2 rows and 9 columns, but must be 1 x 9"), "{message}");
+    // 140 V less a gain times the velocity leaves the range in the second beat.
+    let inputs = vec![Input::of(plan.vehicle().unwrap(), "amplitude").unwrap()];
+    let mut gains = DMatrix::zeros(1, FED_BACK);
+    gains[(0, 0)] = 1e6;
+    for is_averaged in [false] {
+        let request = FlightRequest {
+            inputs: inputs.clone(),
+            gains: Some(gains.clone()),
+            is_averaged,
+            ..disturbed(0, 0.1)
+        };
+        let record = try_to_fly(&plan, &request).unwrap();
+        assert_eq!(record.rows.len(), 1);
+        assert_eq!(record.columns[13], "amplitude");
+        assert_eq!(record.rows[0][13].to_bits(), 140.0_f64.to_bits());
+        let end = record.end.unwrap();
+        assert!(end.starts_with("drive_voltage_pp is -"), "{end}");
+    }
+}
