@@ -32,6 +32,9 @@ drive_voltage_pp = \"140 V\"
 drive_frequency = \"120 Hz\"
 ";
 
+/// Its mass (kg).
+const MASS: f64 = 6.915_643_907_926_958e-5;
+
 const REST: FlightRequest = FlightRequest {
     seconds: 0.2,
     disturbance: [0.0; FED_BACK],
@@ -67,8 +70,7 @@ fn a_body_in_vacuum_falls_freely() {
     let disturbance = [0.3, -0.2, 0.5, 20.0, -30.0, 40.0, 0.1, 0.2, 0.3];
     let record =
         flown(&vacuum, &FlightRequest { seconds: 0.1, disturbance, samples: Some(3), ..REST.clone() });
-    let (mass, gravity, moments, product) =
-        (6.915_643_907_926_958e-5, 9.80665, [1.5e-9, 1.5e-9, 0.5e-9], 0.2e-9);
+    let (mass, gravity, moments, product) = (MASS, 9.80665, [1.5e-9, 1.5e-9, 0.5e-9], 0.2e-9);
     let at = |row: &[f64]| {
         let velocity = Vector3::new(row[1], row[2], row[3]);
         let rate = Vector3::new(row[4], row[5], row[6]);
@@ -96,36 +98,72 @@ fn a_body_in_vacuum_falls_freely() {
     }
 }
 
-/// Differences of a disturbed and an undisturbed flight are those of the linear model.
+/// The robot with `factor` times its mass and inertia, and the same weight: all accelerations are smaller.
+fn robot(factor: f64) -> Plan {
+    let inertia = |name: &str, value: f64| format!("{name} = {:e}\n", value * factor);
+    let properties = [
+        inertia("total_mass", MASS),
+        inertia("body_inertia_roll", 1.5e-9),
+        inertia("body_inertia_pitch", 1.5e-9),
+        inertia("body_inertia_yaw", 0.5e-9),
+        format!("gravity = {}\n", 9.80665 / factor),
+    ];
+    let (before, after) = ROBOT.split_once("total_mass").unwrap();
+    let (_, wings) = after.split_once("[[").unwrap();
+    plan(&format!("{before}{}[[{wings}", properties.concat()))
+}
+
+/// Returns the largest difference between the change by a disturbance and the linear model, as shares of the disturbance
+/// or of the state's largest value.
+fn deviation(plan: &Plan, seconds: f64, state: usize, by: f64) -> f64 {
+    let request = FlightRequest { seconds, ..disturbed(state, by) };
+    let at_rest = flown(plan, &FlightRequest { seconds, ..REST.clone() });
+    let coupled = flown(plan, &request);
+    let averaged = flown(plan, &FlightRequest { is_averaged: true, ..request });
+    let (mut error, mut size) = (0.0_f64, 0.0_f64);
+    for ((coupled, averaged), rest) in coupled.rows.iter().zip(&averaged.rows).zip(&at_rest.rows) {
+        assert!((coupled[0] - averaged[0]).abs() < 1e-12);
+        error = error.max((coupled[1 + state] - rest[1 + state] - averaged[1 + state]).abs());
+        size = size.max(averaged[1 + state].abs());
+    }
+    error / size
+}
+
+/// The robot follows the linear model after small disturbances, within the share in the table.
+///
+/// The linear model leaves out the vibration of the body in each beat. It is exact for a heavy body.
 #[test]
 fn small_disturbances_are_those_of_the_linear_model() {
-    let plan = plan(ROBOT);
-    let at_rest = flown(&plan, &REST);
-    assert_eq!(at_rest.rows.len(), 24);
-    // Sizes that a disturbance of 0.02 m/s reaches: velocities, rates, angles.
-    for (state, by) in [(0, 0.02), (1, 0.02), (2, 0.02), (3, 1.0), (4, 1.0), (5, 1.0), (6, 0.02), (7, 0.02)] {
-        let request = disturbed(state, by);
-        let coupled = flown(&plan, &request);
-        let averaged = flown(&plan, &FlightRequest { is_averaged: true, ..request });
-        let mut errors = [0.0_f64; FED_BACK];
-        let mut sizes = [0.0_f64; FED_BACK];
-        for ((coupled, averaged), rest) in coupled.rows.iter().zip(&averaged.rows).zip(&at_rest.rows) {
-            assert!((coupled[0] - averaged[0]).abs() < 1e-12);
-            for i in 0..FED_BACK {
-                errors[i] = errors[i].max((coupled[1 + i] - rest[1 + i] - averaged[1 + i]).abs());
-                sizes[i] = sizes[i].max(averaged[1 + i].abs());
-            }
-        }
-        eprintln!("{} {by}: errors {errors:?} of {sizes:?}", STATES[state].0);
+    for (state, by, limit, limit_heavy) in [
+        (0, 0.02, 0.15, 0.01),
+        (1, 0.02, 0.1, 0.01),
+        (2, 0.02, 0.01, 0.002),
+        (3, 1.0, 0.05, 0.01),
+        (4, 1.0, 0.12, 0.01),
+        (5, 1.0, 0.3, 0.02),
+        (6, 0.02, 0.1, 0.01),
+        (7, 0.02, 0.12, 0.01),
+    ] {
+        let found = deviation(&robot(1.0), 0.2, state, by);
+        let heavy = deviation(&robot(30.0), 1.0, state, by / 30.0);
+        eprintln!("{}: {found:.4}, {heavy:.5}", STATES[state].0);
+        assert!(found < limit && heavy < limit_heavy);
     }
 }
 
-/// Without a disturbance, a trimmed vehicle stays.
+/// Without a disturbance, a trimmed vehicle stays. The vibration of the body adds 0.3 % of the weight to the lift.
 #[test]
 fn a_vehicle_at_hover_stays() {
-    let record = flown(&plan(ROBOT), &REST);
-    for row in record.rows.iter().step_by(6) {
-        eprintln!("{row:?}");
+    for (factor, share) in [(1.0, 1.0), (30.0, 0.05)] {
+        for row in flown(&robot(factor), &REST).rows {
+            assert!(row[1].abs() < 0.002 * share && row[3].abs() < 0.03 * share, "{row:?}");
+            assert!(row[5].abs() < 0.02 * share && row[8].abs() < 0.002 * share, "{row:?}");
+            assert!((row[15] / 0.678_193 - 1.0).abs() < 0.006 * share, "{row:?}");
+            // Symmetric wings give no other motion.
+            for other in [2, 4, 6, 7, 9, 11, 14, 16, 18] {
+                assert_eq!(row[other].abs().to_bits(), 0, "{row:?}");
+            }
+        }
     }
 }
 
@@ -153,7 +191,7 @@ fn a_mirrored_disturbance_gives_a_mirrored_flight() {
     }
 }
 
-/// A feedback of the pitch angle turns the amplitude's difference into a torque, and its inputs are columns.
+/// Impossible requests have reasons, and a flight ends when a feedback leaves the range of its input.
 #[test]
 fn impossible_flights_are_refused() {
     let plan = plan(ROBOT);
@@ -169,18 +207,11 @@ fn impossible_flights_are_refused() {
     let inputs = vec![Input::of(plan.vehicle().unwrap(), "amplitude").unwrap()];
     let mut gains = DMatrix::zeros(1, FED_BACK);
     gains[(0, 0)] = 1e6;
-    for is_averaged in [false] {
-        let request = FlightRequest {
-            inputs: inputs.clone(),
-            gains: Some(gains.clone()),
-            is_averaged,
-            ..disturbed(0, 0.1)
-        };
-        let record = try_to_fly(&plan, &request).unwrap();
-        assert_eq!(record.rows.len(), 1);
-        assert_eq!(record.columns[13], "amplitude");
-        assert_eq!(record.rows[0][13].to_bits(), 140.0_f64.to_bits());
-        let end = record.end.unwrap();
-        assert!(end.starts_with("drive_voltage_pp is -"), "{end}");
-    }
+    let request = FlightRequest { inputs, gains: Some(gains), ..disturbed(0, 0.1) };
+    let record = try_to_fly(&plan, &request).unwrap();
+    assert_eq!(record.rows.len(), 1);
+    assert_eq!(record.columns[13], "amplitude");
+    assert_eq!(record.rows[0][13].to_bits(), 140.0_f64.to_bits());
+    let end = record.end.unwrap();
+    assert!(end.starts_with("drive_voltage_pp is -"), "{end}");
 }

@@ -7,7 +7,7 @@ use clap::value_parser;
 use flap_sweep::study::wrench_map::WrenchMap;
 
 use super::options::{OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
-use super::values::{NamedRange, named_range, target, threads};
+use super::values::{NamedRange, assignment, named_range, target, threads, time};
 
 #[derive(clap::Args)]
 #[command(after_help = VEHICLE_HELP)]
@@ -52,6 +52,16 @@ pub(crate) struct VehicleArgs {
     #[arg(long)]
     pub(crate) hover: bool,
 
+    /// Simulate the flight for this time, such as 0.5s, and print the means over each wing beat
+    ///
+    /// The simulation couples the motion of wings and body. This requires the same numbers as --hover.
+    #[arg(long, value_name = "TIME", value_parser = time, conflicts_with_all = ["wrench_map", "damping", "hover", "export"])]
+    pub(crate) fly: Option<f64>,
+
+    /// State of the body at the beginning of --fly: a velocity, a rate or an angle. You can repeat --disturb
+    #[arg(long, value_name = "STATE=VALUE", value_parser = assignment, requires = "fly")]
+    pub(crate) disturb: Vec<(String, String)>,
+
     /// Keep the motion of the wings when the body moves, as papers with prescribed wing motion do
     #[arg(long)]
     pub(crate) frozen: bool,
@@ -65,7 +75,7 @@ pub(crate) struct VehicleArgs {
 
     /// Output format
     ///
-    /// csv and json contain one table with all digits: the control matrix, the damping matrix with --damping, or the modes with --hover.
+    /// csv and json contain one table with all digits: the control matrix, or the table of --damping, --hover or --fly.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 
@@ -91,4 +101,5 @@ Examples:
   flap vehicle vehicle.toml --wrench-map amplitude=180V:220V,bias=-10V:10V,amplitude_difference=-20V:20V,second_harmonic=-0.1:0.1
   flap vehicle vehicle.toml --damping --frozen
   flap vehicle vehicle.toml --trim hover --hover --export model.mat
+  flap vehicle vehicle.toml --trim hover --fly 0.5s --disturb velocity_forward=0.1m/s --format csv
   flap vehicle vehicle.toml --set left_wing_area=\"54 mm^2\" --format csv";

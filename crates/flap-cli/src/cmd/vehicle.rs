@@ -1,7 +1,7 @@
-//! `flap vehicle`: control matrix, trims, and the linear model about hover of a vehicle.
+//! `flap vehicle`: control matrix, trims, the linear model about hover, and flight of a vehicle.
 
+mod fly;
 mod hover;
-
 mod parts;
 mod wrench_map;
 
@@ -75,6 +75,9 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         found.at
     };
     let values = found.applied(&chosen.values);
+    if let Some(seconds) = args.fly {
+        return fly::run(args, seconds, &flight, &values, &found.inputs);
+    }
     let damping = if args.damping { Some(hover::damping(&flight, &values, &found)?) } else { None };
     let model = if args.hover || export.is_some() {
         Some(LinearModel::at(&flight, &values, &found, false, chosen.title())?)

@@ -261,8 +261,9 @@ impl Table {
     pub(super) fn in_motion(&self, values: &[f64]) -> Vec<f64> {
         let mut moving = values.to_vec();
         if let Some(motion) = self.motion {
-            motion.into_iter().for_each(|index| moving[index] = 0.0);
-            moving[motion[0]] = 1.0;
+            for (index, component) in motion.into_iter().zip([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]) {
+                moving[index] = component;
+            }
         }
         moving
     }

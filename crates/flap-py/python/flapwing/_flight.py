@@ -43,7 +43,7 @@ def fly(
     A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``, where x contains the means of
     nine states over the last beat: velocities, rates and angles.
 
-    A flight that cannot go on, for example because an input leaves its range, ends early with a UserWarning.
+    A flight that cannot go on ends early with a UserWarning, for example if an input leaves its range.
 
     Parameters
     ----------
@@ -52,8 +52,9 @@ def fly(
     seconds : float or str
         Duration: a number in seconds, or text with a unit. The flight ends at the end of a wing beat.
     disturbance : dict of str to float or str, optional
-        States of the body at the beginning, by the names of `LinearModel.states`, such as ``{"rate_pitch": 2.0}``:
-        numbers in SI units, or text with units. They do not contain the vibration within each beat. Default: rest.
+        States of the body at the beginning, such as ``{"rate_pitch": 2.0}``, by the names of `LinearModel.states`.
+        Values are numbers in SI units, or text with units. They do not contain the vibration within each beat.
+        Default: rest.
     gains : array_like of shape (inputs, 9), optional
         Gains of the controller in SI units, such as the result K of ``control.lqr``. Default: no controller.
     inputs : sequence of str, optional
@@ -75,15 +76,15 @@ def fly(
     Returns
     -------
     Table
-        One row for each wing beat, with the time at its middle. The columns are `time_s`, velocities and rates in body
-        axes, angles (yaw, then pitch, then roll lead to the attitude), the position in fixed axes, the inputs in SI
-        units, and force and torque of the air.
+        One row for each wing beat, with the time at its middle. The columns are `time_s`, the states with the position,
+        the inputs in SI units, and force and torque of the air. Velocities and rates are in body axes, and the position
+        is in fixed axes. Rotations by the yaw angle, then pitch, then roll lead to the attitude.
 
     Raises
     ------
     ValueError
-        The design is no vehicle, a mass property is missing or impossible, a state or an input is unknown, `gains` have
-        another shape, or the motion of the wings is not periodic.
+        The design is no vehicle, or a mass property is missing or impossible. A state or an input is unknown, or
+        `gains` have another shape. The motion of the wings is not periodic.
     TypeError
         An argument has the wrong type.
 

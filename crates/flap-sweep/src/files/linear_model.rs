@@ -10,9 +10,7 @@ use nalgebra::DMatrix;
 use super::matlab::{self, Variable};
 use crate::notation::text;
 use crate::study::control::{Effectiveness, Flight};
-use crate::study::hover::{
-    self, HoverError, HoverModel, HoverWarning, STATES, WRENCH_TO_SI, WRENCH_UNITS, component,
-};
+use crate::study::hover::{HoverError, HoverModel, HoverWarning, STATES, WRENCH_UNITS, component};
 
 /// Input of a linear model, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,16 +86,8 @@ impl LinearModel {
     ) -> Result<LinearModel, HoverError> {
         let vehicle = flight.vehicle;
         let parameters = vehicle.parameters();
-        let body = vehicle.mass_properties(values);
-        hover::check(&body)?;
         let index = |name: &str| Parameter::index(parameters, name);
-        hover::at_rest(vehicle, values)?;
-        let damping = hover::damping(flight, values, &at.row.state)?;
-        let control = DMatrix::from_fn(6, at.inputs.len(), |i, j| {
-            at.matrix[(i, j)] * WRENCH_TO_SI[i] / at.inputs[j].factor
-        });
-        let wrench = core::array::from_fn(|i| at.wrench[i] * WRENCH_TO_SI[i]);
-        let hover = HoverModel::new(body, damping, &control, wrench, has_position)?;
+        let (hover, control) = HoverModel::at(flight, values, at, has_position)?;
         let response =
             index("body_response").and_then(|index| text::option(&parameters[index], values[index]));
         let inputs = at.inputs.iter().zip(&at.values).map(|(input, value)| LinearInput {

@@ -14,8 +14,7 @@ use flap_core::vehicle::{MassProperties, MovingWings};
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use super::control::{COMPONENTS, ControlError, Flight, Input, own_values};
-use super::hover::{HoverError, STATES, WRENCH_TO_SI, at_rest, check, inertia, inverse_mass};
-use crate::files::linear_model::LinearModel;
+use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, at_rest, check, inertia, inverse_mass};
 
 /// Number of states of a disturbance and of the feedback: velocities, rates and angles.
 pub const FED_BACK: usize = 9;
@@ -311,7 +310,7 @@ impl<'a> Coupled<'a> {
         [body[0], body[1], body[2], body[3], body[4], body[5], roll, pitch, yaw, body[10], body[11], body[12]]
     }
 
-    /// Returns the mean states over a beat. Angles are those of the mean quaternion.
+    /// Returns the mean states over a beat. Angles are computed from the mean quaternion.
     fn means(&self, period: f64) -> [f64; 12] {
         let integrals = &self.y[self.equations.of_wings + BODY..];
         self.body(&integrals[..BODY].iter().map(|integral| integral / period).collect::<Vec<f64>>())
@@ -468,7 +467,9 @@ impl Integrator {
 
 /// The linear model about hover, with the mean wrench over each beat.
 struct Averaged {
-    model: LinearModel,
+    hover: HoverModel,
+    /// Derivatives of force (N) and torque (N·m) with respect to the inputs (SI).
+    control: DMatrix<f64>,
     /// Values of the inputs at the point (SI).
     point: Vec<f64>,
     /// Changes of the inputs.
@@ -491,30 +492,33 @@ impl Averaged {
         disturbance: &[f64; FED_BACK],
     ) -> Result<Averaged, FlightError> {
         let at = flight.effectiveness(values, inputs, None)?;
-        let model = LinearModel::at(flight, values, &at, true, String::new())?;
-        let states = model.hover.a.nrows();
-        let inverse = inverse_mass(&model.hover.body).ok_or(HoverError::NotPositive)?;
+        let (hover, control) = HoverModel::at(flight, values, &at, true)?;
+        let states = hover.a.nrows();
+        let inverse = inverse_mass(&hover.body).ok_or(HoverError::NotPositive)?;
         let mut residual = DVector::zeros(states);
-        residual.rows_mut(0, 6).copy_from(&(inverse * nalgebra::Vector6::from(model.hover.residual())));
+        residual.rows_mut(0, 6).copy_from(&(inverse * nalgebra::Vector6::from(hover.residual())));
         let mut state = DVector::zeros(states);
         state.rows_mut(0, FED_BACK).copy_from_slice(disturbance);
         let parameters = flight.vehicle.parameters();
         let drives = |input: &Input| parameters[input.parameter].name == "drive_frequency";
+        let frequency =
+            Parameter::index(parameters, "drive_frequency").map_or(f64::NAN, |index| values[index]);
         Ok(Averaged {
             point: inputs.iter().map(|input| values[input.parameter]).collect(),
             change: DVector::zeros(inputs.len()),
             residual,
             integral: DVector::zeros(states),
             state,
-            frequency: model.frequency,
+            frequency,
             frequency_input: inputs.iter().position(drives),
-            model,
+            hover,
+            control,
         })
     }
 
     fn body(&self, states: &DVector<f64>) -> BodyState {
-        let hover = &self.model.hover;
-        let wrench = hover.damping * states.fixed_rows::<6>(0) + &self.model.control * &self.change;
+        let hover = &self.hover;
+        let wrench = hover.damping * states.fixed_rows::<6>(0) + &self.control * &self.change;
         BodyState {
             states: core::array::from_fn(|i| states[i]),
             wrench: core::array::from_fn(|i| hover.wrench[i] + wrench[i]),
@@ -529,7 +533,7 @@ impl Motion for Averaged {
 
     /// Advances by the exponential of the matrix of states, their integrals, and a constant.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
-        let hover = &self.model.hover;
+        let hover = &self.hover;
         let n = self.state.len();
         let mut matrix = DMatrix::zeros(2 * n + 1, 2 * n + 1);
         matrix.view_mut((0, 0), (n, n)).copy_from(&hover.a);

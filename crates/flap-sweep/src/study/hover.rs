@@ -12,7 +12,7 @@ use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MassProperties, Vehicle};
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::{COMPONENTS, ControlError, Flight, Input, Target};
+use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input, Target};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -284,6 +284,28 @@ impl HoverModel {
         b.view_mut((0, 0), (6, control.ncols())).copy_from(&(inverse * control));
         let modes = modes(&a)?;
         Ok(HoverModel { body, damping, wrench, a, b, modes })
+    }
+
+    /// Returns the linear model at an operating point with these inputs and values of the vehicle's parameters. Also returns
+    /// the derivatives of force (N) and torque (N·m) with respect to the inputs (SI).
+    ///
+    /// # Errors
+    /// If mass properties are missing or impossible, the body moves, or a derivative is missing.
+    pub fn at(
+        flight: &Flight<'_>,
+        values: &[f64],
+        at: &Effectiveness,
+        has_position: bool,
+    ) -> Result<(HoverModel, DMatrix<f64>), HoverError> {
+        let body = flight.vehicle.mass_properties(values);
+        check(&body)?;
+        at_rest(flight.vehicle, values)?;
+        let damping = damping(flight, values, &at.row.state)?;
+        let control = DMatrix::from_fn(6, at.inputs.len(), |i, j| {
+            at.matrix[(i, j)] * WRENCH_TO_SI[i] / at.inputs[j].factor
+        });
+        let wrench = core::array::from_fn(|i| at.wrench[i] * WRENCH_TO_SI[i]);
+        Ok((HoverModel::new(body, damping, &control, wrench, has_position)?, control))
     }
 
     /// Returns names and units of the states, which are also the outputs.

@@ -1,0 +1,60 @@
+//! Flight of a vehicle over time.
+
+use flap_core::simulate::Trajectory;
+use flap_sweep::notation::units;
+use flap_sweep::study::control::{Flight, Input};
+use flap_sweep::study::flight::{FED_BACK, FlightError, FlightRequest, fly};
+use flap_sweep::study::hover::STATES;
+
+use crate::args::VehicleArgs;
+use crate::console;
+use crate::failure::{Exit, Failure};
+use crate::print;
+
+/// Prints the flight from these values of the vehicle's parameters.
+pub(super) fn run(
+    args: &VehicleArgs,
+    seconds: f64,
+    flight: &Flight<'_>,
+    values: &[f64],
+    inputs: &[Input],
+) -> Result<Exit, Failure> {
+    let request = FlightRequest {
+        seconds,
+        disturbance: disturbance(&args.disturb)?,
+        inputs: inputs.to_vec(),
+        gains: None,
+        is_averaged: false,
+        samples: None,
+    };
+    let record = fly(flight, values, &request).map_err(|error| match error {
+        FlightError::Hover(error) => error.into(),
+        error => Failure::usage(format!("--fly: {error}")),
+    })?;
+    if let Some(reason) = record.end {
+        console::warn(&format!("the flight ends early: {reason}"));
+    }
+    print::motion(args.format, &Trajectory { columns: record.columns, rows: record.rows })?;
+    Ok(Exit::Done)
+}
+
+/// Returns the disturbance of `--disturb`.
+fn disturbance(given: &[(String, String)]) -> Result<[f64; FED_BACK], Failure> {
+    let mut disturbance = [0.0; FED_BACK];
+    for (name, value) in given {
+        let states = &STATES[..FED_BACK];
+        let Some(state) = states.iter().position(|(state, _)| state == name) else {
+            let failure = Failure::usage(format!("--disturb: no state is called `{name}`"));
+            let known = states.iter().map(|(state, _)| *state);
+            return Err(failure.nearest(name, known, "states are velocity_forward to angle_yaw"));
+        };
+        disturbance[state] = units::parse_as(value, states[state].1).map_err(|error| {
+            let failure = Failure::usage(error.message(&format!("--disturb {name}={value}")));
+            match error.help() {
+                Some(help) => failure.help(help),
+                None => failure,
+            }
+        })?;
+    }
+    Ok(disturbance)
+}
