@@ -2,11 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
-use flap_core::simulate::never;
+use flap_core::body::BodyParameters;
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{SolverSettings, never};
 use flap_sweep::plan::Plan;
 use flap_sweep::study::control::{Flight, Input};
 use flap_sweep::study::flight::{FED_BACK, FlightError, FlightRecord, FlightRequest, fly};
-use flap_sweep::study::hover::STATES;
 use nalgebra::{DMatrix, Rotation3, Vector3};
 
 use crate::support::plan;
@@ -113,8 +114,9 @@ fn robot(factor: f64) -> Plan {
     plan(&format!("{before}{}[[{wings}", properties.concat()))
 }
 
-/// Returns the largest difference between the change by a disturbance and the linear model, as shares of the disturbance
-/// or of the state's largest value.
+/// Returns the largest difference between coupled flight and linear model in the disturbed state, as a share of this state.
+///
+/// The undisturbed flight is subtracted from the coupled flight.
 fn deviation(plan: &Plan, seconds: f64, state: usize, by: f64) -> f64 {
     let request = FlightRequest { seconds, ..disturbed(state, by) };
     let at_rest = flown(plan, &FlightRequest { seconds, ..REST.clone() });
@@ -146,7 +148,6 @@ fn small_disturbances_are_those_of_the_linear_model() {
     ] {
         let found = deviation(&robot(1.0), 0.2, state, by);
         let heavy = deviation(&robot(30.0), 1.0, state, by / 30.0);
-        eprintln!("{}: {found:.4}, {heavy:.5}", STATES[state].0);
         assert!(found < limit && heavy < limit_heavy);
     }
 }
@@ -167,7 +168,7 @@ fn a_vehicle_at_hover_stays() {
     }
 }
 
-/// The mirrored disturbance gives the mirrored flight.
+/// The mirrored disturbance gives the mirrored flight, within errors of integration. Rounding changes the steps.
 #[test]
 fn a_mirrored_disturbance_gives_a_mirrored_flight() {
     let plan = plan(ROBOT);
@@ -187,7 +188,7 @@ fn a_mirrored_disturbance_gives_a_mirrored_flight() {
         }
     }
     for i in 0..18 {
-        assert!(errors[i] < 1e-9 * largest[i], "{} of {} in column {}", errors[i], largest[i], i + 1);
+        assert!(errors[i] < 2e-4 * largest[i], "{} of {} in column {}", errors[i], largest[i], i + 1);
     }
 }
 
@@ -214,4 +215,42 @@ fn impossible_flights_are_refused() {
     assert_eq!(record.rows[0][13].to_bits(), 140.0_f64.to_bits());
     let end = record.end.unwrap();
     assert!(end.starts_with("drive_voltage_pp is -"), "{end}");
+}
+
+/// Wings on a heavy body, which moves steadily, settle on the wrench of a row with this motion, in each model.
+#[test]
+fn wings_on_a_heavy_body_have_the_wrench_of_rows() {
+    for (design, limit) in [
+        ("preset = \"jafferis2016\"\n[params]\ndrive_voltage_pp = 140\ndrive_frequency = 120\n", 1e-6),
+        ("preset = \"ozaki2018-large\"\n[params]\nflow_direction = \"blade\"\n", 1e-5),
+        ("preset = \"arabagi2013-75hz\"\n[params]\n", 1e-4),
+    ] {
+        let heavy = plan(&format!(
+            "{design}\n[vehicle]\nabout = [0, 0, -0.003]\ntotal_mass = 1e6\nbody_inertia_roll = 1\nbody_inertia_pitch = 1\n\
+             body_inertia_yaw = 1\ngravity = 1e-12\n[[vehicle.wings]]\nname = \"left\"\nposition = [0, 0.002, 0]\n\
+             plane = {{ pitch = 0.1 }}\n[[vehicle.wings]]\nname = \"right\"\nposition = [0, 0.002, 0]\nmirrored = true\n"
+        ));
+        let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..*heavy.solver() };
+        let flight = Flight { vehicle: heavy.vehicle().unwrap(), solver: &solver, interrupted: &never };
+        let parameters = heavy.parameters();
+        for motion in [[0.2, -0.3, 0.1, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 3.0, -5.0, 8.0]] {
+            let mut values = heavy.point(0).values;
+            let mut disturbance = [0.0; FED_BACK];
+            for (i, name) in BodyParameters::MOTION.iter().enumerate() {
+                values[Parameter::index(parameters, name).unwrap()] = motion[i];
+                disturbance[i] = motion[i];
+            }
+            let expected = flight.wrench(&flight.row(&values, None));
+            let request = FlightRequest { seconds: 0.6, disturbance, ..REST.clone() };
+            let record = fly(&flight, &heavy.point(0).values, &request).unwrap();
+            let found = &record.rows.last().unwrap()[13..];
+            for part in [0..3, 3..6] {
+                let size = part.clone().map(|i| expected[i].abs()).fold(0.0, f64::max);
+                for i in part {
+                    let error = (found[i] - expected[i]).abs() / size;
+                    assert!(error < limit, "{design}: {found:?} instead of {expected:?}");
+                }
+            }
+        }
+    }
 }

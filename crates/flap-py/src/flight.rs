@@ -78,7 +78,7 @@ pub(crate) fn fly<'py>(
 /// Returns names and meanings of force and torque.
 fn vehicle_columns(chosen: &Chosen) -> Vec<(String, String)> {
     let columns = chosen.simulator().columns().iter();
-    columns.map(|column| (column.name.to_string(), column.doc.to_string())).collect()
+    columns.map(|column| (column.name.clone(), column.doc.clone())).collect()
 }
 
 /// Returns the meaning of a column of the body's motion.

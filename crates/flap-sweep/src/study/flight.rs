@@ -268,6 +268,7 @@ impl<'a> Coupled<'a> {
             Equations { wings, of_wings, mass: body.mass, gravity: body.gravity, inertia, inverse };
         let integrator = Integrator {
             rtol: flight.solver.rtol,
+            atol: flight.solver.atol,
             most_steps: flight.solver.max_steps,
             scale,
             step: period / 200.0,
@@ -399,11 +400,13 @@ impl Equations {
 
 /// Dormand-Prince 5(4) with step-size control, for any number of states.
 struct Integrator {
-    /// Tolerance relative to the size of each state.
+    /// Tolerance relative to each state.
     rtol: f64,
+    /// Tolerance relative to the typical size of each state.
+    atol: f64,
     /// Largest number of steps of an integration.
     most_steps: u32,
-    /// Size of each state; infinite if its error does not count.
+    /// Typical size of each state; infinite if its error does not count.
     scale: Vec<f64>,
     /// Next step (s).
     step: f64,
@@ -436,8 +439,8 @@ impl Integrator {
             }
             let square = |i: usize| {
                 let error: f64 = (0..STAGES).map(|j| E[j] * k[j][i]).sum();
-                let size = self.scale[i] + y[i].abs().max(next[i].abs());
-                (h * error / (self.rtol * size)).powi(2)
+                let size = self.rtol * y[i].abs().max(next[i].abs()) + self.atol * self.scale[i];
+                (h * error / size).powi(2)
             };
             let error = ((0..y.len()).map(square).sum::<f64>() / counted).sqrt();
             if !(error.is_finite() && h > 0.0) {
