@@ -40,8 +40,8 @@ def fly(
     of mass. The flight requires `total_mass` and the parameters `body_inertia_roll`, `body_inertia_pitch` and
     `body_inertia_yaw`.
 
-    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The nine states x are the means
-    of velocities, rates and angles over the last beat.
+    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The nine states x are means of
+    velocities, rates and angles over the last beat.
 
     A flight that cannot go on ends early with a UserWarning, for example if an input leaves its range.
 
