@@ -234,9 +234,21 @@ def force_panels() -> Figure:
     return plot.force_panels(flapwing.sweep(course, difference_drive_voltage_pp="20 V"))
 
 
+def eigenvalues() -> Axes:
+    """Eigenvalues about hover, with wings that respond to the body and with frozen wings."""
+    place = ["0 mm", "2 mm", "0 mm"]
+    wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    drive = {"drive_voltage_pp": "140 V", "drive_frequency": "120 Hz"}
+    body = {"body_inertia_roll": 1.5e-9, "body_inertia_pitch": 1.5e-9, "body_inertia_yaw": 0.5e-9}
+    design = {"preset": "jafferis2016", "params": {**drive, **body}}
+    robot = flapwing.Vehicle(design, wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+    models = {response: robot.linear(trim=True, body_response=response) for response in ("passive", "frozen")}
+    return plot.eigenvalues(models)
+
+
 def main() -> None:
     """Writes all pictures to a folder."""
-    parser = argparse.ArgumentParser(description="Makes the pictures of plots-python.md and devices.md in docs/how-to.")
+    parser = argparse.ArgumentParser(description="Makes the pictures of some pages in docs/how-to.")
     parser.add_argument("folder", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures")
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
@@ -263,6 +275,7 @@ def main() -> None:
         "fit": fit(),
         "control-matrix": control_matrix(),
         "force-panels": force_panels(),
+        "eigenvalues": eigenvalues(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)
