@@ -275,7 +275,6 @@ def main() -> None:
         "fit": fit(),
         "control-matrix": control_matrix(),
         "force-panels": force_panels(),
-        "eigenvalues": eigenvalues(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)
@@ -284,6 +283,10 @@ def main() -> None:
     path = folder / "py-wing-path.gif"
     wing_path().save(path, dpi=56)
     share_colours(path)
+    plt.close("all")
+    last = eigenvalues().get_figure(root=True)
+    assert last is not None
+    save(last, folder / "py-eigenvalues.png", True)
     plt.close("all")
 
 
