@@ -27,7 +27,7 @@ SEARCHES = {
     "units": ["reference/grid"],
     "derivative": ["how-to/derivatives"],
     "floquet": ["glossary", "models/numerics"],
-    "matlab": ["how-to/questions"],
+    "matlab": ["how-to/questions", "how-to/hover"],
     "torque": ["how-to/vehicle", "models/vehicle"],
     "transmission ratio": ["glossary"],
     "rtol": ["models/numerics", "glossary"],
