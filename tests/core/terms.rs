@@ -14,7 +14,7 @@ use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, pres
 use crate::data::assert_close;
 
 /// True if a parameter with this value in a preset is one of these terms, or belongs to a table of chords, which no preset
-/// has, or to the motion of the body. Random designs leave them out: they are those of the papers' models.
+/// has, or to the motion of the body. Random designs leave them out, because they describe the models of the papers.
 pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
     let is_absent = value == 0.0 || value.is_nan() || parameter.name == "plate_ratio";
     let chord = parameter.name.strip_prefix("chord_");

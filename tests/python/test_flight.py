@@ -35,7 +35,7 @@ def test_a_regulator_holds_hover_and_without_it_the_vehicle_tumbles(regulator):
     assert len(held) == 240
     assert np.all(np.abs(states(held)[60:]) < 0.1 * SIZES)
     assert np.all(np.abs(states(held)[-1]) < 0.07 * SIZES)
-    # The first beat has the inputs of the point, and all later beats those of the regulator.
+    # The first beat has the inputs of the point. The regulator sets the inputs of all later beats.
     inputs = np.column_stack([held[name] for name in regulator["inputs"]])
     changes = inputs - inputs[0]
     np.testing.assert_allclose(inputs[0], [140.0, 0.0, 0.0, 0.0])
