@@ -40,6 +40,7 @@ mod reals;
 mod robustness;
 mod rows;
 mod samples;
+mod sections;
 mod settings;
 mod slopes;
 mod span;

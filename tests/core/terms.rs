@@ -16,14 +16,15 @@ use crate::data::assert_close;
 /// True if a parameter with this value in a preset is one of these terms, or belongs to a table of chords, which no preset
 /// has, or to the motion of the body. Random designs leave them out, because they describe the models of the papers.
 pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
-    let is_absent = value == 0.0 || value.is_nan() || parameter.name == "plate_ratio";
+    let is_absent =
+        value == 0.0 || value.is_nan() || ["plate_ratio", "hinge_stop_angle"].contains(&parameter.name);
     let chord = parameter.name.strip_prefix("chord_");
     let of_table = chord.is_some_and(|rest| rest == "table" || rest.parse::<u32>().is_ok());
     let of_body = parameter.group == "body motion" || parameter.name == "wing_radius_1";
     of_table || of_body || (TERMS.contains(&parameter.name) && is_absent)
 }
 
-const TERMS: [&str; 11] = [
+const TERMS: [&str; 19] = [
     "drive_offset",
     "transmission_growth",
     "stroke_damping",
@@ -35,6 +36,14 @@ const TERMS: [&str; 11] = [
     "plate_ratio",
     "dielectric_loss",
     "charge_recovery",
+    "modulus_decline",
+    "stroke_stiffening",
+    "hinge_stiffening",
+    "hinge_stop_angle",
+    "hinge_stop_stiffness",
+    "circulation_factor",
+    "added_mass_factor",
+    "axis_position",
 ];
 
 /// A design: a preset with some parameters changed.
@@ -360,7 +369,7 @@ const BIMORPH: &[&str] = &["bimorph"];
 /// The models whose presets have no hinge damping.
 const UNDAMPED: &[&str] = &["bimorph", "direct-drive"];
 
-const SHOWN: [Shown; 11] = [
+const SHOWN: [Shown; 18] = [
     // Of the order of the loss factor below. The four-bar's presets have 200 nN·m·s.
     ("`stroke_damping` 5 nN·m·s", ("stroke_damping", 5e-9), BIMORPH),
     ("`stroke_damping` 500 nN·m·s", ("stroke_damping", 5e-7), &["direct-drive"]),
@@ -373,6 +382,13 @@ const SHOWN: [Shown; 11] = [
     ("`transmission_growth` 4.4 rad/mm³", ("transmission_growth", 4.4e9), BIMORPH),
     ("`drive_offset` 20 V", ("drive_offset", 20.0), BIMORPH),
     ("`plate_ratio` 0.9", ("plate_ratio", 0.9), BIMORPH),
+    ("`modulus_decline` 0.1 µm/V", ("modulus_decline", 1e-7), BIMORPH),
+    ("`stroke_stiffening` 1 µN·m/rad³", ("stroke_stiffening", 1e-6), BIMORPH),
+    ("`hinge_stiffening` 1 µN·m/rad³", ("hinge_stiffening", 1e-6), BIMORPH),
+    ("`hinge_stiffening` 30 µN·m/rad³", ("hinge_stiffening", 3e-5), &["direct-drive", "four-bar"]),
+    ("`hinge_stop_stiffness` 30 µN·m/rad at 60°", ("hinge_stop_stiffness", 3e-5), ALL),
+    ("`circulation_factor` 1", ("circulation_factor", 1.0), ALL),
+    ("`added_mass_factor` 1", ("added_mass_factor", 1.0), BIMORPH),
 ];
 
 /// The changes of measures by each term at each preset.

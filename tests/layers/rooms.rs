@@ -15,6 +15,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "drive",
             "piezo",
             "linkage",
+            "springs",
             "body",
             "aero",
             "modes",

@@ -160,6 +160,20 @@ pub struct Shoulder<R> {
 }
 
 impl<R: Real> Shoulder<R> {
+    /// Returns a shoulder at rest. `number` is any number.
+    #[inline(always)]
+    pub fn rest(number: R) -> Shoulder<R> {
+        let zero = number.lit(0.0);
+        Shoulder {
+            velocity_t: zero,
+            velocity_s: zero,
+            velocity_z: zero,
+            rate_t: zero,
+            rate_s: zero,
+            rate_z: zero,
+        }
+    }
+
     /// Returns the motion of the wing's sections. `stroke_rate` and `pitch_rate` are φ̇ and ψ̇ (rad/s), `cos` is cos ψ.
     #[inline(always)]
     pub fn sections(&self, stroke_rate: R, pitch_rate: R, cos: R) -> Sections<R> {

@@ -7,7 +7,7 @@
 //! - [`num`]: number types of models and integrators: scalars and SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
 //! - [`parameter`]: names, units, ranges and descriptions of a design point's numbers
-//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`body`], [`aero`], [`modes`]: components that several models use
+//! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`springs`], [`body`], [`aero`], [`modes`]: components that several models use
 //! - [`model`]: the published models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, for any model
 //! - [`simulate`]: design points in, rows out
@@ -28,6 +28,7 @@ pub mod parameter;
 pub mod piezo;
 pub mod quadrature;
 pub mod simulate;
+pub mod springs;
 pub mod vehicle;
 
 /// Hash of this crate's sources, in hexadecimal digits. Builds with equal hashes compute equal rows.

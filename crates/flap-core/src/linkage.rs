@@ -1,4 +1,4 @@
-//! Hinges and transmissions, and their losses.
+//! Linkages of transmissions: slider-crank and planar four-bar.
 //!
 //! In the planar four-bar the input link L₁ turns about the origin and the output link L₃ about (L₀, 0). The coupler
 //! L₂ connects their ends A and B. The independent variable is the stroke angle θ: the output link is at the angle ψ
@@ -7,56 +7,6 @@
 use core::f64::consts::PI;
 
 use crate::num::Real;
-use crate::parameter::Kind::{Following, Number};
-use crate::parameter::Range::{NonNegative, Positive};
-
-/// Returns the viscous damping γ k/ω equivalent to the loss factor γ of a spring.
-///
-/// k is the spring's `stiffness`, ω the angular frequency `rate` (rad/s). The equivalence is exact for the first
-/// harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured such losses in insect thoraxes and
-/// robot hinges.
-pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
-    loss_factor * stiffness / rate
-}
-
-crate::parameters! {
-    /// Loss factor and size of the wing hinge.
-    pub struct HingeParameters {
-        /// Loss factor of the wing hinge. The loss factor adds a viscous damping: loss factor times stiffness, divided
-        /// by the angular drive frequency.
-        hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Thickness of the flexure of the wing hinge. The thickness affects only the column hinge_strain_max.
-        hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
-        /// Length of the flexure of the wing hinge, between the rigid parts. The length affects only the column
-        /// hinge_strain_max.
-        hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
-    }
-}
-
-/// Powers with which the stiffness E w t^3 / (12 l) of a bending flexure scales with its thickness t and length l.
-pub(crate) const FLEXURE: &[(&str, f64)] = &[("hinge_thickness", 3.0), ("hinge_length", -1.0)];
-
-impl HingeParameters {
-    /// A hinge without loss and without dimensions.
-    pub(crate) const NONE: HingeParameters =
-        HingeParameters { hinge_loss_factor: 0.0, hinge_thickness: None, hinge_length: None };
-
-    /// Returns the equivalent damping (N·m·s) of the loss factor. `stiffness` is the hinge's (N·m/rad), `rate` the
-    /// angular frequency (rad/s).
-    pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
-        structural_damping(self.hinge_loss_factor, stiffness, rate)
-    }
-
-    /// Returns the strain of the flexure's faces per pitch (1/rad): thickness over twice the length.
-    ///
-    /// The flexure is assumed to bend to an arc of a circle. Zero if its dimensions are not set.
-    pub(crate) fn strain_per_angle(&self) -> f64 {
-        match (self.hinge_thickness, self.hinge_length) {
-            (Some(thickness), Some(length)) => 0.5 * thickness / length,
-            _ => 0.0,
-        }
-    }
-}
 
 crate::per_lane! {
     /// A slider-crank whose crank is perpendicular to the slider's line at rest, with the connecting rod along that

@@ -1,9 +1,9 @@
 //! Rows from lanes against rows from scalars.
 
 use flap_core::drive::{Shape, WaveformParameters};
-use flap_core::linkage::HingeParameters;
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 use flap_core::simulate::Status;
+use flap_core::springs::HingeParameters;
 
 use super::model;
 use crate::rows::{QUICK, assert_lanes_equal_scalars};
@@ -21,15 +21,22 @@ fn points() -> Vec<Vec<f64>> {
                 hinge_stiffness: p.hinge_stiffness * (0.5 + (0.37 * k) % 1.5),
                 // Without a size, the hinge's strain is not a number.
                 hinge: HingeParameters {
-                    hinge_loss_factor: 0.0,
                     hinge_thickness: Some(12.5e-6),
                     hinge_length: Some(80e-6),
+                    ..Params::jafferis2016().hinge
                 },
                 ..p
             };
             let p = match i % 10 {
                 1 => Params { field_transition: FieldTransition::Printed, ..p },
-                3 => Params { centre_of_pressure: CentreOfPressure::Directional, ..p },
+                3 => Params {
+                    centre_of_pressure: CentreOfPressure::Directional,
+                    circulation_factor: 0.5,
+                    added_mass_factor: 0.3,
+                    stroke_stiffening: 1e-6,
+                    modulus_decline: 1e-8,
+                    ..p
+                },
                 5 => Params { centre_of_pressure: CentreOfPressure::Literal, ..p },
                 7 => Params { actuator_stiffness: ActuatorStiffness::Constant, ..p },
                 4 => Params { waveform: WaveformParameters::new(Shape::Square), ..p },

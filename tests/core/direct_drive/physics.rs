@@ -22,9 +22,9 @@ fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
     0.5 * (c.m11 + c.m_s * sin * sin) * phi_dot * phi_dot
         + c.m12 * cos * phi_dot * psi_dot
         + 0.5 * c.m22 * psi_dot * psi_dot
-        + 0.5 * c.a11 * cos * cos * phi_dot * phi_dot
-        - c.a12 * cos * phi_dot * psi_dot
-        + 0.5 * c.a22 * psi_dot * psi_dot
+        + 0.5 * c.added.a11 * cos * cos * phi_dot * phi_dot
+        - c.added.a12 * cos * phi_dot * psi_dot
+        + 0.5 * c.added.a22 * psi_dot * psi_dot
         + 0.5 * c.k_phi * phi * phi
         + 0.5 * c.k_w * psi * psi
 }

@@ -1,8 +1,10 @@
-//! Aerodynamics that several models use: strips of the wing, the chord table, the wing's outline and mass.
+//! Aerodynamics that several models use: strips of the wing, added mass and rotational circulation, the chord table, the
+//! wing's outline and mass.
 
 mod chord_table;
 mod oblique;
 mod strips;
+mod unsteady;
 mod wing;
 
 pub(crate) use chord_table::chord_table;
@@ -10,4 +12,5 @@ pub use chord_table::{ChordTable, STATIONS, Tabulated};
 pub use oblique::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
 pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};
+pub use unsteady::{AddedMass, Circulation, NormalLoad};
 pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};

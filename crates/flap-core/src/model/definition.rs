@@ -209,6 +209,12 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// it if the load jumps within steps.
     #[inline(always)]
     fn impulse<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
+        self.impulse_of_stages(c, attempt)
+    }
+
+    /// Returns the time integral of a load that does not jump within the step, from the stages of the step.
+    #[inline(always)]
+    fn impulse_of_stages<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
         let Attempt { side, step, .. } = *attempt;
         attempt.integral(
             #[inline(always)]

@@ -1,5 +1,6 @@
 //! The load of the air on a wing: force and moment at its shoulder.
 
+use crate::aero::NormalLoad;
 use crate::num::Real;
 
 /// The load of the air on a wing at an instant, in directions that move with the wing.
@@ -32,6 +33,20 @@ impl<R: Real> Load<R> {
             lift_moment: unknown,
             drag_moment: unknown,
             span_moment: unknown,
+        }
+    }
+
+    /// Returns this load with another load along the wing's normal, at a pitch with this sine and cosine.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_normal(&self, normal: &NormalLoad<R>, [sin, cos]: [R; 2]) -> Load<R> {
+        Load {
+            stroke: self.stroke,
+            lift: self.lift - normal.force * sin,
+            drag: self.drag - normal.force * cos,
+            lift_moment: self.lift_moment - normal.chord_moment * sin,
+            drag_moment: self.drag_moment - normal.chord_moment * cos,
+            span_moment: self.span_moment + normal.span_moment,
         }
     }
 

@@ -148,6 +148,12 @@ impl Real for F64x8 {
     }
 
     #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        // The value `self` is proof enough, see `intrinsic`.
+        Avx512(()).vectorize(work)
+    }
+
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         F64x8(intrinsic!(_mm512_min_pd(self.0, other.0)))
     }
@@ -183,12 +189,6 @@ impl Lanes for F64x8 {
     #[inline(always)]
     fn mask(_token: Avx512, bits: u64) -> __mmask8 {
         (bits & 0xff) as __mmask8
-    }
-
-    #[inline(always)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        // The value `self` is proof enough, see `intrinsic`.
-        Avx512(()).vectorize(work)
     }
 
     #[inline(always)]

@@ -50,11 +50,6 @@ pub trait Lanes: Real + Bits {
     /// Returns one bit per lane of `mask`, with lane 0 in the lowest bit.
     fn bits(mask: Self::Mask) -> u64;
 
-    /// Calls `work` in a function that is compiled once, if that saves compile time without costing speed.
-    ///
-    /// This is the case for SIMD types, where many layers are inlined.
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T;
-
     /// Returns 1/x of a normal positive number up to 2^1022, with relative errors below 1.74·10^-3.
     #[inline(always)]
     fn rough_reciprocal(self) -> Self {

@@ -56,6 +56,11 @@ impl<L: Lanes> Real for Pair<L> {
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Pair { lo: L::select(mask.lo, yes.lo, no.lo), hi: L::select(mask.hi, yes.hi, no.hi) }
     }
+
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        self.lo.outlined(work)
+    }
 }
 
 impl<L: Lanes> Lanes for Pair<L> {
@@ -86,11 +91,6 @@ impl<L: Lanes> Lanes for Pair<L> {
     fn mask(token: L::Token, bits: u64) -> Self::Mask {
         let low = (1_u64 << L::LANES) - 1;
         PairMask { lo: L::mask(token, bits & low), hi: L::mask(token, (bits >> L::LANES) & low) }
-    }
-
-    #[inline(always)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        self.lo.outlined(work)
     }
 
     #[inline(always)]

@@ -64,6 +64,14 @@ pub trait Real:
     /// Returns the entries of a table at `self`, lane by lane. The entries are constants without derivatives.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
+    /// Calls `work` in a function that is compiled once, if that saves compile time without costing speed.
+    ///
+    /// This is the case for SIMD types, where many layers are inlined.
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
     /// Returns the smaller of two numbers; `other` if either is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {

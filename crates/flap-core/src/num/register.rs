@@ -68,6 +68,11 @@ impl<S: Simd> Real for Register<S> {
         Register(mask.select(yes.0, no.0))
     }
 
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        self.0.token().vectorize(work)
+    }
+
     // These compile to one instruction each, with the required result for NaN. Other architectures treat NaN
     // differently.
     #[cfg(target_arch = "x86_64")]
@@ -96,11 +101,6 @@ impl<S: Simd> Lanes for Register<S> {
     #[inline(always)]
     fn mask(token: Instructions<S>, bits: u64) -> S::mask64s {
         S::mask64s::from_bitmask(token.0, bits)
-    }
-
-    #[inline(always)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        self.0.token().vectorize(work)
     }
 
     #[inline(always)]

@@ -75,11 +75,6 @@ impl<R: Scalar> Lanes for R {
     fn bits(mask: bool) -> u64 {
         u64::from(mask)
     }
-
-    #[inline(always)]
-    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
-        work()
-    }
 }
 
 /// The scalar of [`super::Arithmetic::Fused`]. Its `mul_add` rounds once.

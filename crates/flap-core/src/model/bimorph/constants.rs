@@ -5,10 +5,12 @@
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
-use super::strips::Moving;
+use super::strips::{Moving, unsteady};
+use crate::aero::{AddedMass, Circulation};
 use crate::drive::{DriveConstants, Shape};
-use crate::linkage::structural_damping;
+use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
+use crate::springs::{Stiffening, structural_damping};
 
 crate::per_lane! {
     /// Constants of one design point, in SI units.
@@ -50,6 +52,14 @@ crate::per_lane! {
         /// Share of the returned power that the supply recovers.
         pub charge_recovery: R,
 
+        /// Stiffness of the carbon fibre at the tip (N/m), (3).
+        pub k_shim: R,
+        /// Stiffness of the plates at the tip without field and without the stiffening by strain (N/m), (3).
+        pub k_plates: R,
+        /// Force of the strain stiffening (N) per unit of L without field, (3), (4).
+        pub f_plates: R,
+        /// Relative reduction of the plates' modulus per field (m/V).
+        pub modulus_decline: R,
         /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
         pub k_soft: R,
         /// Force of the strain stiffening (N) per unit of L, (3), (4).
@@ -78,6 +88,10 @@ crate::per_lane! {
 
         /// 1/I_xx (1/(kg·m²)).
         pub inverse_i_xx: R,
+        /// I_xx (kg·m²).
+        pub i_xx: R,
+        /// I_xz (kg·m²).
+        pub i_xz: R,
         /// Inertial torque per acceleration of the tip T I_xz (kg·m), (2).
         pub coupling: R,
         /// Centrifugal torque per ẋ² sin 2ψ (kg): ½ I_xx T², (2).
@@ -118,6 +132,12 @@ crate::per_lane! {
         pub surface_strain_ratio: R,
         /// Mass of the vehicle (kg).
         pub vehicle_mass: R,
+        /// Nonlinear parts of the springs.
+        pub stiffening: Stiffening<R>,
+        /// Rotational circulation of the sections.
+        pub circulation: Circulation<R>,
+        /// Added mass of the sections, besides I_am.
+        pub added: AddedMass<R>,
         /// Motion of the body, and the strips on which it acts.
         pub moving: Moving<R>,
     }
@@ -169,6 +189,7 @@ impl Constants<f64> {
         let drive = p.drive();
         let c_p = 0.25 * p.vehicle_capacitance;
         let stroke_inertia = p.wing_inertia_stroke + p.added_inertia_stroke;
+        let (circulation, added) = unsteady(p)?;
         let mut constants = Constants {
             drive,
             half_offset: 0.5 * p.drive_offset,
@@ -189,8 +210,13 @@ impl Constants<f64> {
             conductance: p.electrical.conductance(c_p, drive.rate),
             charge_recovery: p.electrical.charge_recovery,
 
-            k_soft: actuator.stiffness_per_modulus * soft_modulus + actuator.shim_stiffness,
-            f_stiff: actuator.stiffness_per_modulus * half_range / u_per_tip * f64::from(stiffens),
+            k_shim: actuator.shim_stiffness,
+            k_plates: actuator.stiffness_per_modulus * soft_modulus,
+            f_plates: actuator.stiffness_per_modulus * half_range / u_per_tip * f64::from(stiffens),
+            modulus_decline: p.modulus_decline,
+            // Set from the drive in `with_drive` below.
+            k_soft: f64::NAN,
+            f_stiff: f64::NAN,
             u_per_tip,
             sigma_0,
             k_t: p.transmission_stiffness,
@@ -204,6 +230,8 @@ impl Constants<f64> {
             c_b: force * p.pressure_radius * ratio * b_2,
 
             inverse_i_xx: 1.0 / p.wing_inertia_hinge,
+            i_xx: p.wing_inertia_hinge,
+            i_xz: p.wing_inertia_product,
             coupling: p.wing_inertia_product * ratio,
             centrifugal: 0.5 * p.wing_inertia_hinge * (ratio * ratio),
             kappa_wh: p.hinge_stiffness,
@@ -225,16 +253,38 @@ impl Constants<f64> {
             strain_per_tip: actuator.strain_per_tip,
             surface_strain_ratio: actuator.surface_strain_ratio,
             vehicle_mass: p.vehicle_mass,
+            stiffening: Stiffening::of(p.stroke_stiffening, &p.hinge),
+            circulation,
+            added,
             moving: Moving::REST,
-        };
+        }
+        .with_drive(drive);
+        if constants.k_soft <= 0.0 {
+            return Err(Invalid::together(
+                &["modulus_decline", "drive_voltage_pp", "piezo_thickness"],
+                "the actuator has no stiffness: modulus_decline times the mean field in the plates is too large",
+            ));
+        }
+        let coupling = added.a12 * (added.a12 + p.wing_inertia_product);
+        if (stroke_inertia + added.a11) * (p.wing_inertia_hinge + added.a22) <= coupling {
+            return Err(inertias_apart(&[
+                "wing_inertia_product",
+                "added_mass_factor",
+                "wing_inertia_hinge",
+                "wing_inertia_stroke",
+            ]));
+        }
         // L → σ₀ u for small u.
         let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
         let stiffness = constants.k_soft + stiffening + constants.k_t;
         constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
-        Invalid::unless_finite(constants.with_drive(drive))
+        Invalid::unless_finite(constants)
     }
 
     /// Returns the constants with another drive.
+    ///
+    /// The mean of the plates' fields is the constant part of the drive, because the plates are in antiphase. Their stiffness
+    /// is therefore constant too: plates of half the stiffness each, with the moduli E (1 − a ℰ₁) and E (1 − a ℰ₂).
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;
@@ -243,6 +293,8 @@ impl Constants<f64> {
             libm::exp(self.a_3 * (self.field_0 - field))
         });
         let transition_swing = self.a_3 * amplitude * self.field_per_volt;
-        Constants { drive, transition, transition_swing, ..*self }
+        let soft = 1.0 - self.modulus_decline * (bias * self.field_per_volt);
+        let (k_soft, f_stiff) = (self.k_plates * soft + self.k_shim, self.f_plates * soft);
+        Constants { drive, transition, transition_swing, k_soft, f_stiff, ..*self }
     }
 }

@@ -8,8 +8,8 @@
 
 mod actuator;
 mod constants;
+mod general;
 mod model;
-mod moving;
 mod params;
 mod rhs;
 mod strips;

@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::constants::Constants;
-use super::moving::{self, Air, air_at};
+use super::general::{self, Air, air_at};
 use super::params::{CentreOfPressure, Params};
 use super::rhs::{
     Plate, charging_power, currents, derivative, double_angle, leakage, lift_and_drag, load, plate_forces,
@@ -27,6 +27,7 @@ use crate::num::Real;
 use crate::ode::{Ode, Start};
 use crate::parameter::Invalid;
 use crate::piezo::supplied;
+use crate::springs::Stiffening;
 
 /// Share of the largest lift at which a vehicle can hover. The rest is reserved for control; section IV.
 const HOVER_SHARE: f64 = 0.8;
@@ -183,9 +184,9 @@ impl<R: Real> Losses<R> {
         }
     }
 
-    /// Returns forces and powers on a moving body.
+    /// Returns forces and powers of a load.
     #[inline(always)]
-    fn moving(c: &Constants<R>, air: &Air<R>, rate: R, psi_dot: R) -> Losses<R> {
+    fn of(c: &Constants<R>, air: &Air<R>, rate: R, psi_dot: R) -> Losses<R> {
         Losses {
             lift: air.load.lift,
             drag: air.load.drag,
@@ -206,15 +207,27 @@ pub struct Bimorph {
     pub centre_of_pressure: CentreOfPressure,
     /// Terms of the body's motion.
     pub body: BodyTerms,
+    /// True with rotational circulation or added mass of the wing's sections.
+    pub has_sections: bool,
+    /// True with nonlinear springs.
+    pub stiffens: bool,
 }
 
 impl Bimorph {
+    /// Returns true if the equations of motion contain terms of `general`.
+    #[inline(always)]
+    fn is_general(&self) -> bool {
+        self.body == BodyTerms::All || self.has_sections || self.stiffens
+    }
+
     /// Sinusoidal drive, constant transmission ratio, and (11) with the folded attack angle.
     pub const SINE: Bimorph = Bimorph {
         drive: Drive::SINE,
         law: Law::Constant,
         centre_of_pressure: CentreOfPressure::Folded,
         body: BodyTerms::None,
+        has_sections: false,
+        stiffens: false,
     };
 }
 
@@ -241,8 +254,12 @@ impl Ode<4> for Bimorph {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
-        if self.body == BodyTerms::All {
-            return moving::derivative(c, self.law, self.centre_of_pressure, plates, y);
+        if self.is_general() {
+            // Out of line, so that these terms cost nothing where they are zero.
+            return y[0].outlined(
+                #[inline(always)]
+                || general::derivative(c, self, plates, y),
+            );
         }
         derivative(c, self.law, self.centre_of_pressure, plates, y)
     }
@@ -273,19 +290,27 @@ impl Model<4> for Bimorph {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
-        let Params { waveform, transmission_growth, centre_of_pressure, body, .. } =
-            Params::from_values(values);
+        let p = Params::from_values(values);
+        let Params { waveform, transmission_growth, centre_of_pressure, body, .. } = &p;
         Bimorph {
             drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
-            law: if transmission_growth == 0.0 { Law::Constant } else { Law::Square },
-            centre_of_pressure,
+            law: if *transmission_growth == 0.0 { Law::Constant } else { Law::Square },
+            centre_of_pressure: *centre_of_pressure,
             body: body.terms(),
+            has_sections: p.circulation_factor != 0.0 || p.added_mass_factor != 0.0,
+            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
         }
     }
 
     fn with_terms_of(&self, other: &Bimorph) -> Bimorph {
         let law = if other.law == Law::Square { Law::Square } else { self.law };
-        Bimorph { law, body: self.body.or(other.body), ..self.clone() }
+        Bimorph {
+            law,
+            body: self.body.or(other.body),
+            has_sections: self.has_sections || other.has_sections,
+            stiffens: self.stiffens || other.stiffens,
+            ..self.clone()
+        }
     }
 
     /// Returns a start at rest.
@@ -356,8 +381,12 @@ impl Model<4> for Bimorph {
         let (sin_2psi, cos_2psi) = double_angle(sin, cos);
         let transmission = Transmission::at(c, self.law, x);
         let rate = transmission.times(x_dot);
-        let air = if self.body == BodyTerms::All {
-            Losses::moving(c, &air_at(c, self.law, self.centre_of_pressure, *y), rate, psi_dot)
+        let air = if self.is_general() {
+            let air = y[0].outlined(
+                #[inline(always)]
+                || air_at(c, self, self.body == BodyTerms::All, at),
+            );
+            Losses::of(c, &air, rate, psi_dot)
         } else {
             Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot)
         };
@@ -403,8 +432,8 @@ impl Model<4> for Bimorph {
 
     #[inline(always)]
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
-        if self.body != BodyTerms::None {
-            return air_at(c, self.law, self.centre_of_pressure, *at.y).load;
+        if self.is_general() || self.body == BodyTerms::Loads {
+            return air_at(c, self, self.body != BodyTerms::None, at).load;
         }
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
@@ -435,9 +464,15 @@ impl Motions<4> for Bimorph {
     /// ```text
     /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
     /// ```
+    ///
+    /// Added mass of the sections adds a₁₁ T² to m_e and a₂₂ to I_xx.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let stiffness = secant_stiffness(c, 0.0) + c.k_t;
-        let squares = [stiffness * c.inverse_m_e, c.kappa_wh * c.inverse_i_xx];
+        let added = c.added.a11 * c.ratio * c.ratio;
+        let squares = [
+            stiffness * c.inverse_m_e / (1.0 + added * c.inverse_m_e),
+            c.kappa_wh * c.inverse_i_xx / (1.0 + c.added.a22 * c.inverse_i_xx),
+        ];
         Mode::of(["mode_stroke", "mode_hinge"], squares.map(|square| square.sqrt() / (2.0 * PI)))
     }
 
@@ -446,10 +481,10 @@ impl Motions<4> for Bimorph {
         c.drive.bias
     }
 
-    /// Returns the state with ψ̇ = I_xz T ẋ/I_xx, from (2).
+    /// Returns the state with ψ̇ = (I_xz + a₁₂) T ẋ/(I_xx + a₂₂), from (2) and the added mass of the sections.
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
         let tip_rate = stroke_rate / c.ratio;
-        [0.0, tip_rate, 0.0, c.coupling * tip_rate * c.inverse_i_xx]
+        [0.0, tip_rate, 0.0, (c.i_xz + c.added.a12) * stroke_rate / (c.i_xx + c.added.a22)]
     }
 
     fn placed(c: &Constants<f64>, stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<[Plate<f64>; 2], 4> {

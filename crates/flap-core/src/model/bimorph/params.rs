@@ -2,11 +2,11 @@
 
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, WaveformParameters};
-use crate::linkage::{FLEXURE, HingeParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
 use crate::piezo::ElectricalParameters;
+use crate::springs::{FLEXURE, HingeParameters};
 
 crate::parameters! {
     /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
@@ -33,6 +33,9 @@ crate::parameters! {
         /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
         /// Jafferis et al. (2016) do not use this parameter.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
+        /// Cubic stiffness of the stroke: the transmission adds the moment -stroke_stiffening * stroke^3 about the stroke
+        /// axis. Jafferis et al. (2016) do not use this parameter.
+        stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the springs that act on the stroke: the actuator and the transmission together. The loss
@@ -47,7 +50,7 @@ crate::parameters! {
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
         /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius determines
-        /// the chord along the span for body motion. Jafferis et al. (2016) do not use this parameter.
+        /// the chord along the span for body motion, circulation_factor and added_mass_factor. Jafferis et al. (2016) do not use this parameter.
         wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
@@ -67,7 +70,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true, scales_with: FLEXURE) 0.985 * 1.52e-6,
         /// Viscous damping of the wing hinge. Jafferis et al. (2016) do not use this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor and dimensions of the hinge.
+        /// Loss factor, stiffening, stop and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
@@ -88,6 +91,15 @@ crate::parameters! {
         /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width A_w/R, Eq.
         /// (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
+        /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
+        /// and Sane and Dickinson (2002). Jafferis et al. (2016) do not use this parameter.
+        circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
+        /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. A factor of 1 is the
+        /// added mass of a plate in potential flow. Jafferis et al. (2016) use only added_inertia_stroke.
+        added_mass_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
+        /// Distance of the hinge's axis from the leading edge, in chords. The distance affects only circulation_factor and
+        /// added_mass_factor.
+        axis_position: f64 = ("", "x_0", Number(Any), default: 0.0) 0.0,
 
         ["actuator"]
         /// Length of the active part of the actuator.
@@ -111,6 +123,9 @@ crate::parameters! {
         piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
         /// Young's modulus of the piezoelectric plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
+        /// Relative reduction of the modulus of the piezoelectric plates per electric field. The mean of the fields in both
+        /// plates counts, which is constant over a period. Jafferis et al. (2016) do not use this parameter.
+        modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.
         modulus_strain: f64 = ("", "eps_0", Number(Any)) -0.047e-2,

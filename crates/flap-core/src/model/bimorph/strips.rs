@@ -1,7 +1,7 @@
-//! Strips of the lumped wing of the bimorph model, on which the motion of the body acts.
+//! The chord of the lumped wing of the bimorph model: strips for body motion, and integrals for circulation and added mass.
 
 use super::params::{CentreOfPressure, Params};
-use crate::aero::ObliqueStrip;
+use crate::aero::{AddedMass, Circulation, ObliqueStrip};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_beta;
@@ -16,17 +16,13 @@ crate::per_lane! {
         pub motion: BodyMotion<R>,
         /// Strips of the wing. Their chord is the mean chord, to which the centre of pressure (11) refers.
         pub strips: [ObliqueStrip<R>; STRIPS],
-        /// Moment of inertia about the hinge's axis I_xx (kg·m²).
-        pub inertia: R,
-        /// Product of inertia I_xz (kg·m²).
-        pub product: R,
     }
 }
 
 impl Moving<f64> {
     /// A body at rest.
     pub(super) const REST: Moving<f64> =
-        Moving { motion: BodyMotion::REST, strips: [ObliqueStrip::NONE; STRIPS], inertia: 0.0, product: 0.0 };
+        Moving { motion: BodyMotion::REST, strips: [ObliqueStrip::NONE; STRIPS] };
 
     /// Returns the constants of a point with these terms.
     ///
@@ -42,16 +38,86 @@ impl Moving<f64> {
                 "centre_of_pressure = \"literal\" has no meaning on a moving body: set it to \"folded\" or \"directional\"",
             ));
         }
-        let (inertia, product) = (p.wing_inertia_hinge, p.wing_inertia_product);
-        Invalid::unless_finite(Moving { motion: p.body.motion(), strips: strips(p)?, inertia, product })
+        Invalid::unless_finite(Moving { motion: p.body.motion(), strips: strips(p)? })
     }
 }
 
-/// Returns the strips of the wing: the nodes of the Gauss rule for a chord with a beta distribution (Ellington 1984).
+/// Chord along the span as a beta distribution (Ellington 1984): c = c̄ r̂^(P−1) (1 − r̂)^(Q−1)/B(P, Q), with r̂ from 0 to 1.
 ///
 /// ```text
-/// c ∝ r̂^(P−1) (1 − r̂)^(Q−1)     P = r̂₁ K     Q = (1 − r̂₁) K     K = r̂₁ (1 − r̂₁)/(r̂₂² − r̂₁²) − 1
+/// P = r̂₁ K     Q = (1 − r̂₁) K     K = r̂₁ (1 − r̂₁)/(r̂₂² − r̂₁²) − 1
 /// ```
+struct Chord {
+    length: f64,
+    mean: f64,
+    p: f64,
+    q: f64,
+}
+
+impl Chord {
+    /// # Errors
+    /// If no wing has these radii.
+    fn of(p: &Params) -> Result<Chord, Invalid> {
+        let second = p.wing_radius_2;
+        let first = p.wing_radius_1.unwrap_or_else(|| libm::pow(second / 0.929, 1.0 / 0.732));
+        if !(second * second < first && first < second) {
+            return Err(Invalid::together(
+                &["wing_radius_1", "wing_radius_2"],
+                format!(
+                    "no wing has wing_radius_1 = {first} and wing_radius_2 = {second}: wing_radius_1 must lie between \
+                     wing_radius_2^2 and wing_radius_2"
+                ),
+            ));
+        }
+        let k = first * (1.0 - first) / (second * second - first * first) - 1.0;
+        let (length, mean) = (p.wing_length, p.wing_area / p.wing_length);
+        Ok(Chord { length, mean, p: first * k, q: (1.0 - first) * k })
+    }
+
+    /// Returns the mean of r̂³ with the weight c.
+    fn third_moment(&self) -> f64 {
+        let (p, k) = (self.p, self.p + self.q);
+        p * (p + 1.0) * (p + 2.0) / (k * (k + 1.0) * (k + 2.0))
+    }
+
+    /// Returns ∫ c^n r^m dr.
+    ///
+    /// ```text
+    /// R^(m+1) c̄^n B(n (P − 1) + m + 1, n (Q − 1) + 1)/B(P, Q)^n
+    /// ```
+    fn integral(&self, n: i32, m: i32) -> f64 {
+        let beta = |p: f64, q: f64| libm::lgamma(p) + libm::lgamma(q) - libm::lgamma(p + q);
+        let power = f64::from(n);
+        let (p, q) = (power * (self.p - 1.0) + f64::from(m + 1), power * (self.q - 1.0) + 1.0);
+        let size = self.length.powi(m + 1) * self.mean.powi(n);
+        size * libm::exp(beta(p, q) - power * beta(self.p, self.q))
+    }
+}
+
+/// Returns rotational circulation and added mass of the wing's sections.
+///
+/// # Errors
+/// If no wing has these radii, or if a chord that is infinite at root or tip has no integrals.
+pub(super) fn unsteady(p: &Params) -> Result<(Circulation<f64>, AddedMass<f64>), Invalid> {
+    if p.circulation_factor == 0.0 && p.added_mass_factor == 0.0 {
+        return Ok((Circulation::NONE, AddedMass::NONE));
+    }
+    let chord = Chord::of(p)?;
+    if chord.p.min(chord.q) <= 0.75 {
+        return Err(Invalid::together(
+            &["wing_radius_1", "wing_radius_2"],
+            "the chord that belongs to wing_radius_1 and wing_radius_2 is too large at the root or the tip for \
+             circulation_factor and added_mass_factor: make wing_radius_2 smaller, or wing_radius_1 closer to it",
+        ));
+    }
+    let integral = |n, m| chord.integral(n, m);
+    Ok((
+        Circulation::of(p.circulation_factor, p.air_density, p.axis_position, &integral),
+        AddedMass::of(p.added_mass_factor * p.air_density, p.axis_position, &integral),
+    ))
+}
+
+/// Returns the strips of the wing: the nodes of the Gauss rule for its [`Chord`].
 ///
 /// Moments about the stroke axis have the levers λ r, so that lift and drag act at R_cp at zero body motion:
 ///
@@ -59,23 +125,11 @@ impl Moving<f64> {
 /// λ = R_cp r̂₂²/(R r̂₃³)     r̂₃³ = P (P + 1) (P + 2)/((P + Q) (P + Q + 1) (P + Q + 2))
 /// ```
 fn strips(p: &Params) -> Result<[ObliqueStrip<f64>; STRIPS], Invalid> {
+    let chord = Chord::of(p)?;
     let second = p.wing_radius_2;
-    let first = p.wing_radius_1.unwrap_or_else(|| libm::pow(second / 0.929, 1.0 / 0.732));
-    if !(second * second < first && first < second) {
-        return Err(Invalid::together(
-            &["wing_radius_1", "wing_radius_2"],
-            format!(
-                "no wing has wing_radius_1 = {first} and wing_radius_2 = {second}: wing_radius_1 must lie between \
-                 wing_radius_2^2 and wing_radius_2"
-            ),
-        ));
-    }
-    let k = first * (1.0 - first) / (second * second - first * first) - 1.0;
-    let (a, b) = (first * k, (1.0 - first) * k);
-    let third = a * (a + 1.0) * (a + 2.0) / (k * (k + 1.0) * (k + 2.0));
-    let lever = p.pressure_radius * second * second / (p.wing_length * third);
+    let lever = p.pressure_radius * second * second / (p.wing_length * chord.third_moment());
     let dynamic = 0.5 * p.air_density * p.wing_area;
-    let nodes = gauss_beta(STRIPS, a, b);
+    let nodes = gauss_beta(STRIPS, chord.p, chord.q);
     Ok(core::array::from_fn(|i| {
         let radius = p.wing_length * nodes[i].x;
         ObliqueStrip {
@@ -83,7 +137,7 @@ fn strips(p: &Params) -> Result<[ObliqueStrip<f64>; STRIPS], Invalid> {
             radius,
             lever: lever * radius,
             behind: 0.0,
-            chord: p.wing_area / p.wing_length,
+            chord: chord.mean,
         }
     }))
 }

@@ -5,15 +5,15 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::chord::{BLADES, blades};
-use super::motion::Moving;
-use super::params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
-use crate::aero::Strips;
+use super::chord::{BLADES, blades, elements};
+use super::params::{self, CentreOfPressure, FlowDirection, LiftSign, Params};
+use crate::aero::{AddedMass, Circulation, Strips, sum};
+use crate::body::BodyMotion;
 use crate::drive::DriveConstants;
-use crate::linkage::structural_damping;
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
+use crate::springs::{Stiffening, structural_damping};
 
 crate::per_lane! {
     /// Constants of one design point, in SI units.
@@ -49,16 +49,10 @@ crate::per_lane! {
         /// Pitch inertia m₂₂ (kg·m²).
         pub m22: R,
 
-        /// Added mass of the stroke a₁₁ (kg·m²), (29).
-        pub a11: R,
-        /// Added-mass coupling a₁₂ (kg·m²), (29), (30).
-        pub a12: R,
-        /// Added mass of the pitch a₂₂ (kg·m²), (30).
-        pub a22: R,
-        /// Added-mass force per stroke acceleration f₁ (kg·m), (28).
-        pub f1: R,
-        /// Added-mass force per pitch acceleration f₂ (kg·m), (28).
-        pub f2: R,
+        /// Added mass (28)–(30), without the rotation about the mid-chord.
+        pub added: AddedMass<R>,
+        /// Rotational circulation of the blade elements.
+        pub circulation: Circulation<R>,
         /// 1 with the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
         pub gyroscopic: R,
 
@@ -100,8 +94,10 @@ crate::per_lane! {
         pub piezo_thickness: R,
         /// Strain of the piezoelectric layer's outer face per radian of stroke (1/rad): z_c / L_A.
         pub strain_per_stroke: R,
+        /// Nonlinear parts of the springs.
+        pub stiffening: Stiffening<R>,
         /// Motion of the body.
-        pub moving: Moving<R>,
+        pub moving: BodyMotion<R>,
     }
 }
 
@@ -145,6 +141,16 @@ impl Constants<f64> {
         let aspect = 0.5 * r / c;
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
+        // The shape moments determine all integrals of the chord but ∫ c² dr.
+        let cuts = elements(p);
+        let chords = |n: i32, m: i32| match (n, m) {
+            (2, 1) => (c * c) * (r * r) * p.shape_moment_12,
+            (2, 2) => (c * c) * (r * r * r) * p.shape_moment_22,
+            (3, 0) => (c * c * c) * r * p.shape_moment_03,
+            (3, 1) => (c * c * c) * (r * r) * p.shape_moment_13,
+            (n, m) => sum(&cuts, |r, c| c.powi(n) * r.powi(m)),
+        };
+
         let drive = p.drive();
         let k_phi = 0.5 * s_a * widths / l_a;
         let c_p = p.piezo_permittivity * widths * l_a / (2.0 * p.piezo_thickness);
@@ -166,12 +172,16 @@ impl Constants<f64> {
             m12: p.wing_mass * x_g * y_g + p.wing_inertia_product,
             m22: m_s,
 
-            a11: FRAC_PI_4 * rho * (c * c) * (r * r * r) * p.shape_moment_22,
-            a12: 0.5 * FRAC_PI_4 * rho * (c * c * c) * (r * r) * p.shape_moment_13,
-            a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
-            f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
-            f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
-            gyroscopic: f64::from(p.added_mass == AddedMass::Lagrangian),
+            added: AddedMass {
+                f0: FRAC_PI_4 * rho * chords(2, 0),
+                f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
+                f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
+                a11: FRAC_PI_4 * rho * (c * c) * (r * r * r) * p.shape_moment_22,
+                a12: 0.5 * FRAC_PI_4 * rho * (c * c * c) * (r * r) * p.shape_moment_13,
+                a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
+            },
+            circulation: Circulation::of(p.circulation_factor, rho, 0.0, &chords),
+            gyroscopic: f64::from(p.added_mass == params::AddedMass::Lagrangian),
 
             mid_radius: 0.5 * r + x_r,
             mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
@@ -207,16 +217,17 @@ impl Constants<f64> {
 
             piezo_thickness: p.piezo_thickness,
             strain_per_stroke: z_c / l_a,
-            moving: Moving::REST,
+            stiffening: Stiffening::of(p.stroke_stiffening, &p.hinge),
+            moving: BodyMotion::REST,
         };
         Invalid::unless_finite(constants)?.checked()
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         // The determinant is linear in cos²ψ: it is positive everywhere if it is positive at both ends.
-        let pitch = self.m22 + self.a22;
-        let coupling = self.m12 - self.a12;
-        let upright = (self.m11 + self.a11) * pitch - coupling * coupling;
+        let pitch = self.m22 + self.added.a22;
+        let coupling = self.m12 - self.added.a12;
+        let upright = (self.m11 + self.added.a11) * pitch - coupling * coupling;
         let flat = (self.m11 + self.m_s) * pitch;
         if upright > 0.0 && flat > 0.0 {
             Ok(self)

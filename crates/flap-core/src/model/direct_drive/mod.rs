@@ -6,9 +6,9 @@
 
 mod chord;
 mod constants;
+mod general;
 mod model;
 mod motion;
-mod moving;
 mod params;
 mod rhs;
 

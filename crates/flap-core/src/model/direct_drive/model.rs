@@ -1,8 +1,8 @@
 //! The direct-drive model: equations of motion, signals, columns of rows, and single motions.
 
 use super::constants::Constants;
-use super::motion::Moving;
-use super::moving;
+use super::general;
+use super::motion::motion;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use crate::aero::{Wing, chord_table};
@@ -21,6 +21,7 @@ use crate::num::Real;
 use crate::ode::{Ode, Start};
 use crate::parameter::Invalid;
 use crate::piezo::supplied;
+use crate::springs::Stiffening;
 
 crate::signals! {
     /// Signals of the direct-drive model.
@@ -91,12 +92,27 @@ pub struct DirectDrive {
     pub flow: FlowDirection,
     /// Terms of the body's motion.
     pub body: BodyTerms,
+    /// True with rotational circulation.
+    pub circulates: bool,
+    /// True with nonlinear springs.
+    pub stiffens: bool,
 }
 
 impl DirectDrive {
     /// Sinusoidal drive and one direction of flow for the whole wing, with the body at rest.
-    pub const SINE: DirectDrive =
-        DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform, body: BodyTerms::None };
+    pub const SINE: DirectDrive = DirectDrive {
+        drive: Drive::SINE,
+        flow: FlowDirection::Uniform,
+        body: BodyTerms::None,
+        circulates: false,
+        stiffens: false,
+    };
+
+    /// Returns true if the equations of motion contain terms of `general`.
+    #[inline(always)]
+    fn is_general(&self) -> bool {
+        self.body == BodyTerms::All || self.circulates || self.stiffens
+    }
 }
 
 impl Ode<4> for DirectDrive {
@@ -120,8 +136,12 @@ impl Ode<4> for DirectDrive {
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
-        let balance = if self.body == BodyTerms::All {
-            moving::balance(c, &at)
+        let balance = if self.is_general() {
+            // Out of line, so that these terms cost nothing where they are zero.
+            side.outlined(
+                #[inline(always)]
+                || general::balance(c, self, side, &at),
+            )
         } else {
             balance(c, self.flow, side, &at)
         };
@@ -145,7 +165,7 @@ impl Ode<4> for DirectDrive {
 impl DirectDrive {
     /// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²) at ψ = 0, with the added mass.
     fn mass_at_rest(c: &Constants<f64>) -> [f64; 3] {
-        [c.m11 + c.a11, c.m12 - c.a12, c.m22 + c.a22]
+        [c.m11 + c.added.a11, c.m12 - c.added.a12, c.m22 + c.added.a22]
     }
 }
 
@@ -163,22 +183,30 @@ impl Model<4> for DirectDrive {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
-        let Params { waveform, stroke, flow_direction, body, .. } = Params::from_values(values);
+        let p = Params::from_values(values);
+        let Params { waveform, stroke, flow_direction, body, .. } = &p;
         DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
-            flow: flow_direction,
+            flow: *flow_direction,
             body: body.terms(),
+            circulates: p.circulation_factor != 0.0,
+            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
         }
     }
 
     fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
-        DirectDrive { body: self.body.or(other.body), ..self.clone() }
+        DirectDrive {
+            body: self.body.or(other.body),
+            circulates: self.circulates || other.circulates,
+            stiffens: self.stiffens || other.stiffens,
+            ..self.clone()
+        }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
+        let constants = Constants { moving: motion(&params, self.body)?, ..Constants::derive(&params)? };
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
@@ -218,7 +246,7 @@ impl Model<4> for DirectDrive {
     }
 
     fn with_motion(c: &Constants<f64>, motion: BodyMotion<f64>) -> Constants<f64> {
-        Constants { moving: Moving { motion, ..c.moving }, ..*c }
+        Constants { moving: motion, ..*c }
     }
 
     #[inline(always)]
@@ -228,10 +256,13 @@ impl Model<4> for DirectDrive {
         let [phi, psi, phi_dot, psi_dot] = y;
         let (sin, cos) = psi.sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
-        let (air, added, translational) = if self.body == BodyTerms::All {
-            let moving = moving::air(c, &y, [sin, cos]);
-            let power = moving.translational_power([phi_dot, psi_dot], cos);
-            (moving.forces, moving.whole_added_mass(c, [sin, cos], &slope), power)
+        let (air, added, translational) = if self.is_general() {
+            let air = side.outlined(
+                #[inline(always)]
+                || general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]),
+            );
+            let power = air.translational_power([phi_dot, psi_dot], cos);
+            (air.forces, air.with_added_mass(c, [sin, cos], &slope), power)
         } else {
             let air = aerodynamics(c, self.flow, side, &y, sin, cos);
             let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
@@ -281,11 +312,11 @@ impl Model<4> for DirectDrive {
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
-        let (air, added) = if self.body == BodyTerms::None {
+        let (air, added) = if self.body == BodyTerms::None && !self.circulates {
             (aerodynamics(c, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
         } else {
-            let moving = moving::air(c, &y, [sin, cos]);
-            (moving.forces, moving.whole_added_mass(c, [sin, cos], &slope))
+            let air = general::air(c, self, self.body != BodyTerms::None, side, &y, [sin, cos]);
+            (air.forces, air.with_added_mass(c, [sin, cos], &slope))
         };
         load(c, &air, &added, &y, [sin, cos])
     }

@@ -3,11 +3,11 @@
 use crate::aero::ChordTable;
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
-use crate::linkage::HingeParameters;
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Preset;
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::piezo::{EPSILON_0, ElectricalParameters};
+use crate::springs::HingeParameters;
 
 crate::parameters! {
     /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
@@ -56,7 +56,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
         /// Viscous damping of the wing hinge. Ozaki and Hamaguchi (2018) do not use this parameter.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Loss factor and dimensions of the hinge.
+        /// Loss factor, stiffening, stop and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
@@ -127,6 +127,9 @@ crate::parameters! {
         /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the value is for a free
         /// or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
+        /// Cubic stiffness of the stroke: the actuator adds the moment -stroke_stiffening * stroke^3. Ozaki and Hamaguchi (2018)
+        /// do not use this parameter.
+        stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the actuator, which is the spring of the stroke. The loss factor adds a viscous damping: loss
@@ -150,6 +153,9 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
+        /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
+        /// and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use this parameter.
+        circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
         /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion, folded to at most 90

@@ -11,6 +11,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::constants::Constants;
 use super::params::FlowDirection;
+use crate::aero::NormalLoad;
 use crate::drive::Wave;
 use crate::model::Load;
 use crate::model::stroke_and_pitch::Balance;
@@ -193,19 +194,20 @@ pub(super) fn balance_in<R: Real>(
     let [phi, psi, phi_dot, psi_dot] = *y;
     let both = phi_dot * psi_dot;
     let gyroscopic = gyroscopic(c, &[phi_dot, psi_dot], sin, cos);
-    let q1 = (c.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment
-        - c.k_phi * phi
-        + psi_dot * gyroscopic
-        - c.stroke_damping * phi_dot;
-    let q2 = c.m_s * phi_dot * phi_dot * sin * cos - c.k_w * psi - c.a12 * both * sin
+    let q1 =
+        (c.added.a11 - c.m_s * 2.0) * both * sin * cos + c.m12 * psi_dot * psi_dot * sin + air.stroke_moment
+            - c.k_phi * phi
+            + psi_dot * gyroscopic
+            - c.stroke_damping * phi_dot;
+    let q2 = c.m_s * phi_dot * phi_dot * sin * cos - c.k_w * psi - c.added.a12 * both * sin
         + air.pitch_moment
         + air.rotation_moment
         - phi_dot * gyroscopic
         - c.hinge_damping * psi_dot;
 
-    let m11 = c.m11 + c.m_s * sin * sin + c.a11 * cos * cos;
-    let m12 = (c.m12 - c.a12) * cos;
-    let m22 = c.m22 + c.a22;
+    let m11 = c.m11 + c.m_s * sin * sin + c.added.a11 * cos * cos;
+    let m12 = (c.m12 - c.added.a12) * cos;
+    let m22 = c.m22 + c.added.a22;
     Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
 }
 
@@ -215,40 +217,30 @@ pub(super) fn balance_in<R: Real>(
 /// rate from the pitch.
 #[inline(always)]
 fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, cos: R) -> R {
-    c.gyroscopic * (c.a11 * *phi_dot * cos - c.a12 * *psi_dot) * sin
+    c.gyroscopic * (c.added.a11 * *phi_dot * cos - c.added.a12 * *psi_dot) * sin
 }
 
-/// The added-mass force and moments (28)–(30) at known accelerations.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AddedMassLoad<R> {
-    /// Force along the wing's normal F_am (N), (28).
-    pub(super) force: R,
-    /// Moment about the chord axis M_am,y″ (N·m), (29).
-    pub(super) chord_moment: R,
-    /// Moment about the span axis M_am,x′ (N·m), (30).
-    pub(super) span_moment: R,
-}
-
-/// Returns force and moments of the added mass.
+/// Returns force and moments of the added mass (28)–(30) at known accelerations. M_am,y″ is the chord moment, M_am,x′ the span
+/// moment.
 ///
 /// ```text
 /// A = φ̈ cos ψ − φ̇ψ̇ sin ψ
 /// F_am = −f₁ A + f₂ ψ̈     M_am,y″ = −a₁₁ A + a₁₂ ψ̈     M_am,x′ = a₁₂ A − a₂₂ ψ̈
 /// ```
 #[inline(always)]
-pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> AddedMassLoad<R> {
+pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4]) -> NormalLoad<R> {
     let [phi_dot, psi_dot, phi_ddot, psi_ddot] = *dy;
     let a = phi_ddot * cos - phi_dot * psi_dot * sin;
-    AddedMassLoad {
-        force: c.f2 * psi_ddot - c.f1 * a,
-        chord_moment: c.a12 * psi_ddot - c.a11 * a,
-        span_moment: c.a12 * a - c.a22 * psi_ddot,
+    NormalLoad {
+        force: c.added.f2 * psi_ddot - c.added.f1 * a,
+        chord_moment: c.added.a12 * psi_ddot - c.added.a11 * a,
+        span_moment: c.added.a12 * a - c.added.a22 * psi_ddot,
     }
 }
 
 /// Returns the lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
 #[inline(always)]
-pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &AddedMassLoad<R>, sin: R) -> R {
+pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &NormalLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
 }
 
@@ -266,7 +258,7 @@ pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &Add
 pub(super) fn load<R: Real>(
     c: &Constants<R>,
     air: &Aerodynamics<R>,
-    added: &AddedMassLoad<R>,
+    added: &NormalLoad<R>,
     y: &[R; 4],
     [sin, cos]: [R; 2],
 ) -> Load<R> {

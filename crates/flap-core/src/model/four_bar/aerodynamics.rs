@@ -6,6 +6,7 @@
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
 use super::constants::{Air, Constants};
+use crate::aero::NormalLoad;
 use crate::model::Load;
 use crate::num::Real;
 
@@ -22,12 +23,27 @@ pub(super) struct Aerodynamics<R> {
     pub(super) lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
     pub(super) pitch_moment: R,
-    /// Rotational lift L_r (N), (6).
-    pub(super) rotation_lift: R,
-    /// Moment of the rotational force about the stroke axis (N·m).
-    pub(super) rotation_stroke_moment: R,
-    /// Moment of the rotational force about the rotation axis (N·m), (18).
-    pub(super) rotation_pitch_moment: R,
+    /// Rotational force (6), (18). Its lift L_r is the force times sin φ, its moment about the rotation axis Q_φ is minus the
+    /// span moment.
+    pub(super) rotation: NormalLoad<R>,
+}
+
+impl<R: Real> Aerodynamics<R> {
+    /// Returns the moments of the rotational force about the stroke axis and the rotation axis (N·m).
+    #[inline(always)]
+    pub(super) fn rotation_moments(&self, cos: R) -> [R; 2] {
+        [self.rotation.chord_moment * cos, -self.rotation.span_moment]
+    }
+}
+
+/// Returns the rotational force for −|φ̇|φ̇ (`rotation`).
+#[inline(always)]
+pub(super) fn rotational_force<R: Real>(air: &Air<R>, rotation: R) -> NormalLoad<R> {
+    NormalLoad {
+        force: air.rotation_force * rotation,
+        chord_moment: air.rotation_stroke * rotation,
+        span_moment: -(air.rotation_pitch * rotation),
+    }
 }
 
 /// Attitude of the wing, for the aerodynamic coefficients.
@@ -106,9 +122,7 @@ pub(super) fn aerodynamics<R: Real>(
         stroke_moment: -(c_d * directed.radius),
         lift_moment: -(c_l * directed.radius),
         pitch_moment: -((c_d * cos + c_l * sin) * pressure),
-        rotation_lift: air.rotation_force * rotation * sin,
-        rotation_stroke_moment: air.rotation_stroke * rotation * cos,
-        rotation_pitch_moment: air.rotation_pitch * rotation,
+        rotation: rotational_force(air, rotation),
     }
 }
 
@@ -140,22 +154,21 @@ pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) 
     let (sin, cos) = y[1].sin_cos();
     let air = aerodynamics(c, side, y, sin, cos);
     let normal = dy[2] * cos - dy[0] * dy[1] * sin;
-    load_in(c, &air, y, [normal, dy[3]], -(dy[1].abs() * dy[1]), [sin, cos])
+    load_in(c, &air, y, [normal, dy[3]], [sin, cos])
 }
 
-/// Returns the same for these aerodynamic forces and moments, accelerations [A, φ̈] and −|φ̇|φ̇ (`rotation`).
+/// Returns the same for these aerodynamic forces and moments, and accelerations [A, φ̈].
 #[inline(always)]
 pub(super) fn load_in<R: Real>(
     c: &Constants<R>,
     air: &Aerodynamics<R>,
     y: &[R; 4],
     [normal, phi_ddot]: [R; 2],
-    rotation: R,
     [sin, cos]: [R; 2],
 ) -> Load<R> {
     let Air { added_stroke, added_pitch, added_stroke_2, added_pitch_1, added_span, .. } = c.air;
-    let force = c.air.rotation_force * rotation - (added_stroke * normal + added_pitch * phi_ddot);
-    let moment = c.air.rotation_stroke * rotation - (added_stroke_2 * normal + added_pitch_1 * phi_ddot);
+    let force = air.rotation.force - (added_stroke * normal + added_pitch * phi_ddot);
+    let moment = air.rotation.chord_moment - (added_stroke_2 * normal + added_pitch_1 * phi_ddot);
     let added_pitch_moment = -(added_pitch_1 * normal + added_span * phi_ddot);
     Load {
         stroke: y[0],
@@ -163,7 +176,7 @@ pub(super) fn load_in<R: Real>(
         drag: air.drag - force * cos,
         lift_moment: air.lift_moment + moment * sin,
         drag_moment: -air.stroke_moment - moment * cos,
-        span_moment: -(air.pitch_moment + air.rotation_pitch_moment + added_pitch_moment),
+        span_moment: -(air.pitch_moment - air.rotation.span_moment + added_pitch_moment),
     }
 }
 

@@ -7,13 +7,14 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, MAX_STRIPS, Params};
 use super::strips::{Moving, arms, strips};
-use crate::aero::{Cut, Strips, sum};
+use crate::aero::{Circulation, Cut, Strips, sum};
 use crate::drive::DriveConstants;
-use crate::linkage::{FourBar, LinkInertias, SliderCrank, structural_damping};
+use crate::linkage::{FourBar, LinkInertias, SliderCrank};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
+use crate::springs::{Stiffening, structural_damping};
 
 crate::per_lane! {
     /// The actuator in series with a spring.
@@ -124,6 +125,10 @@ crate::per_lane! {
         pub air: Air<R>,
         /// Strips of the wing.
         pub strips: Strips<R, MAX_STRIPS>,
+        /// Rotational circulation of the strips.
+        pub circulation: Circulation<R>,
+        /// Nonlinear parts of the springs.
+        pub stiffening: Stiffening<R>,
         /// Motion of the body.
         pub moving: Moving<R>,
     }
@@ -151,6 +156,10 @@ impl Constants<f64> {
             wing: wing(p, &cuts, actuator.stiffness, drive.rate),
             air: air(p, &cuts),
             strips: Strips::new(&cuts, p.air_density, arms(p)[0]),
+            circulation: Circulation::of(p.circulation_factor, p.air_density, p.axis_position, &|n, m| {
+                sum(&cuts, |r, c| c.powi(n) * r.powi(m))
+            }),
+            stiffening: Stiffening::of(p.stroke_stiffening, &p.hinge),
             moving: Moving::REST,
         };
         Invalid::unless_finite(constants)?.checked()

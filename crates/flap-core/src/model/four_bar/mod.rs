@@ -11,8 +11,8 @@
 
 mod aerodynamics;
 mod constants;
+mod general;
 mod model;
-mod moving;
 mod params;
 mod rhs;
 mod strips;

@@ -2,7 +2,7 @@
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load, side_of};
 use super::constants::Constants;
-use super::moving;
+use super::general;
 use super::params::Params;
 use super::rhs::{
     balance, charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
@@ -22,6 +22,7 @@ use crate::ode::step::Attempt;
 use crate::ode::{Ode, Start, input};
 use crate::parameter::Invalid;
 use crate::piezo::supplied;
+use crate::springs::Stiffening;
 
 crate::signals! {
     /// Signals of the four-bar model.
@@ -86,11 +87,22 @@ pub struct FourBar {
     pub drive: Drive,
     /// Terms of the body's motion.
     pub body: BodyTerms,
+    /// True with rotational circulation.
+    pub circulates: bool,
+    /// True with nonlinear springs.
+    pub stiffens: bool,
 }
 
 impl FourBar {
     /// Sinusoidal drive, with the body at rest.
-    pub const SINE: FourBar = FourBar { drive: Drive::SINE, body: BodyTerms::None };
+    pub const SINE: FourBar =
+        FourBar { drive: Drive::SINE, body: BodyTerms::None, circulates: false, stiffens: false };
+
+    /// Returns true if the equations of motion contain terms of `general`.
+    #[inline(always)]
+    fn is_general(&self) -> bool {
+        self.body == BodyTerms::All || self.circulates || self.stiffens
+    }
 }
 
 impl Ode<4> for FourBar {
@@ -117,8 +129,12 @@ impl Ode<4> for FourBar {
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
         let links = transmission(c, at[0]);
-        let balance = if self.body == BodyTerms::All {
-            moving::balance(c, &links, side, &at)
+        let balance = if self.is_general() {
+            // Out of line, so that these terms cost nothing where they are zero.
+            side.outlined(
+                #[inline(always)]
+                || general::balance(c, self, &links, side, &at),
+            )
         } else {
             balance(c, &links, side, &at)
         };
@@ -150,12 +166,22 @@ impl Model<4> for FourBar {
     const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> FourBar {
-        let Params { waveform, stroke, body, .. } = Params::from_values(values);
-        FourBar { drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode), body: body.terms() }
+        let p = Params::from_values(values);
+        FourBar {
+            drive: self.drive.of_point(p.waveform.drive_shape, p.stroke.stroke_mode),
+            body: p.body.terms(),
+            circulates: p.circulation_factor != 0.0,
+            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
+        }
     }
 
     fn with_terms_of(&self, other: &FourBar) -> FourBar {
-        FourBar { body: self.body.or(other.body), ..self.clone() }
+        FourBar {
+            body: self.body.or(other.body),
+            circulates: self.circulates || other.circulates,
+            stiffens: self.stiffens || other.stiffens,
+            ..self.clone()
+        }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
@@ -204,8 +230,11 @@ impl Model<4> for FourBar {
         let y = states::state(&self.drive, drive, y);
         let [theta, phi, theta_dot, phi_dot] = y;
         let (sin, cos) = phi.sin_cos();
-        let air = if self.body == BodyTerms::All {
-            moving::air(c, side, &y)
+        let air = if self.is_general() {
+            side.outlined(
+                #[inline(always)]
+                || general::air(c, self, side, &y),
+            )
         } else {
             aerodynamics(c, side, &y, sin, cos)
         };
@@ -221,19 +250,21 @@ impl Model<4> for FourBar {
             [force(&c.actuator, drive, links.displacement), current + leakage]
         };
         let swing = drive.value - c.drive.bias;
+        let rotation_lift = air.rotation.force * sin;
+        let [rotation_stroke, rotation_pitch] = air.rotation_moments(cos);
         Signals {
             stroke: theta,
             pitch: phi,
-            lift: air.lift + air.rotation_lift + added_mass,
+            lift: air.lift + rotation_lift + added_mass,
             lift_translational: air.lift,
-            lift_rotational: air.rotation_lift,
+            lift_rotational: rotation_lift,
             lift_added_mass: added_mass,
             drag: air.drag,
             power_drive: force * slider_rate,
             power_stroke_damping: stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
             power_hinge_damping: c.wing.hinge_damping * phi_dot * phi_dot,
             power_translational: -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
-            power_rotational: -(air.rotation_stroke_moment * theta_dot + air.rotation_pitch_moment * phi_dot),
+            power_rotational: -(rotation_stroke * theta_dot + rotation_pitch * phi_dot),
             power: current * drive.value,
             power_dielectric: leakage * drive.value,
             current,
@@ -261,27 +292,19 @@ impl Model<4> for FourBar {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let slope = states::slope(&self.drive, drive, dy);
-        if self.body == BodyTerms::None {
+        if self.body == BodyTerms::None && !self.circulates {
             load(c, side, &y, &slope)
         } else {
-            moving::load(c, side, &y, &slope)
+            general::load(c, self, side, &y, &slope)
         }
     }
 
     #[inline(always)]
     fn impulse<R: Lanes>(&self, c: &Constants<R>, attempt: &Attempt<'_, R, 4>) -> [R; 6] {
-        let Attempt { side, step, .. } = *attempt;
         if self.body == BodyTerms::None {
-            return attempt.integral(
-                #[inline(always)]
-                |stage, at| {
-                    let input = input(self, c, at);
-                    let instant = Instant { input: &input, side, y: &step.y[stage], dy: &step.k[stage] };
-                    self.load(c, instant).at_shoulder()
-                },
-            );
+            return self.impulse_of_stages(c, attempt);
         }
-        moving::impulse(
+        general::impulse(
             c,
             attempt,
             #[inline(always)]

@@ -7,11 +7,11 @@
 use crate::aero::ChordTable;
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
-use crate::linkage::{FLEXURE, HingeParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 use crate::parameter::{Preset, Range};
 use crate::piezo::{EPSILON_0, ElectricalParameters};
+use crate::springs::{FLEXURE, HingeParameters};
 
 crate::parameters! {
     /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013, if the paper has
@@ -92,6 +92,9 @@ crate::parameters! {
         coupler_link_inertia: Option<f64> = ("kg*m^2", "J_L2", Following(NonNegative, "coupler_link_mass * coupler_link^2 / 12")) None,
         /// Moment of inertia of the output link about its centre. The value is assumed: the inertia of a uniform rod.
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
+        /// Cubic stiffness of the stroke: the transmission adds the moment -stroke_stiffening * stroke^3. Arabagi et al. (2013)
+        /// do not use this parameter.
+        stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke by the flexures of the transmission. The value is assumed: it gives modal
         /// damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)) 2e-7,
@@ -104,7 +107,7 @@ crate::parameters! {
         hinge_stiffness: f64 = ("N*m/rad", "k_rot", Number(Positive), scales_with: FLEXURE) 50e-6,
         /// Viscous damping of the wing hinge.
         hinge_damping: f64 = ("N*m*s", "d", Number(NonNegative)) 5e-9,
-        /// Loss factor and dimensions of the hinge.
+        /// Loss factor, stiffening, stop and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing"]
@@ -177,6 +180,9 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
+        /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
+        /// and Sane and Dickinson (2002). Arabagi et al. (2013) do not use this parameter.
+        circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
         /// Chordwise lever arms of Eqs. (8) and (17): as printed, or from the rotation axis. The printed arms take the

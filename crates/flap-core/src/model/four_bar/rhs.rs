@@ -141,15 +141,14 @@ pub(super) fn balance_in<R: Real>(
     let [_, phi, theta_dot, phi_dot] = *y;
     let wing = &c.wing;
     let gyroscopic = wing.j_difference * sin * cos * theta_dot;
-    let stroke_moment = air.stroke_moment + air.rotation_stroke_moment
-        - stroke_damping(wing, links) * theta_dot
+    let [rotation_stroke, rotation_pitch] = air.rotation_moments(cos);
+    let stroke_moment = air.stroke_moment + rotation_stroke - stroke_damping(wing, links) * theta_dot
         + wing.coupling * sin * phi_dot * phi_dot
         - gyroscopic * phi_dot * 2.0
         - links.half_inertia_slope * theta_dot * theta_dot;
-    let pitch_moment = air.pitch_moment + air.rotation_pitch_moment
-        - wing.hinge_damping * phi_dot
-        - wing.hinge_stiffness * phi
-        + gyroscopic * theta_dot;
+    let pitch_moment =
+        air.pitch_moment + rotation_pitch - wing.hinge_damping * phi_dot - wing.hinge_stiffness * phi
+            + gyroscopic * theta_dot;
     Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
 }
 

@@ -1,17 +1,18 @@
-//! The wing of the four-bar model on a moving body.
+//! The equations of the four-bar model with the terms that the paper leaves out: motion of the body, rotational circulation,
+//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
-//! Each strip has its own direction of flow and its own jump of the lift. At zero body motion,
-//! [`super::aerodynamics`] has the same forces, to rounding.
+//! On a moving body, each strip has its own direction of flow and its own jump of the lift.
 //!
 //! The pitch ψ of [`crate::body`] is −φ.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::aerodynamics::{Aerodynamics, coefficients, load_in};
+use super::aerodynamics::{Aerodynamics, aerodynamics, coefficients, load_in, rotational_force};
 use super::constants::Constants;
+use super::model::FourBar;
 use super::rhs::{Transmission, balance_in};
-use crate::aero::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
-use crate::body::{Sections, Shoulder};
+use crate::aero::{Flow, NormalLoad, ObliqueForces, ObliqueStrip, oblique_forces};
+use crate::body::{BodyTerms, Sections, Shoulder};
 use crate::model::Load;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
@@ -66,9 +67,13 @@ struct Motion<R> {
 impl<R: Real> Motion<R> {
     #[inline(always)]
     fn at(c: &Constants<R>, y: &[R; 4]) -> Motion<R> {
+        Motion::with(c.moving.motion.along(y[0]), y)
+    }
+
+    #[inline(always)]
+    fn with(shoulder: Shoulder<R>, y: &[R; 4]) -> Motion<R> {
         let [theta, phi, theta_dot, phi_dot] = *y;
         let (sin, cos) = phi.sin_cos();
-        let shoulder = c.moving.motion.along(theta);
         let rates = [theta_dot, -phi_dot];
         let sections = shoulder.sections(rates[0], rates[1], cos);
         Motion { stroke: theta, shoulder, rates, sections, pitch: [-sin, cos] }
@@ -102,18 +107,21 @@ impl<R: Real> Motion<R> {
         );
         let [lift, drag] = forces.lift_and_drag(self.pitch);
         let [lift_moment, drag_moment] = forces.moments(self.pitch);
-        let rotation = self.rotation();
-        let [sin, cos] = [-self.pitch[0], self.pitch[1]];
+        let rotation = rotational_force(&c.air, self.rotation());
         Aerodynamics {
             lift,
             drag,
             stroke_moment: -drag_moment,
             lift_moment,
             pitch_moment: -forces.pitch_moment,
-            rotation_lift: c.air.rotation_force * rotation * sin,
-            rotation_stroke_moment: c.air.rotation_stroke * rotation * cos,
-            rotation_pitch_moment: c.air.rotation_pitch * rotation,
+            rotation: rotation.plus(&self.circulation(c)),
         }
+    }
+
+    /// Returns the load of the rotational circulation.
+    #[inline(always)]
+    fn circulation(&self, c: &Constants<R>) -> NormalLoad<R> {
+        c.circulation.load(&self.sections, self.shoulder.pitch_rate(self.rates[1]), self.pitch)
     }
 
     /// Returns the load of the air. The added mass has the normal acceleration that [`Shoulder::accelerations`] adds.
@@ -122,7 +130,7 @@ impl<R: Real> Motion<R> {
         let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
         let [sin, cos] = [-self.pitch[0], self.pitch[1]];
         let normal = dy[2] * cos - dy[0] * dy[1] * sin;
-        let load = load_in(c, air, y, [normal + e_1, dy[3] - e_2], self.rotation(), [sin, cos]);
+        let load = load_in(c, air, y, [normal + e_1, dy[3] - e_2], [sin, cos]);
         // The constant part e₀ acts on the whole added mass, its first moment, and its depth behind the axis.
         let (force, moment) = (c.moving.added * e_0, c.air.added_stroke * e_0);
         Load {
@@ -136,35 +144,62 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// Returns the forces and moments of the air without the added mass.
+/// Returns the motion at a state, and the forces and moments of the air without the added mass.
 #[inline(always)]
-pub(super) fn air<R: Real>(c: &Constants<R>, side: R, y: &[R; 4]) -> Aerodynamics<R> {
-    Motion::at(c, y).aerodynamics(
-        c,
-        #[inline(always)]
-        |_, flow| direction(side, flow),
-    )
+fn motion_in_air<R: Real>(
+    c: &Constants<R>,
+    body_moves: bool,
+    side: R,
+    y: &[R; 4],
+) -> (Motion<R>, Aerodynamics<R>) {
+    if body_moves {
+        let motion = Motion::at(c, y);
+        let air = motion.aerodynamics(
+            c,
+            #[inline(always)]
+            |_, flow| direction(side, flow),
+        );
+        return (motion, air);
+    }
+    let motion = Motion::with(Shoulder::rest(side), y);
+    let air = aerodynamics(c, side, y, -motion.pitch[0], motion.pitch[1]);
+    let rotation = air.rotation.plus(&motion.circulation(c));
+    (motion, Aerodynamics { rotation, ..air })
 }
 
-/// Returns mass matrix and generalised forces on a moving body, with the inertial moments of a turning body. The added mass is
-/// part of the wing's mass, which a constant velocity does not change.
+/// Returns the forces and moments of the air without the added mass.
 #[inline(always)]
-pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
-    let Motion { shoulder, rates: [theta_dot, psi_dot], pitch, .. } = Motion::at(c, y);
+pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> Aerodynamics<R> {
+    motion_in_air(c, model.body == BodyTerms::All, side, y).1
+}
+
+/// Returns mass matrix and generalised forces, with the springs' nonlinear parts, and the inertial moments of a turning body. The
+/// added mass is part of the wing's mass, which a constant velocity does not change.
+#[inline(always)]
+pub(super) fn balance<R: Real>(
+    c: &Constants<R>,
+    model: &FourBar,
+    links: &Transmission<R>,
+    side: R,
+    y: &[R; 4],
+) -> Balance<R> {
+    let (motion, air) = motion_in_air(c, model.body == BodyTerms::All, side, y);
+    let Motion { shoulder, rates: [theta_dot, psi_dot], pitch, .. } = motion;
     let gyroscopic = shoulder.gyroscopic(c.wing.j_difference, c.wing.coupling, pitch);
     let at = [-pitch[0], pitch[1]];
-    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, links, &air(c, side, y), y, at);
+    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, links, &air, y, at);
     Balance {
         mass,
-        stroke_moment: stroke_moment + gyroscopic * psi_dot,
-        pitch_moment: pitch_moment + gyroscopic * theta_dot,
+        stroke_moment: stroke_moment + gyroscopic * psi_dot - c.stiffening.stroke_moment(y[0]),
+        pitch_moment: pitch_moment + gyroscopic * theta_dot - c.stiffening.hinge_moment(y[1]),
     }
 }
 
 /// Returns the load of the air at a state with derivative `dy`.
 #[inline(always)]
-pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
-    Motion::at(c, y).load(c, &air(c, side, y), y, dy)
+pub(super) fn load<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
+    let (motion, air) = motion_in_air(c, model.body != BodyTerms::None, side, y);
+    motion.load(c, &air, y, dy)
 }
 
 /// Number of steps of the search for a jump, by regula falsi with the rule of Illinois.

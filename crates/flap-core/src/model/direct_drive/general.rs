@@ -1,0 +1,106 @@
+//! The equations of the direct-drive model with the terms that the paper leaves out: motion of the body, rotational circulation,
+//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//!
+//! Body motion requires the blade elements, each of which has its own direction of flow.
+
+use super::constants::Constants;
+use super::model::DirectDrive;
+use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};
+use crate::aero::{NormalLoad, oblique_forces};
+use crate::body::{BodyTerms, Shoulder};
+use crate::model::stroke_and_pitch::Balance;
+use crate::num::Real;
+
+/// Forces of the air on a wing, and what the body's motion adds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Air<R> {
+    /// Translational and rotational aerodynamics.
+    pub(super) forces: Aerodynamics<R>,
+    /// Load of the circulation, and of the added mass due to the motion of the body.
+    pub(super) normal: NormalLoad<R>,
+    /// Inertial moment per rate g (N·m·s), see [`Shoulder::gyroscopic`].
+    gyroscopic: R,
+}
+
+impl<R: Real> Air<R> {
+    /// Returns the power lost to translational forces (W), with the power of the `normal` load, whose mean is not zero.
+    #[inline(always)]
+    pub(super) fn translational_power(&self, [phi_dot, psi_dot]: [R; 2], cos: R) -> R {
+        let Air { forces, normal, .. } = self;
+        -((forces.stroke_moment + normal.chord_moment * cos) * phi_dot
+            + (forces.pitch_moment + normal.span_moment) * psi_dot)
+    }
+
+    /// Returns the `normal` load with the added mass at known accelerations.
+    #[inline(always)]
+    pub(super) fn with_added_mass(&self, c: &Constants<R>, [sin, cos]: [R; 2], dy: &[R; 4]) -> NormalLoad<R> {
+        added_mass(c, sin, cos, dy).plus(&self.normal)
+    }
+}
+
+/// Returns the forces at a state. On a moving body, they are the terms (21) to (27) of each blade element in oblique flow, and (32).
+#[inline(always)]
+pub(super) fn air<R: Real>(
+    c: &Constants<R>,
+    model: &DirectDrive,
+    body_moves: bool,
+    side: R,
+    y: &[R; 4],
+    pitch: [R; 2],
+) -> Air<R> {
+    let [phi, _, phi_dot, psi_dot] = *y;
+    let shoulder = if body_moves { c.moving.along(phi) } else { Shoulder::rest(phi) };
+    let sections = shoulder.sections(phi_dot, psi_dot, pitch[1]);
+    let rate = shoulder.pitch_rate(psi_dot);
+    let circulation = c.circulation.load(&sections, rate, pitch);
+    if !body_moves {
+        let forces = aerodynamics(c, model.flow, side, y, pitch[0], pitch[1]);
+        return Air { forces, normal: circulation, gyroscopic: phi.lit(0.0) };
+    }
+    let [directional, _, _] = c.attack;
+    let half = directional.lit(0.5);
+    let forces = oblique_forces(
+        c.blades.oblique(half),
+        &sections,
+        pitch,
+        #[inline(always)]
+        |_, flow| {
+            let attack = R::select(half.lt(directional), flow.attack(), flow.folded_attack());
+            let law = [c.drag_mean, c.drag_swing, c.k_lift];
+            (flow.harmonic_forces(law), c.pressure_slope * attack + c.pressure_offset)
+        },
+    );
+    let [lift, drag] = forces.lift_and_drag(pitch);
+    let [lift_moment, drag_moment] = forces.moments(pitch);
+    Air {
+        forces: Aerodynamics {
+            lift,
+            drag,
+            stroke_moment: -drag_moment,
+            lift_moment,
+            pitch_moment: forces.pitch_moment,
+            rotation_moment: -(c.rotation * rate * rate.abs()),
+        },
+        normal: c.added.load(shoulder.accelerations([phi_dot, psi_dot], pitch)).plus(&circulation),
+        gyroscopic: shoulder.gyroscopic(c.m_s, -c.m12, pitch),
+    }
+}
+
+/// Returns mass matrix and generalised forces. The `normal` load of the air, the springs' nonlinear parts, and the inertial moments
+/// −g φ̇ and g ψ̇ are added to the moments of [`balance_in`].
+#[inline(always)]
+pub(super) fn balance<R: Real>(c: &Constants<R>, model: &DirectDrive, side: R, y: &[R; 4]) -> Balance<R> {
+    let [phi, psi, phi_dot, psi_dot] = *y;
+    let (sin, cos) = psi.sin_cos();
+    let body_moves = model.body == BodyTerms::All;
+    let Air { forces, normal, gyroscopic } = air(c, model, body_moves, side, y, [sin, cos]);
+    let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, &forces, y, [sin, cos]);
+    Balance {
+        mass,
+        stroke_moment: stroke_moment + normal.chord_moment * cos + gyroscopic * psi_dot
+            - c.stiffening.stroke_moment(phi),
+        pitch_moment: pitch_moment + normal.span_moment
+            - gyroscopic * phi_dot
+            - c.stiffening.hinge_moment(psi),
+    }
+}

@@ -1,0 +1,118 @@
+//! Springs of stroke and hinge: losses, stiffening, and the stop of the hinge.
+
+use core::f64::consts::FRAC_PI_3;
+
+use crate::num::Real;
+use crate::parameter::Kind::{Following, Number};
+use crate::parameter::Range::{Any, NonNegative, Positive};
+
+/// Returns the viscous damping γ k/ω equivalent to the loss factor γ of a spring.
+///
+/// k is the spring's `stiffness`, ω the angular frequency `rate` (rad/s). The equivalence is exact for the first
+/// harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured such losses in insect thoraxes and
+/// robot hinges.
+pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
+    loss_factor * stiffness / rate
+}
+
+crate::parameters! {
+    /// Loss factor, stiffening, stop and size of the wing hinge.
+    pub struct HingeParameters {
+        /// Loss factor of the wing hinge. The loss factor adds a viscous damping: loss factor times stiffness, divided
+        /// by the angular drive frequency.
+        hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
+        /// Cubic stiffness of the wing hinge: the hinge adds the moment -hinge_stiffening * pitch^3.
+        hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
+        /// Pitch at which the stop of the hinge begins to act, in both directions.
+        hinge_stop_angle: f64 = ("rad", "", Number(NonNegative), default: FRAC_PI_3),
+        /// Stiffness of the stop of the hinge. Beyond hinge_stop_angle, the stop adds this stiffness to the stiffness of
+        /// the hinge.
+        hinge_stop_stiffness: f64 = ("N*m/rad", "", Number(NonNegative), default: 0.0),
+        /// Thickness of the flexure of the wing hinge. The thickness affects only the column hinge_strain_max.
+        hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
+        /// Length of the flexure of the wing hinge, between the rigid parts. The length affects only the column
+        /// hinge_strain_max.
+        hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
+    }
+}
+
+/// Powers with which the stiffness E w t^3 / (12 l) of a bending flexure scales with its thickness t and length l.
+pub(crate) const FLEXURE: &[(&str, f64)] = &[("hinge_thickness", 3.0), ("hinge_length", -1.0)];
+
+impl HingeParameters {
+    /// A linear hinge without loss and without dimensions.
+    pub(crate) const NONE: HingeParameters = HingeParameters {
+        hinge_loss_factor: 0.0,
+        hinge_stiffening: 0.0,
+        hinge_stop_angle: FRAC_PI_3,
+        hinge_stop_stiffness: 0.0,
+        hinge_thickness: None,
+        hinge_length: None,
+    };
+
+    /// Returns the equivalent damping (N·m·s) of the loss factor. `stiffness` is the hinge's (N·m/rad), `rate` the
+    /// angular frequency (rad/s).
+    pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
+        structural_damping(self.hinge_loss_factor, stiffness, rate)
+    }
+
+    /// Returns the strain of the flexure's faces per pitch (1/rad): thickness over twice the length.
+    ///
+    /// The flexure is assumed to bend to an arc of a circle. Zero if its dimensions are not set.
+    pub(crate) fn strain_per_angle(&self) -> f64 {
+        match (self.hinge_thickness, self.hinge_length) {
+            (Some(thickness), Some(length)) => 0.5 * thickness / length,
+            _ => 0.0,
+        }
+    }
+}
+
+crate::per_lane! {
+    /// Nonlinear parts of the springs. The papers leave them out.
+    pub struct Stiffening<R> {
+        /// Cubic stiffness of the stroke k₃ (N·m/rad³).
+        pub stroke: R,
+        /// Cubic stiffness of the hinge κ₃ (N·m/rad³).
+        pub hinge: R,
+        /// Pitch at which the stop of the hinge begins to act ψ_s (rad).
+        pub stop_angle: R,
+        /// Stiffness of the stop κ_s (N·m/rad).
+        pub stop_stiffness: R,
+    }
+}
+
+impl Stiffening<f64> {
+    /// Returns the nonlinear parts of a stroke with this cubic stiffness (N·m/rad³) and of a hinge.
+    pub(crate) fn of(stroke: f64, hinge: &HingeParameters) -> Stiffening<f64> {
+        Stiffening {
+            stroke,
+            hinge: hinge.hinge_stiffening,
+            stop_angle: hinge.hinge_stop_angle,
+            stop_stiffness: hinge.hinge_stop_stiffness,
+        }
+    }
+
+    /// Returns true if the springs are linear.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.stroke == 0.0 && self.hinge == 0.0 && self.stop_stiffness == 0.0
+    }
+}
+
+impl<R: Real> Stiffening<R> {
+    /// Returns the moment against the stroke φ (rad) about the stroke axis (N·m): k₃ φ³.
+    #[inline(always)]
+    pub(crate) fn stroke_moment(&self, stroke: R) -> R {
+        self.stroke * stroke * (stroke * stroke)
+    }
+
+    /// Returns the moment against the pitch ψ (rad) about the hinge's axis (N·m).
+    ///
+    /// ```text
+    /// κ₃ ψ³ + κ_s max(|ψ| − ψ_s, 0) sign ψ
+    /// ```
+    #[inline(always)]
+    pub(crate) fn hinge_moment(&self, pitch: R) -> R {
+        let beyond = (pitch.abs() - self.stop_angle).max(pitch.lit(0.0));
+        self.hinge * pitch * (pitch * pitch) + self.stop_stiffness * beyond.copysign(pitch)
+    }
+}
