@@ -2,7 +2,6 @@
 //! dielectric loss, charge recovery, hinge strain.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
-use std::fmt::Write as _;
 
 use flap_core::model::Model;
 use flap_core::model::bimorph::{Bimorph, Constants, Law, Params};
@@ -359,89 +358,4 @@ fn hinge_strain_is_that_of_an_arc() {
         let [unknown] = Design::new(name).with(&size[..1]).measures(["hinge_strain_max"]);
         assert!(unknown.is_nan(), "{name}: {unknown}");
     }
-}
-
-/// A term of the table in docs/models/terms.md: its label, the parameter and its value, and the models for which it is shown.
-type Shown = (&'static str, (&'static str, f64), &'static [&'static str]);
-
-const ALL: &[&str] = &["bimorph", "direct-drive", "four-bar"];
-const BIMORPH: &[&str] = &["bimorph"];
-/// The models whose presets have no hinge damping.
-const UNDAMPED: &[&str] = &["bimorph", "direct-drive"];
-
-const SHOWN: [Shown; 18] = [
-    // Of the order of the loss factor below. The four-bar's presets have 200 nN·m·s.
-    ("`stroke_damping` 5 nN·m·s", ("stroke_damping", 5e-9), BIMORPH),
-    ("`stroke_damping` 500 nN·m·s", ("stroke_damping", 5e-7), &["direct-drive"]),
-    ("`stroke_damping` 500 nN·m·s, not 200", ("stroke_damping", 5e-7), &["four-bar"]),
-    ("`stroke_loss_factor` 0.1", ("stroke_loss_factor", 0.1), ALL),
-    ("`hinge_loss_factor` 0.1", ("hinge_loss_factor", 0.1), ALL),
-    ("`hinge_damping` 1 nN·m·s", ("hinge_damping", 1e-9), UNDAMPED),
-    ("`dielectric_loss` 0.13", ("dielectric_loss", 0.13), ALL),
-    ("`charge_recovery` 0.58", ("charge_recovery", 0.58), ALL),
-    ("`transmission_growth` 4.4 rad/mm³", ("transmission_growth", 4.4e9), BIMORPH),
-    ("`drive_offset` 20 V", ("drive_offset", 20.0), BIMORPH),
-    ("`plate_ratio` 0.9", ("plate_ratio", 0.9), BIMORPH),
-    ("`modulus_decline` 0.1 µm/V", ("modulus_decline", 1e-7), BIMORPH),
-    ("`stroke_stiffening` 1 µN·m/rad³", ("stroke_stiffening", 1e-6), BIMORPH),
-    ("`hinge_stiffening` 1 µN·m/rad³", ("hinge_stiffening", 1e-6), BIMORPH),
-    ("`hinge_stiffening` 30 µN·m/rad³", ("hinge_stiffening", 3e-5), &["direct-drive", "four-bar"]),
-    ("`hinge_stop_stiffness` 30 µN·m/rad at 60°", ("hinge_stop_stiffness", 3e-5), ALL),
-    ("`circulation_factor` 1", ("circulation_factor", 1.0), ALL),
-    ("`added_mass_factor` 1", ("added_mass_factor", 1.0), BIMORPH),
-];
-
-/// The changes of measures by each term at each preset.
-fn table_of_terms() -> String {
-    let columns = [
-        "stroke_pp_deg",
-        "stroke_mean_deg",
-        "pitch_pp_deg",
-        "lift_mean_mn",
-        "power_mean_mw",
-        "power_supply_mw",
-    ];
-    let mut table =
-        "| preset | term | stroke | mean stroke | pitch | lift | power | supply |\n|---|---|--:|--:|--:|--:|--:|--:|\n"
-            .to_owned();
-    for name in [
-        "jafferis2016",
-        "jafferis2016-improved",
-        "ozaki2018-small",
-        "ozaki2018-large",
-        "arabagi2013-75hz",
-        "arabagi2013-30hz",
-    ] {
-        let design = Design::new(name);
-        let before = design.measures(columns);
-        for (term, change, models) in SHOWN {
-            if !models.contains(&design.model.name()) {
-                continue;
-            }
-            let after = design.clone().with(&[change]).measures(columns);
-            write!(table, "| `{name}` | {term} |").unwrap();
-            for ((after, before), column) in after.into_iter().zip(before).zip(columns) {
-                let (change, unit) = match column {
-                    // A share of a mean that is zero at most presets says nothing.
-                    "stroke_mean_deg" => (after - before, "°"),
-                    _ => (100.0 * (after / before - 1.0), " %"),
-                };
-                // No sign for what rounds to nothing.
-                if change.abs() < 0.05 {
-                    table += " 0 |";
-                } else {
-                    write!(table, " {change:+.1}{unit} |").unwrap();
-                }
-            }
-            table += "\n";
-        }
-    }
-    table
-}
-
-#[test]
-fn the_table_in_the_docs_is_computed() {
-    let page = std::fs::read_to_string("../../docs/models/terms.md").unwrap();
-    let table = table_of_terms();
-    assert!(page.contains(&table), "docs/models/terms.md must have this table:\n{table}");
 }

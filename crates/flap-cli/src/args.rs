@@ -41,7 +41,7 @@ pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResultsCommand, ResumeArgs, VerifyArgs};
 pub(crate) use run::RunArgs;
 pub(crate) use sweep::{CheckArgs, SweepArgs};
-pub(crate) use test::{ChirpArgs, ImpulseArgs, LiftArgs, ResonanceArgs, TestCommand, TrackArgs};
+pub(crate) use test::{ChirpArgs, ImpulseArgs, LiftArgs, ResonanceArgs, TermsArgs, TestCommand, TrackArgs};
 pub(crate) use values::HOVER;
 pub(crate) use vehicle::VehicleArgs;
 

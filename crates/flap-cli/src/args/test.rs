@@ -1,4 +1,4 @@
-//! Arguments of experiments on one wing: `flap test chirp`, `impulse`, `resonance`, `lift` and `track`.
+//! Arguments of experiments on one wing: `flap test chirp`, `impulse`, `resonance`, `lift`, `terms` and `track`.
 
 use std::path::PathBuf;
 
@@ -17,6 +17,8 @@ pub(crate) enum TestCommand {
     Resonance(ResonanceArgs),
     /// Compute the forces on a wing from its measured stroke and pitch
     Lift(LiftArgs),
+    /// Compare the effects of terms that the papers leave out, such as damping or rotational circulation
+    Terms(TermsArgs),
     /// Compute stroke, pitch and rotation centre of a filmed wing from tracked points
     Track(TrackArgs),
 }
@@ -112,6 +114,27 @@ During the motion, the drive voltage is constant: the voltage at which a wing at
 Examples:
   flap test impulse ozaki2018-small
   flap test impulse ozaki2018-small --amplitude '5 deg' --duration '50 ms' --trajectory free.csv";
+
+#[derive(clap::Args)]
+#[command(after_help = TERMS_HELP)]
+pub(crate) struct TermsArgs {
+    #[command(flatten)]
+    pub(crate) point: PointArgs,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
+    pub(crate) format: OutputFormat,
+
+    #[command(flatten)]
+    pub(crate) solver: SolverArgs,
+}
+
+const TERMS_HELP: &str = "\
+Each line changes one parameter: a term that the design leaves out is switched on with a typical size, other terms are switched off.
+
+Examples:
+  flap test terms jafferis2016
+  flap test terms mybee.toml --set drive_voltage_pp='160 V'";
 
 #[derive(clap::Args)]
 #[command(after_help = RESONANCE_HELP)]

@@ -40,7 +40,7 @@ impl<R: Real> NormalLoad<R> {
 }
 
 /// Integral ∫ c^n r^m dr over a wing, with the chord c and the distance r from the stroke axis, as a function of n and m.
-pub(crate) type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
+pub type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
 
 crate::per_lane! {
     /// Added mass of the sections of a wing, each π/4 ρc² Δr at the mid-chord (Sedov 1965).
@@ -62,12 +62,12 @@ crate::per_lane! {
 
 impl AddedMass<f64> {
     /// Without added mass.
-    pub(crate) const NONE: AddedMass<f64> =
+    pub const NONE: AddedMass<f64> =
         AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
 
     /// Returns the added mass in air of this density (kg/m³), with the rotation about the mid-chord. The pitch axis is
     /// `axis` chords behind the leading edge.
-    pub(crate) fn of(density: f64, axis: f64, integral: &ChordIntegral<'_>) -> AddedMass<f64> {
+    pub fn of(density: f64, axis: f64, integral: &ChordIntegral<'_>) -> AddedMass<f64> {
         let (mass, behind) = (FRAC_PI_4 * density, 0.5 - axis);
         AddedMass {
             f0: mass * integral(2, 0),
@@ -112,11 +112,11 @@ crate::per_lane! {
 
 impl Circulation<f64> {
     /// Without circulation.
-    pub(crate) const NONE: Circulation<f64> = Circulation { force: [0.0; 3], moment: [0.0; 2] };
+    pub const NONE: Circulation<f64> = Circulation { force: [0.0; 3], moment: [0.0; 2] };
 
     /// Returns the circulation times `factor`, in air of this density (kg/m³), for a pitch axis `axis` chords behind the
     /// leading edge.
-    pub(crate) fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
+    pub fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
         let kappa = factor * PI * (0.75 - axis) * density;
         Circulation {
             force: [0, 1, 2].map(|m| kappa * integral(2, m)),

@@ -45,6 +45,7 @@ from ._results import (
     State,
     Verdict,
 )
+from ._stability import hover_eigenvalues
 from ._sweep import read, sweep
 from ._table import Table
 from ._vehicle import Vehicle, Wing
@@ -86,6 +87,7 @@ __all__ = [
     "fit",
     "fly",
     "forces_along",
+    "hover_eigenvalues",
     "impulse",
     "live",
     "measures",

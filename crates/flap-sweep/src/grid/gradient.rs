@@ -1,7 +1,11 @@
 //! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
 
+use std::ops::Range;
+
+use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
+use flap_core::vehicle::{FORCES, TORQUES};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -50,6 +54,42 @@ pub(super) fn read(
         parameter(name, item, names, derived, problems)
     });
     Some(Gradient { of, with_respect_to, per: Per::Cent })
+}
+
+/// Returns the derivatives of the mean wrench with respect to velocity and rates of the body: the damping matrix of a vehicle.
+///
+/// `at` is the position of the key that requests the matrix, `section` the section `[gradient]`.
+pub(super) fn damping(
+    at: &Range<usize>,
+    section: Option<&Entry<'_>>,
+    simulator: &dyn Simulator,
+    names: &Names<'_>,
+    at_resonance: bool,
+    problems: &mut Problems,
+) -> Option<Gradient> {
+    if let Some(section) = section {
+        problems
+            .report(section.key_span.clone(), "a grid with damping = true in [vehicle] cannot have [gradient]")
+            .help("remove one of the two");
+    }
+    if at_resonance {
+        problems
+            .report(at.clone(), "rows at the resonance of each design have no damping matrix")
+            .help("set drive_frequency, or remove damping");
+    }
+    if let Err(error) = simulator.gradients() {
+        problems.report(at.clone(), error.to_string());
+    }
+    let motion = BodyParameters::MOTION.map(|name| Parameter::index(names.parameters, name));
+    let Some(with_respect_to) = motion.into_iter().collect::<Option<Vec<usize>>>() else {
+        problems
+            .report(at.clone(), format!("the model {} has no motion of the body", simulator.name()))
+            .help("remove damping, or choose a preset of another model");
+        return None;
+    };
+    let place = |name: &str| names.columns.iter().position(|column| column.name == name);
+    let of = FORCES.into_iter().chain(TORQUES).map(place).collect::<Option<Vec<usize>>>()?;
+    Some(Gradient { of, with_respect_to, per: Per::Unit })
 }
 
 /// Returns the indices of the names in a list. `index` finds each name or reports it.

@@ -67,14 +67,19 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         return Err(problems.into_mistakes());
     };
     let (base, settings) = base;
+    let damping = settings.damping.clone();
     let (robot, preset) = (base.robot.clone(), base.preset);
     let simulator = &*robot;
     let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
         read_points(&root, base, simulator, settings, reader.models, &mut problems);
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
-    let gradient = table::find(&root, "gradient");
-    let gradient = gradient::read(gradient, simulator, &names, &derived, resonance.is_some(), &mut problems);
+    let section = table::find(&root, "gradient");
+    let at_resonance = resonance.is_some();
+    let gradient = match &damping {
+        Some(at) => gradient::damping(at, section, simulator, &names, at_resonance, &mut problems),
+        None => gradient::read(section, simulator, &names, &derived, at_resonance, &mut problems),
+    };
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
     let refine = table::find(&root, "refine").and_then(|section| {

@@ -18,8 +18,9 @@ use super::{uncertainty, value};
 use crate::plan::{Robot, Value};
 use crate::resonance::DRIVE_FREQUENCY;
 
-pub(super) const KEYS: [&str; 8] = [
+pub(super) const KEYS: [&str; 9] = [
     "about",
+    "damping",
     "total_mass",
     "body_inertia_roll",
     "body_inertia_pitch",
@@ -43,6 +44,8 @@ const DRIVE: &str = "drive";
 pub(super) struct VehicleSettings {
     /// Parameters that the section sets, with their positions.
     pub(super) set: Vec<(usize, Range<usize>)>,
+    /// Position of the key `damping` if rows have the damping matrix.
+    pub(super) damping: Option<Range<usize>>,
     /// Wings whose designs have another drive frequency than the grid, each as a position and a message.
     frequencies: Vec<(Range<usize>, String)>,
 }
@@ -100,7 +103,18 @@ pub(super) fn read(
     if let Some(entry) = table::find(&entries, "about") {
         own.vector(entry, |axis| format!("about_{axis}"));
     }
-    for name in KEYS.into_iter().filter(|key| !["about", "wings"].contains(key)) {
+    if let Some(entry) = table::find(&entries, "damping") {
+        match entry.value.get_ref().as_bool() {
+            Some(true) => own.settings.damping = Some(entry.key_span.clone()),
+            Some(false) => {}
+            None => {
+                own.problems
+                    .report(entry.value.span(), "`damping` must be true or false")
+                    .help("write damping = true for rows with the damping matrix");
+            }
+        }
+    }
+    for name in KEYS.into_iter().filter(|key| !["about", "damping", "wings"].contains(key)) {
         if let Some(entry) = table::find(&entries, name) {
             own.number(name, entry);
         }

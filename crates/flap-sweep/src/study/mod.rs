@@ -1,5 +1,5 @@
 //! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked
-//! parameters, most important parameters, surveys, optima, quadratic maps of vehicles. Also experiments on single points.
+//! parameters, most important parameters, effects of terms, surveys, optima, quadratic maps of vehicles. Also experiments on single points.
 
 pub mod control;
 pub mod deviation;
@@ -11,4 +11,5 @@ pub mod optimum;
 pub mod response;
 pub mod strongest;
 pub mod survey;
+pub mod terms;
 pub mod wrench_map;

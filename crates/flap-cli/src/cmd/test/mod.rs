@@ -4,6 +4,7 @@ mod chirp;
 mod impulse;
 mod lift;
 mod resonance;
+mod terms;
 mod track;
 
 use crate::args::TestCommand;
@@ -16,6 +17,7 @@ pub(crate) fn run(command: &TestCommand) -> Result<Exit, Failure> {
         TestCommand::Impulse(args) => impulse::run(args),
         TestCommand::Lift(args) => lift::run(args),
         TestCommand::Resonance(args) => resonance::run(args),
+        TestCommand::Terms(args) => terms::run(args),
         TestCommand::Track(args) => track::run(args),
     }
 }

@@ -208,6 +208,10 @@ pub(super) fn capitalized(text: &str) -> String {
 pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(KEYS, |key| match key {
         "about" => lengths("Position of the reference point of the torques: forward, to the left, upwards."),
+        "damping" => json!({
+            "description": "True for rows with the damping matrix: derivatives of force and torque with respect to velocity and rates of the body.",
+            "type": "boolean", "default": false,
+        }),
         "wings" => json!({
             "description": "The wings of the vehicle, each in its own table [[vehicle.wings]].",
             "type": "array", "minItems": 1, "maxItems": MOST_WINGS, "items": wing(models),

@@ -1,0 +1,91 @@
+"""Eigenvalues of hover for the rows of a sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ._types import Array
+
+__all__ = ["hover_eigenvalues"]
+
+_WRENCH = {
+    "force_forward_mn": 1e-3,
+    "force_left_mn": 1e-3,
+    "force_up_mn": 1e-3,
+    "torque_roll_unm": 1e-6,
+    "torque_pitch_unm": 1e-6,
+    "torque_yaw_unm": 1e-6,
+}
+_MOTION = ["velocity_forward", "velocity_left", "velocity_up", "rate_roll", "rate_pitch", "rate_yaw"]
+
+
+def hover_eigenvalues(
+    rows: Mapping[str, Any],
+    total_mass: Array | float,
+    body_inertia: Sequence[Array | float],
+    *,
+    body_inertia_product: Array | float = 0.0,
+    gravity: float = 9.80665,
+) -> np.ndarray[Any, np.dtype[np.complex128]]:
+    """Return the eigenvalues of hover for each row of a sweep of vehicles with ``damping = true``.
+
+    The states are velocities, rates, roll angle and pitch angle, about the reference point of the torques, which must be the
+    centre of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate for rows near
+    hover. `Vehicle.linear` trims one design and describes its modes.
+
+    Parameters
+    ----------
+    rows : Table or mapping
+        The rows, with the columns of the damping matrix.
+    total_mass : float or array
+        The mass of the vehicle (kg), for all rows or for each row.
+    body_inertia : three floats or arrays
+        The moments of inertia for roll, pitch and yaw (kg m^2).
+    body_inertia_product : float or array
+        The product of inertia, the integral of x z dm (kg m^2).
+    gravity : float
+        The gravitational acceleration (m/s^2).
+
+    Returns
+    -------
+    complex array, rows × 8
+        The eigenvalues (1/s), those with the largest real part first. NaN for a row without a damping matrix.
+
+    Raises
+    ------
+    ValueError
+        If a column of the damping matrix is missing, or the inertia of the body is not positive definite.
+    """
+    columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
+    missing = [name for line in columns for name in line if name not in rows]
+    if missing:
+        raise ValueError(
+            f"the rows lack {len(missing)} of the 36 columns of the damping matrix, such as `{missing[0]}`\n"
+            "set damping = true in the section [vehicle] of the grid file, and sweep again"
+        )
+    damping = np.array([[np.asarray(rows[name], dtype=np.float64) for name in line] for line in columns])
+    damping = np.moveaxis(damping * np.array(list(_WRENCH.values()))[:, None, None], 2, 0)
+    count = len(damping)
+    roll, pitch, yaw = (np.broadcast_to(moment, count) for moment in body_inertia)
+    mass = np.zeros((count, 6, 6))
+    mass[:, range(3), range(3)] = np.broadcast_to(total_mass, count)[:, None]
+    mass[:, range(3, 6), range(3, 6)] = np.stack([roll, pitch, yaw], axis=1)
+    mass[:, 3, 5] = mass[:, 5, 3] = -np.broadcast_to(body_inertia_product, count)
+    if not (np.linalg.eigvalsh(mass) > 0).all():
+        raise ValueError(
+            "the mass or the inertia of the body is not positive definite\n"
+            "mass and moments must be positive, and the square of body_inertia_product smaller than roll times yaw"
+        )
+    known = np.isfinite(damping).all(axis=(1, 2))
+    states = np.zeros((count, 8, 8))
+    states[:, :6, :6] = np.linalg.solve(mass, np.where(known[:, None, None], damping, 0.0))
+    # A lowered nose accelerates forward, and a lifted left side accelerates to the right.
+    states[:, 0, 7], states[:, 1, 6] = gravity, -gravity
+    states[:, 6, 3] = states[:, 7, 4] = 1.0
+    found = np.linalg.eigvals(states).astype(np.complex128)
+    found = np.take_along_axis(found, np.argsort(-found.real, axis=1, kind="stable"), axis=1)
+    found[~known] = np.nan
+    return found

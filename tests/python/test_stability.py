@@ -1,0 +1,55 @@
+"""Damping matrices in the rows of a sweep, and eigenvalues of hover from these rows."""
+
+import flapwing
+import numpy as np
+import pytest
+
+GRID = """
+preset = "jafferis2016"
+[params]
+drive_voltage_pp = 140.0
+drive_frequency = 120.0
+[axes]
+hinge_stiffness = [1.4e-6, 1.6e-6]
+[vehicle]
+DAMPING
+about = ["0 mm", "0 mm", "-3 mm"]
+[[vehicle.wings]]
+name = "left"
+position = ["0 mm", "2 mm", "0 mm"]
+[[vehicle.wings]]
+name = "right"
+position = ["0 mm", "2 mm", "0 mm"]
+mirrored = true
+"""
+
+
+def test_rows_with_damping_have_the_eigenvalues_of_the_linear_model():
+    rows = flapwing.sweep(GRID.replace("DAMPING", "damping = true"), rtol=1e-8)
+    inertia = [1.5e-9, 1.4e-9, 0.5e-9]
+    found = flapwing.hover_eigenvalues(rows, 69e-6, inertia, body_inertia_product=1e-10)
+    assert found.shape == (2, 8)
+    place = ["0 mm", "2 mm", "0 mm"]
+    wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    names = ["body_inertia_roll", "body_inertia_pitch", "body_inertia_yaw"]
+    params = {"drive_voltage_pp": 140.0, "drive_frequency": 120.0, **dict(zip(names, inertia, strict=True))}
+    design = {"preset": "jafferis2016", "params": {**params, "body_inertia_product": 1e-10}}
+    vehicle = flapwing.Vehicle(design, wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+    for row, stiffness in enumerate([1.4e-6, 1.6e-6]):
+        model = vehicle.linear(hinge_stiffness=stiffness, rtol=1e-8)
+        yaw = rows["d_torque_yaw_unm_per_si_body_rate_yaw"][row] * 1e-6
+        assert yaw == pytest.approx(model.damping[5, 5], rel=1e-6)
+        expected = np.sort_complex(model.eigenvalues[np.abs(model.eigenvalues) > 1e-6])
+        own = np.sort_complex(found[row][np.abs(found[row]) > 1e-6])
+        np.testing.assert_allclose(own, expected, rtol=1e-4)
+        assert (np.diff(found[row].real) <= 0).all()
+
+
+def test_mistakes_of_damping_and_eigenvalues_have_help():
+    with pytest.raises(flapwing.GridError, match="`damping` must be true or false"):
+        flapwing.Grid(GRID.replace("DAMPING", 'damping = "yes"'))
+    gradient = '[gradient]\nof = ["lift_mean_mn"]\nwith_respect_to = ["hinge_stiffness"]\n'
+    with pytest.raises(flapwing.GridError, match=r"cannot have \[gradient\]"):
+        flapwing.Grid(GRID.replace("DAMPING", "damping = true") + gradient)
+    with pytest.raises(ValueError, match="set damping = true"):
+        flapwing.hover_eigenvalues({"lift_mean_mn": np.ones(2)}, 69e-6, [1e-9, 1e-9, 1e-9])
