@@ -32,9 +32,9 @@ def hover_eigenvalues(
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Return the eigenvalues of hover for each row of a sweep of vehicles with ``damping = true``.
 
-    The states are velocities, rates, roll angle and pitch angle, about the reference point of the torques, which must be the
-    centre of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate for rows near
-    hover. `Vehicle.linear` trims one design and describes its modes.
+    The states are velocities, rates, roll angle and pitch angle, about the reference point of the torques, which must
+    be the centre of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate
+    for rows near hover. `Vehicle.linear` trims one design and describes its modes.
 
     Parameters
     ----------
