@@ -24,13 +24,13 @@ const STATES: [([f64; 4], [f64; 2]); 3] = [
 /// A section: distance from the stroke axis, chord and width (m).
 type Section = [f64; 3];
 
-/// Sums over sections of the load of circulation (times `circulation`) and added mass (times `added`), in the directions of
-/// [`Load`]. The pitch axis is `axis` chords behind the leading edge.
+/// Sums over sections of the load of circulation (times `circulation`), added mass (times `added`), and rotational drag with the
+/// coefficient `rotation`, in the directions of [`Load`]. The pitch axis is `axis` chords behind the leading edge.
 fn summed(
     sections: &[Section],
     density: f64,
     axis: f64,
-    [circulation, added]: [f64; 2],
+    [circulation, added, rotation]: [f64; 3],
     ([phi, psi, phi_dot, psi_dot], [phi_ddot, psi_ddot]): ([f64; 4], [f64; 2]),
 ) -> Load<f64> {
     let (sin, cos) = psi.sin_cos();
@@ -46,7 +46,15 @@ fn summed(
         let mass = added * FRAC_PI_4 * density * c * c * width;
         let inertial = -mass * acceleration;
         let rotational = -mass * c * c / 32.0 * psi_ddot;
-        for (force, behind) in [(lifting, (0.25 - axis) * c), (inertial, depth)] {
+        // Parts of the chord at the distance z behind the axis move with z ψ̇. Their moment is in the paper already.
+        let parts = gauss_legendre(40);
+        let drag = parts.iter().map(|node| {
+            // Both sides of the axis, so that no part contains the kink of z|z|.
+            let (before, behind) = (-axis * c * node.x, (1.0 - axis) * c * node.x);
+            (behind * behind.abs() * (1.0 - axis) + before * before.abs() * axis) * c * node.weight
+        });
+        let dragging = 0.5 * density * rotation * psi_dot * psi_dot.abs() * drag.sum::<f64>() * width;
+        for (force, behind) in [(lifting, (0.25 - axis) * c), (inertial, depth), (dragging, 0.0)] {
             load.lift -= force * sin;
             load.drag -= force * cos;
             load.lift_moment -= r * force * sin;
@@ -100,6 +108,7 @@ fn beta_sections(p: &bimorph::Params) -> Vec<Section> {
 fn sectional() -> bimorph::Params {
     bimorph::Params {
         circulation_factor: 0.8,
+        rotation_force_factor: 0.7,
         added_mass_factor: 0.6,
         axis_position: 0.1,
         ..bimorph::Params::jafferis2016()
@@ -108,7 +117,12 @@ fn sectional() -> bimorph::Params {
 
 #[test]
 fn the_load_of_the_bimorph_is_the_sum_over_sections() {
-    let plain = bimorph::Params { circulation_factor: 0.0, added_mass_factor: 0.0, ..sectional() };
+    let plain = bimorph::Params {
+        circulation_factor: 0.0,
+        rotation_force_factor: 0.0,
+        added_mass_factor: 0.0,
+        ..sectional()
+    };
     let sections = beta_sections(&plain);
     for at in STATES {
         let load = |p: &bimorph::Params| {
@@ -121,13 +135,15 @@ fn the_load_of_the_bimorph_is_the_sum_over_sections() {
             model.load(&c, Instant { input: &plates, side: 1.0, y: &y, dy: &dy })
         };
         let without = load(&plain);
-        for factors in [[0.8, 0.0], [0.0, 0.6], [0.8, 0.6]] {
+        for factors in [[0.8, 0.0, 0.0], [0.0, 0.6, 0.0], [0.0, 0.0, 0.7], [0.8, 0.6, 0.7]] {
             let with = bimorph::Params {
                 circulation_factor: factors[0],
                 added_mass_factor: factors[1],
+                rotation_force_factor: factors[2],
                 ..plain.clone()
             };
-            let expected = summed(&sections, plain.air_density, 0.1, factors, at);
+            let drag = factors[2] * plain.drag_coefficient_max;
+            let expected = summed(&sections, plain.air_density, 0.1, [factors[0], factors[1], drag], at);
             assert_difference(&load(&with), &without, &expected, &format!("{factors:?}"));
         }
     }
@@ -164,14 +180,19 @@ fn the_circulation_of_strips_is_the_sum_over_sections() {
     for at in STATES {
         let ([phi, psi, phi_dot, psi_dot], [phi_ddot, psi_ddot]) = at;
         let load = |factor: f64| {
-            let p = direct_drive::Params { circulation_factor: factor, ..direct.clone() };
+            let p = direct_drive::Params {
+                circulation_factor: factor,
+                rotation_force_factor: 0.4 * factor,
+                ..direct.clone()
+            };
             let c = direct_drive::Constants::derive(&p).unwrap();
             let model = DirectDrive::SINE.variant(&p.to_values());
             let input = model.input(&c, 0.0);
             let dy = [phi_dot, psi_dot, phi_ddot, psi_ddot];
             model.load(&c, Instant { input: &input, side: 1.0, y: &[phi, psi, phi_dot, psi_dot], dy: &dy })
         };
-        let expected = summed(&direct_sections, direct.air_density, 0.0, [0.7, 0.0], at);
+        let expected =
+            summed(&direct_sections, direct.air_density, 0.0, [0.7, 0.0, 0.28 * direct.rotation_drag], at);
         assert_difference(&load(0.7), &load(0.0), &expected, "direct-drive");
         // Its pitch has the opposite sign.
         let load = |factor: f64| {
@@ -182,7 +203,7 @@ fn the_circulation_of_strips_is_the_sum_over_sections() {
             let dy = [phi_dot, -psi_dot, phi_ddot, -psi_ddot];
             model.load(&c, Instant { input: &input, side: 1.0, y: &[phi, -psi, phi_dot, -psi_dot], dy: &dy })
         };
-        let expected = summed(&bar_sections, bar.air_density, bar.axis_position, [0.7, 0.0], at);
+        let expected = summed(&bar_sections, bar.air_density, bar.axis_position, [0.7, 0.0, 0.0], at);
         assert_difference(&load(0.7), &load(0.0), &expected, "four-bar");
     }
 }
@@ -310,6 +331,7 @@ fn energy_is_balanced_with_all_terms() {
             }
         };
         set("circulation_factor", 0.7);
+        set("rotation_force_factor", 0.6);
         set("added_mass_factor", 0.5);
         set("hinge_stop_angle", 0.8);
         let stiffness = if name == "jafferis2016" { 1e-6 } else { 1e-5 };

@@ -23,7 +23,7 @@ pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
     of_table || of_body || (TERMS.contains(&parameter.name) && is_absent)
 }
 
-const TERMS: [&str; 19] = [
+const TERMS: [&str; 20] = [
     "drive_offset",
     "transmission_growth",
     "stroke_damping",
@@ -41,6 +41,7 @@ const TERMS: [&str; 19] = [
     "hinge_stop_angle",
     "hinge_stop_stiffness",
     "circulation_factor",
+    "rotation_force_factor",
     "added_mass_factor",
     "axis_position",
 ];

@@ -12,5 +12,5 @@ pub use chord_table::{ChordTable, STATIONS, Tabulated};
 pub use oblique::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
 pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};
-pub use unsteady::{AddedMass, ChordIntegral, Circulation, NormalLoad};
+pub use unsteady::{AddedMass, ChordIntegral, Circulation, NormalLoad, RotationalForce};
 pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};

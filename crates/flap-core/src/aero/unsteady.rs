@@ -1,7 +1,7 @@
-//! Forces along the wing's normal from added mass and rotational circulation.
+//! Forces along the wing's normal from added mass, rotational circulation and rotational drag.
 //!
-//! The normal is (cos ψ e_t − sin ψ e_z), with the axes of [`crate::body`]. Both forces are polynomials of the motion, so
-//! integrals over the chords replace the strips.
+//! The normal is (cos ψ e_t − sin ψ e_z), with the axes of [`crate::body`]. These forces depend on the section only by powers of
+//! chord and radius, so integrals over the wing replace the strips.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -62,8 +62,7 @@ crate::per_lane! {
 
 impl AddedMass<f64> {
     /// Without added mass.
-    pub const NONE: AddedMass<f64> =
-        AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
+    pub const NONE: AddedMass<f64> = AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
 
     /// Returns the added mass in air of this density (kg/m³), with the rotation about the mid-chord. The pitch axis is
     /// `axis` chords behind the leading edge.
@@ -140,6 +139,47 @@ impl<R: Real> Circulation<R> {
             force: p * k_1 + q * k_0,
             chord_moment: p * k_2 + q * k_1,
             span_moment: -(p * m_1 + q * m_0),
+        }
+    }
+}
+
+crate::per_lane! {
+    /// Normal force of the rotational drag of the sections of a wing, without a moment about the span axis.
+    pub struct RotationalForce<R> {
+        /// ½Cρ I ∫ c³ dr (kg·m), with the integral I of z|z| over a chord of 1, and the distance z behind the pitch axis.
+        pub force: R,
+        /// ½Cρ I ∫ r c³ dr (kg·m²).
+        pub moment: R,
+    }
+}
+
+impl RotationalForce<f64> {
+    /// Without the force.
+    pub const NONE: RotationalForce<f64> = RotationalForce { force: 0.0, moment: 0.0 };
+
+    /// Returns the force for a drag coefficient, in air of this density (kg/m³), for a pitch axis `axis` chords behind the
+    /// leading edge.
+    pub fn of(
+        coefficient: f64,
+        density: f64,
+        axis: f64,
+        integral: &ChordIntegral<'_>,
+    ) -> RotationalForce<f64> {
+        let cube = |z: f64| z.abs() * z.abs() * z.abs();
+        let dynamic = 0.5 * coefficient * density * (cube(1.0 - axis) - cube(axis)) / 3.0;
+        RotationalForce { force: dynamic * integral(3, 0), moment: dynamic * integral(3, 1) }
+    }
+}
+
+impl<R: Real> RotationalForce<R> {
+    /// Returns the load at a pitch rate ω relative to still air (rad/s): proportional to ω|ω|.
+    #[inline(always)]
+    pub fn load(&self, pitch_rate: R) -> NormalLoad<R> {
+        let square = pitch_rate * pitch_rate.abs();
+        NormalLoad {
+            force: self.force * square,
+            chord_moment: self.moment * square,
+            span_moment: square.lit(0.0),
         }
     }
 }

@@ -69,7 +69,10 @@ pub(super) fn damping(
 ) -> Option<Gradient> {
     if let Some(section) = section {
         problems
-            .report(section.key_span.clone(), "a grid with damping = true in [vehicle] cannot have [gradient]")
+            .report(
+                section.key_span.clone(),
+                "a grid with damping = true in [vehicle] cannot have [gradient]",
+            )
             .help("remove one of the two");
     }
     if at_resonance {

@@ -19,7 +19,7 @@ const fn term(parameter: &'static str, size: f64, models: &'static [&'static str
 }
 
 /// Terms in the order of the manual (`docs/models/terms.md`).
-const TERMS: [Term; 17] = [
+const TERMS: [Term; 18] = [
     // The effect of this size is similar to the effect of the loss factor below.
     term("stroke_damping", 5e-9, BIMORPH),
     term("stroke_damping", 5e-7, OTHERS),
@@ -31,6 +31,7 @@ const TERMS: [Term; 17] = [
     term("hinge_stiffening", 3e-5, OTHERS),
     term("hinge_stop_stiffness", 3e-5, ALL),
     term("circulation_factor", 1.0, ALL),
+    term("rotation_force_factor", 1.0, ALL),
     term("added_mass_factor", 1.0, BIMORPH),
     term("modulus_decline", 1e-7, BIMORPH),
     term("transmission_growth", 4.4e9, BIMORPH),

@@ -6,7 +6,7 @@
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
 use super::strips::{Moving, unsteady};
-use crate::aero::{AddedMass, Circulation};
+use crate::aero::{AddedMass, Circulation, RotationalForce};
 use crate::drive::{DriveConstants, Shape};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
@@ -136,6 +136,8 @@ crate::per_lane! {
         pub stiffening: Stiffening<R>,
         /// Rotational circulation of the sections.
         pub circulation: Circulation<R>,
+        /// Normal force of the rotational drag.
+        pub rotation: RotationalForce<R>,
         /// Added mass of the sections, besides I_am.
         pub added: AddedMass<R>,
         /// Motion of the body, and the strips on which it acts.
@@ -189,7 +191,7 @@ impl Constants<f64> {
         let drive = p.drive();
         let c_p = 0.25 * p.vehicle_capacitance;
         let stroke_inertia = p.wing_inertia_stroke + p.added_inertia_stroke;
-        let (circulation, added) = unsteady(p)?;
+        let (circulation, rotation, added) = unsteady(p)?;
         let mut constants = Constants {
             drive,
             half_offset: 0.5 * p.drive_offset,
@@ -255,6 +257,7 @@ impl Constants<f64> {
             vehicle_mass: p.vehicle_mass,
             stiffening: Stiffening::of(p.stroke_stiffening, &p.hinge),
             circulation,
+            rotation,
             added,
             moving: Moving::REST,
         }

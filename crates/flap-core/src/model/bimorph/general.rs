@@ -91,7 +91,8 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
         rhs::load(c, model.centre_of_pressure, *phi, x_dot, *rate, *pitch)
     };
     let load = if model.has_sections {
-        load.with_normal(&c.circulation.load(&sections, pitch_rate, *turned), *turned)
+        let circulation = c.circulation.load(&sections, pitch_rate, *turned);
+        load.with_normal(&circulation.plus(&c.rotation.load(pitch_rate)), *turned)
     } else {
         load
     };

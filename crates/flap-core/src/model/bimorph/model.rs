@@ -207,7 +207,7 @@ pub struct Bimorph {
     pub centre_of_pressure: CentreOfPressure,
     /// Terms of the body's motion.
     pub body: BodyTerms,
-    /// True with rotational circulation or added mass of the wing's sections.
+    /// True with forces of the wing's sections along the normal: circulation, rotational drag, added mass.
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
@@ -297,7 +297,7 @@ impl Model<4> for Bimorph {
             law: if *transmission_growth == 0.0 { Law::Constant } else { Law::Square },
             centre_of_pressure: *centre_of_pressure,
             body: body.terms(),
-            has_sections: p.circulation_factor != 0.0 || p.added_mass_factor != 0.0,
+            has_sections: p.has_sections(),
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
         }
     }

@@ -50,7 +50,7 @@ crate::parameters! {
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
         /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius determines
-        /// the chord along the span for body motion, circulation_factor and added_mass_factor. Jafferis et al. (2016) do not use this parameter.
+        /// the chord along the span for body motion, circulation_factor, rotation_force_factor and added_mass_factor. Jafferis et al. (2016) do not use this parameter.
         wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
@@ -94,11 +94,14 @@ crate::parameters! {
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Jafferis et al. (2016) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
+        /// Factor that multiplies the normal force of the rotational drag. A factor of 1 belongs to the moment of Eq. (9).
+        /// Jafferis et al. (2016) do not use this parameter.
+        rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. A factor of 1 is the
         /// added mass of a plate in potential flow. Jafferis et al. (2016) use only added_inertia_stroke.
         added_mass_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Distance of the hinge's axis from the leading edge, in chords. The distance affects only circulation_factor and
-        /// added_mass_factor.
+        /// Distance of the hinge's axis from the leading edge, in chords. The distance affects only circulation_factor,
+        /// rotation_force_factor and added_mass_factor.
         axis_position: f64 = ("", "x_0", Number(Any), default: 0.0) 0.0,
 
         ["actuator"]
@@ -221,6 +224,13 @@ crate::choice! {
 pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
+    /// Returns true if the equations contain forces of the wing's sections along the normal.
+    pub(super) fn has_sections(&self) -> bool {
+        [self.circulation_factor, self.rotation_force_factor, self.added_mass_factor]
+            .iter()
+            .any(|factor| *factor != 0.0)
+    }
+
     /// The published presets.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {

@@ -1,7 +1,7 @@
 //! The chord of the lumped wing of the bimorph model: strips for body motion, and integrals for circulation and added mass.
 
 use super::params::{CentreOfPressure, Params};
-use crate::aero::{AddedMass, Circulation, ObliqueStrip};
+use crate::aero::{AddedMass, Circulation, ObliqueStrip, RotationalForce};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_beta;
@@ -94,25 +94,34 @@ impl Chord {
     }
 }
 
-/// Returns rotational circulation and added mass of the wing's sections.
+/// Forces along the wing's normal.
+type Unsteady = (Circulation<f64>, RotationalForce<f64>, AddedMass<f64>);
+
+/// Returns rotational circulation, normal force of the rotational drag, and added mass of the wing's sections.
 ///
 /// # Errors
 /// If no wing has these radii, or if a chord that is infinite at root or tip has no integrals.
-pub(super) fn unsteady(p: &Params) -> Result<(Circulation<f64>, AddedMass<f64>), Invalid> {
-    if p.circulation_factor == 0.0 && p.added_mass_factor == 0.0 {
-        return Ok((Circulation::NONE, AddedMass::NONE));
+pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
+    if !p.has_sections() {
+        return Ok((Circulation::NONE, RotationalForce::NONE, AddedMass::NONE));
     }
     let chord = Chord::of(p)?;
     if chord.p.min(chord.q) <= 0.75 {
         return Err(Invalid::together(
             &["wing_radius_1", "wing_radius_2"],
             "the chord that belongs to wing_radius_1 and wing_radius_2 is too large at the root or the tip for \
-             circulation_factor and added_mass_factor: make wing_radius_2 smaller, or wing_radius_1 closer to it",
+             circulation_factor, rotation_force_factor and added_mass_factor: make wing_radius_2 smaller, or wing_radius_1 closer to it",
         ));
     }
     let integral = |n, m| chord.integral(n, m);
     Ok((
         Circulation::of(p.circulation_factor, p.air_density, p.axis_position, &integral),
+        RotationalForce::of(
+            p.rotation_force_factor * p.drag_coefficient_max,
+            p.air_density,
+            p.axis_position,
+            &integral,
+        ),
         AddedMass::of(p.added_mass_factor * p.air_density, p.axis_position, &integral),
     ))
 }

@@ -7,7 +7,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::chord::{BLADES, blades, elements};
 use super::params::{self, CentreOfPressure, FlowDirection, LiftSign, Params};
-use crate::aero::{AddedMass, Circulation, Strips, sum};
+use crate::aero::{AddedMass, Circulation, RotationalForce, Strips, sum};
 use crate::body::BodyMotion;
 use crate::drive::DriveConstants;
 use crate::model::stroke_and_pitch::inertias_apart;
@@ -53,6 +53,8 @@ crate::per_lane! {
         pub added: AddedMass<R>,
         /// Rotational circulation of the blade elements.
         pub circulation: Circulation<R>,
+        /// Normal force of the rotational drag.
+        pub rotational_force: RotationalForce<R>,
         /// 1 with the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
         pub gyroscopic: R,
 
@@ -181,6 +183,12 @@ impl Constants<f64> {
                 a22: 0.25 * FRAC_PI_4 * rho * (c * c * c * c) * r * p.shape_moment_04,
             },
             circulation: Circulation::of(p.circulation_factor, rho, 0.0, &chords),
+            rotational_force: RotationalForce::of(
+                p.rotation_force_factor * p.rotation_drag,
+                rho,
+                0.0,
+                &chords,
+            ),
             gyroscopic: f64::from(p.added_mass == params::AddedMass::Lagrangian),
 
             mid_radius: 0.5 * r + x_r,

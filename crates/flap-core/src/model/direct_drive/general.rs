@@ -16,7 +16,7 @@ use crate::num::Real;
 pub(super) struct Air<R> {
     /// Translational and rotational aerodynamics.
     pub(super) forces: Aerodynamics<R>,
-    /// Load of the circulation, and of the added mass due to the motion of the body.
+    /// Load of circulation and rotational drag, and of the added mass due to the motion of the body.
     pub(super) normal: NormalLoad<R>,
     /// Inertial moment per rate g (N·m·s), see [`Shoulder::gyroscopic`].
     gyroscopic: R,
@@ -52,10 +52,10 @@ pub(super) fn air<R: Real>(
     let shoulder = if body_moves { c.moving.along(phi) } else { Shoulder::rest(phi) };
     let sections = shoulder.sections(phi_dot, psi_dot, pitch[1]);
     let rate = shoulder.pitch_rate(psi_dot);
-    let circulation = c.circulation.load(&sections, rate, pitch);
+    let normal = c.circulation.load(&sections, rate, pitch).plus(&c.rotational_force.load(rate));
     if !body_moves {
         let forces = aerodynamics(c, model.flow, side, y, pitch[0], pitch[1]);
-        return Air { forces, normal: circulation, gyroscopic: phi.lit(0.0) };
+        return Air { forces, normal, gyroscopic: phi.lit(0.0) };
     }
     let [directional, _, _] = c.attack;
     let half = directional.lit(0.5);
@@ -81,7 +81,7 @@ pub(super) fn air<R: Real>(
             pitch_moment: forces.pitch_moment,
             rotation_moment: -(c.rotation * rate * rate.abs()),
         },
-        normal: c.added.load(shoulder.accelerations([phi_dot, psi_dot], pitch)).plus(&circulation),
+        normal: c.added.load(shoulder.accelerations([phi_dot, psi_dot], pitch)).plus(&normal),
         gyroscopic: shoulder.gyroscopic(c.m_s, -c.m12, pitch),
     }
 }

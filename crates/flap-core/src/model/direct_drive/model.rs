@@ -92,8 +92,8 @@ pub struct DirectDrive {
     pub flow: FlowDirection,
     /// Terms of the body's motion.
     pub body: BodyTerms,
-    /// True with rotational circulation.
-    pub circulates: bool,
+    /// True with rotational circulation, or a normal force of the rotational drag.
+    pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
 }
@@ -104,14 +104,14 @@ impl DirectDrive {
         drive: Drive::SINE,
         flow: FlowDirection::Uniform,
         body: BodyTerms::None,
-        circulates: false,
+        has_sections: false,
         stiffens: false,
     };
 
     /// Returns true if the equations of motion contain terms of `general`.
     #[inline(always)]
     fn is_general(&self) -> bool {
-        self.body == BodyTerms::All || self.circulates || self.stiffens
+        self.body == BodyTerms::All || self.has_sections || self.stiffens
     }
 }
 
@@ -189,7 +189,7 @@ impl Model<4> for DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
             flow: *flow_direction,
             body: body.terms(),
-            circulates: p.circulation_factor != 0.0,
+            has_sections: p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
         }
     }
@@ -197,7 +197,7 @@ impl Model<4> for DirectDrive {
     fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
         DirectDrive {
             body: self.body.or(other.body),
-            circulates: self.circulates || other.circulates,
+            has_sections: self.has_sections || other.has_sections,
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
@@ -312,7 +312,7 @@ impl Model<4> for DirectDrive {
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
-        let (air, added) = if self.body == BodyTerms::None && !self.circulates {
+        let (air, added) = if self.body == BodyTerms::None && !self.has_sections {
             (aerodynamics(c, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
         } else {
             let air = general::air(c, self, self.body != BodyTerms::None, side, &y, [sin, cos]);

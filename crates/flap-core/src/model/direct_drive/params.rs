@@ -156,6 +156,9 @@ crate::parameters! {
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
+        /// Factor that multiplies the normal force of the rotational drag. A factor of 1 belongs to the moment of Eq. (32).
+        /// Ozaki and Hamaguchi (2018) do not use this parameter.
+        rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
         /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion, folded to at most 90

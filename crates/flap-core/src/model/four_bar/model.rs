@@ -88,7 +88,7 @@ pub struct FourBar {
     /// Terms of the body's motion.
     pub body: BodyTerms,
     /// True with rotational circulation.
-    pub circulates: bool,
+    pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
 }
@@ -96,12 +96,12 @@ pub struct FourBar {
 impl FourBar {
     /// Sinusoidal drive, with the body at rest.
     pub const SINE: FourBar =
-        FourBar { drive: Drive::SINE, body: BodyTerms::None, circulates: false, stiffens: false };
+        FourBar { drive: Drive::SINE, body: BodyTerms::None, has_sections: false, stiffens: false };
 
     /// Returns true if the equations of motion contain terms of `general`.
     #[inline(always)]
     fn is_general(&self) -> bool {
-        self.body == BodyTerms::All || self.circulates || self.stiffens
+        self.body == BodyTerms::All || self.has_sections || self.stiffens
     }
 }
 
@@ -170,7 +170,7 @@ impl Model<4> for FourBar {
         FourBar {
             drive: self.drive.of_point(p.waveform.drive_shape, p.stroke.stroke_mode),
             body: p.body.terms(),
-            circulates: p.circulation_factor != 0.0,
+            has_sections: p.circulation_factor != 0.0,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
         }
     }
@@ -178,7 +178,7 @@ impl Model<4> for FourBar {
     fn with_terms_of(&self, other: &FourBar) -> FourBar {
         FourBar {
             body: self.body.or(other.body),
-            circulates: self.circulates || other.circulates,
+            has_sections: self.has_sections || other.has_sections,
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
@@ -292,7 +292,7 @@ impl Model<4> for FourBar {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let slope = states::slope(&self.drive, drive, dy);
-        if self.body == BodyTerms::None && !self.circulates {
+        if self.body == BodyTerms::None && !self.has_sections {
             load(c, side, &y, &slope)
         } else {
             general::load(c, self, side, &y, &slope)
