@@ -269,3 +269,25 @@ fn motions_have_finite_forces() {
     fs::write(folder.path("points.csv"), points).unwrap();
     folder.refuses("test track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");
 }
+
+/// Each line of `flap test terms` has the changes that `--set` makes.
+#[test]
+fn terms_change_the_measures_as_their_parameters_do() {
+    let folder = Folder::new();
+    let point = "jafferis2016 --set drive_voltage_pp=160 --set hinge_damping=1e-10";
+    let csv = folder.ends(0, &format!("test terms {point} --format csv")).stdout;
+    let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0][..5], ["parameter", "from", "to", "status", "stroke_pp_deg_change_percent"]);
+    let before = value(&folder.flap(&format!("run {point}")).stdout, "stroke_pp_deg");
+    for (name, after) in [("circulation_factor", "1"), ("stroke_stiffening", "1e-06"), ("hinge_damping", "0")]
+    {
+        let line = lines.iter().find(|line| line[0] == name).unwrap_or_else(|| panic!("no {name} in\n{csv}"));
+        let row = folder.flap(&format!("run {point} --set {name}={after}")).stdout;
+        let expected = 100.0 * (value(&row, "stroke_pp_deg") / before - 1.0);
+        let found: f64 = line[4].parse().unwrap();
+        assert!((found - expected).abs() < 2e-3 && expected.abs() > 0.1, "{name}: {found} and {expected}");
+    }
+    let page = folder.ends(0, &format!("test terms {point}")).stdout;
+    assert!(page.contains("hinge_damping") && page.contains("100 pN*m*s"), "{page}");
+    folder.ends(2, "test terms jafferis2016 --set hinge_stiffness=1e-9").says("is not periodic");
+}

@@ -167,15 +167,16 @@ pub(super) fn derivative<R: Real>(
         - c.hinge_damping * psi_dot
         - shoulder.gyroscopic(c.i_xx, c.i_xz, [*sin, *cos]) * *phi_dot;
 
-    // φ̈ = T t ẍ + s.
+    // φ̈ = T t ẍ + s, with s = T t′ ẋ².
     let lever = transmission.times(c.ratio);
-    let s = c.ratio * transmission.stroke_acceleration(x.lit(0.0), x_dot);
+    let curved = transmission.stroke_acceleration(x.lit(0.0), x_dot);
+    let s = c.ratio * curved;
     let [e_0, e_1, e_2] = accelerations(&motion);
     let known = c.added.load([e_0, s * *cos + e_1, e_2]);
     let inertia = transmission.times(transmission.times(c.stroke_mass));
     let stroke_mass = inertia + c.tip_mass + lever * lever * c.added.a11 * *cos * *cos;
     let coupling = lever * *cos;
-    let force = force - transmission.times(c.stroke_mass) * (s / c.ratio) + coupling * known.chord_moment;
+    let force = force - transmission.times(c.stroke_mass) * curved + coupling * known.chord_moment;
     let moment = moment + known.span_moment + c.i_xz * s * *cos;
     // ⎡stroke_mass   −a₁₂ coupling⎤ ⎡ẍ⎤ = ⎡force ⎤
     // ⎣−k coupling    I_xx + a₂₂  ⎦ ⎣ψ̈⎦   ⎣moment⎦     k = I_xz + a₁₂
