@@ -209,9 +209,8 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
         "N*m*s" => Some(1e-9),
         "rad/m^3" => Some(1e9),
         "rad/s" => Some(100.0),
-        "N*m/rad" | "N*m/rad^3" => Some(1e-6),
         "m/V" => Some(1e-7),
-        "kg" => Some(1e-6),
+        "kg" | "N*m/rad" | "N*m/rad^3" => Some(1e-6),
         "kg*m^2" => Some(1e-11),
         _ => None,
     }

@@ -148,6 +148,31 @@ crate::per_lane! {
 /// Largest magnitude of an exponent in the equations. Their exponential function does not check its range.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
+/// Returns the exponent z₀ = a₁ε₀ of the modulus transition at zero strain, (4).
+///
+/// # Errors
+/// If a transition is too steep to compute.
+fn transition_at_zero(p: &Params) -> Result<f64, Invalid> {
+    // With harmonics the voltage exceeds the range from 0 to V_pp.
+    let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
+        p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
+    } else {
+        0.0
+    };
+    let voltage_max = p.drive_voltage_pp * (1.0 + harmonics) + 0.5 * p.drive_offset.abs();
+    let field_max = voltage_max / p.piezo_thickness;
+    let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
+    let z_0 = p.modulus_steepness * p.modulus_strain;
+    if steepest.max(z_0.abs()) > EXPONENT_MAX {
+        return Err(Invalid::together(
+            &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
+            "a transition is too steep: stress_steepness times field, or modulus_steepness times \
+             modulus_strain, exceeds 600",
+        ));
+    }
+    Ok(z_0)
+}
+
 impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
@@ -155,23 +180,7 @@ impl Constants<f64> {
     /// If the actuator's width is zero at one end, a transition is too steep to compute, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
-        // With harmonics the voltage exceeds the range from 0 to V_pp.
-        let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
-            p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
-        } else {
-            0.0
-        };
-        let voltage_max = p.drive_voltage_pp * (1.0 + harmonics) + 0.5 * p.drive_offset.abs();
-        let field_max = voltage_max / p.piezo_thickness;
-        let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
-        let z_0 = p.modulus_steepness * p.modulus_strain;
-        if steepest.max(z_0.abs()) > EXPONENT_MAX {
-            return Err(Invalid::together(
-                &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
-                "a transition is too steep: stress_steepness times field, or modulus_steepness times \
-                 modulus_strain, exceeds 600",
-            ));
-        }
+        let z_0 = transition_at_zero(p)?;
         let sigma_0 = 1.0 / (1.0 + libm::exp(-z_0));
         // E_e = E_min + ½ (E_max − E_min) L/u with L/u → σ₀ for u → 0.
         let half_range = 0.5 * (p.piezo_modulus_max - p.piezo_modulus_min);
@@ -262,14 +271,28 @@ impl Constants<f64> {
             moving: Moving::REST,
         }
         .with_drive(drive);
-        if constants.k_soft <= 0.0 {
+        // L → σ₀ u for small u.
+        let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
+        let stiffness = constants.k_soft + stiffening + constants.k_t;
+        constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
+        Invalid::unless_finite(constants)?.checked()
+    }
+
+    /// # Errors
+    /// If the actuator has no stiffness, or the mass matrix is not positive definite at every pitch.
+    fn checked(self) -> Result<Constants<f64>, Invalid> {
+        if self.k_soft <= 0.0 {
             return Err(Invalid::together(
                 &["modulus_decline", "drive_voltage_pp", "piezo_thickness"],
                 "the actuator has no stiffness: modulus_decline times the mean field in the plates is too large",
             ));
         }
-        let coupling = added.a12 * (added.a12 + p.wing_inertia_product);
-        if (stroke_inertia + added.a11) * (p.wing_inertia_hinge + added.a22) <= coupling {
+        // The determinant is linear in cos²ψ: it is positive everywhere if it is positive at both ends.
+        let AddedMass { a11, a12, a22, .. } = self.added;
+        let square = self.ratio * self.ratio;
+        let upright = (self.stroke_mass + self.tip_mass + a11 * square) * (self.i_xx + a22)
+            - a12 * (a12 + self.i_xz) * square;
+        if upright <= 0.0 {
             return Err(inertias_apart(&[
                 "wing_inertia_product",
                 "added_mass_factor",
@@ -277,11 +300,7 @@ impl Constants<f64> {
                 "wing_inertia_stroke",
             ]));
         }
-        // L → σ₀ u for small u.
-        let stiffening = constants.f_stiff * constants.sigma_0 * constants.u_per_tip;
-        let stiffness = constants.k_soft + stiffening + constants.k_t;
-        constants.tip_damping = structural_damping(p.stroke_loss_factor, stiffness, drive.rate);
-        Invalid::unless_finite(constants)
+        Ok(self)
     }
 
     /// Returns the constants with another drive.

@@ -103,6 +103,16 @@ crate::per_lane! {
     }
 }
 
+/// Returns the layers of the actuator.
+fn laminate(p: &Params) -> Laminate<3> {
+    let layer = |[thickness, modulus, density]: [f64; 3]| Layer { thickness, modulus, density };
+    Laminate::of([
+        layer([p.piezo_thickness, p.piezo_modulus, p.piezo_density]),
+        layer([p.adhesive_thickness, p.adhesive_modulus, p.adhesive_density]),
+        layer([p.shim_thickness, p.shim_modulus, p.shim_density]),
+    ])
+}
+
 impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
@@ -116,12 +126,7 @@ impl Constants<f64> {
         } else {
             p.clone()
         };
-        let layer = |[thickness, modulus, density]: [f64; 3]| Layer { thickness, modulus, density };
-        let laminate = Laminate::of([
-            layer([p.piezo_thickness, p.piezo_modulus, p.piezo_density]),
-            layer([p.adhesive_thickness, p.adhesive_modulus, p.adhesive_density]),
-            layer([p.shim_thickness, p.shim_modulus, p.shim_density]),
-        ]);
+        let laminate = laminate(p);
         let l_a = p.actuator_length;
         let z_c = laminate.neutral_axis;
         let z_0 = laminate.mid_planes[0];
