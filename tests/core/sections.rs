@@ -254,7 +254,7 @@ fn the_load_is_in_the_equations_of_motion_of_the_bimorph() {
 /// Nonlinear springs of the other models add their moments to those of linear springs.
 #[test]
 fn stiffening_adds_moments_to_stroke_and_hinge() {
-    for (name, stroke, hinge) in [("ozaki2018-large", 1e-3, 2e-5), ("arabagi2013-75hz", 1e-4, 1e-5)] {
+    for (name, stroke, hinge) in [("ozaki2018-large", 1e-2, 2e-5), ("arabagi2013-75hz", 1e-4, 1e-5)] {
         let (model, preset) = preset(name).unwrap();
         let values = (preset.values)();
         let set = |changes: &[(&str, f64)]| {
@@ -274,7 +274,7 @@ fn stiffening_adds_moments_to_stroke_and_hinge() {
         };
         let [stroke_before, pitch_before, _] = rows(&values);
         let [stroke_after, _, audit] = rows(&set(&[("stroke_stiffening", stroke)]));
-        assert!((stroke_after / stroke_before - 1.0).abs() > 0.01 && audit.abs() < 1e-6, "{name}");
+        assert!((stroke_after / stroke_before - 1.0).abs() > 1e-3 && audit.abs() < 1e-6, "{name}");
         // A cubic hinge with the stop at 0 and half of the stiffness: k ψ = ½ k ψ + ½ k ψ.
         let stiffness = values[Parameter::index(model.parameters(), "hinge_stiffness").unwrap()];
         let damping = values[Parameter::index(model.parameters(), "hinge_damping").unwrap()];
@@ -287,7 +287,7 @@ fn stiffening_adds_moments_to_stroke_and_hinge() {
         assert_close(split[0], stroke_before, 1e-7, name);
         assert_close(split[1], pitch_before, 1e-7, name);
         let [_, stiffer, audit] = rows(&set(&[("hinge_stiffening", hinge)]));
-        assert!((stiffer / pitch_before - 1.0).abs() > 0.01 && audit.abs() < 1e-6, "{name}");
+        assert!((stiffer / pitch_before - 1.0).abs() > 1e-3 && audit.abs() < 1e-6, "{name}");
     }
 }
 
@@ -296,7 +296,7 @@ fn stiffening_adds_moments_to_stroke_and_hinge() {
 fn a_field_softens_the_plates() {
     let (model, _) = preset("jafferis2016").unwrap();
     let p = bimorph::Params { drive_voltage_pp: 160.0, ..bimorph::Params::jafferis2016() };
-    let decline = 0.2e-6;
+    let decline = 0.4e-6;
     let soft = 1.0 - decline * 0.5 * p.drive_voltage_pp / p.piezo_thickness;
     let softened = bimorph::Params { modulus_decline: decline, ..p.clone() };
     let scaled = bimorph::Params {
@@ -314,7 +314,7 @@ fn a_field_softens_the_plates() {
     for i in 0..3 {
         assert_close(found[i], expected[i], 1e-7, "measure");
     }
-    assert!((found[0] / before[0] - 1.0).abs() > 0.05 && found[3].abs() < 1e-7, "{found:?}, {before:?}");
+    assert!((found[0] / before[0] - 1.0).abs() > 0.01 && found[3].abs() < 1e-7, "{found:?}, {before:?}");
     let none = bimorph::Params { modulus_decline: 1e-5, ..p };
     assert!(bimorph::Constants::derive(&none).unwrap_err().to_string().contains("no stiffness"));
 }

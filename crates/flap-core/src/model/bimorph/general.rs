@@ -3,6 +3,8 @@
 //!
 //! The paper's wing is lumped. Body motion changes the direction of the flow along the span, so the wing is cut into four
 //! strips ([`super::strips`]) on a moving body.
+//!
+//! These functions are compiled out of line, so that the terms cost nothing where they are zero.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -105,6 +107,19 @@ pub(super) fn air_at<R: Real>(
     c: &Constants<R>,
     model: &Bimorph,
     body_moves: bool,
+    at: Instant<'_, R, [Plate<R>; 2], 4>,
+) -> Air<R> {
+    at.side.outlined(
+        #[inline(always)]
+        || air_with_added_mass(c, model, body_moves, at),
+    )
+}
+
+#[inline(always)]
+fn air_with_added_mass<R: Real>(
+    c: &Constants<R>,
+    model: &Bimorph,
+    body_moves: bool,
     Instant { input: plates, y, dy, .. }: Instant<'_, R, [Plate<R>; 2], 4>,
 ) -> Air<R> {
     let motion = Motion::at(c, model, body_moves, y);
@@ -142,6 +157,19 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
 /// (1) contains no reaction of the hinge, and no inertial moment either. N contains φ̈ and ψ̇, so both equations are solved together.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
+    c: &Constants<R>,
+    model: &Bimorph,
+    plates: &[Plate<R>; 2],
+    y: &[R; 4],
+) -> [R; 4] {
+    y[0].outlined(
+        #[inline(always)]
+        || coupled_derivative(c, model, plates, y),
+    )
+}
+
+#[inline(always)]
+fn coupled_derivative<R: Real>(
     c: &Constants<R>,
     model: &Bimorph,
     plates: &[Plate<R>; 2],

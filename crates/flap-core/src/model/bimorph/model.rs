@@ -255,11 +255,7 @@ impl Ode<4> for Bimorph {
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
         if self.is_general() {
-            // Out of line, so that these terms cost nothing where they are zero.
-            return y[0].outlined(
-                #[inline(always)]
-                || general::derivative(c, self, plates, y),
-            );
+            return general::derivative(c, self, plates, y);
         }
         derivative(c, self.law, self.centre_of_pressure, plates, y)
     }
@@ -382,10 +378,7 @@ impl Model<4> for Bimorph {
         let transmission = Transmission::at(c, self.law, x);
         let rate = transmission.times(x_dot);
         let air = if self.is_general() {
-            let air = y[0].outlined(
-                #[inline(always)]
-                || air_at(c, self, self.body == BodyTerms::All, at),
-            );
+            let air = air_at(c, self, self.body == BodyTerms::All, at);
             Losses::of(c, &air, rate, psi_dot)
         } else {
             Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot)

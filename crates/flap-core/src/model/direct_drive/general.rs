@@ -1,7 +1,8 @@
 //! The equations of the direct-drive model with the terms that the paper leaves out: motion of the body, rotational circulation,
 //! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
-//! Body motion requires the blade elements, each of which has its own direction of flow.
+//! Body motion requires the blade elements, each of which has its own direction of flow. The forces of the air are compiled out of
+//! line, so that the terms cost nothing where they are zero.
 
 use super::constants::Constants;
 use super::model::DirectDrive;
@@ -41,6 +42,21 @@ impl<R: Real> Air<R> {
 /// Returns the forces at a state. On a moving body, they are the terms (21) to (27) of each blade element in oblique flow, and (32).
 #[inline(always)]
 pub(super) fn air<R: Real>(
+    c: &Constants<R>,
+    model: &DirectDrive,
+    body_moves: bool,
+    side: R,
+    y: &[R; 4],
+    pitch: [R; 2],
+) -> Air<R> {
+    side.outlined(
+        #[inline(always)]
+        || air_inlined(c, model, body_moves, side, y, pitch),
+    )
+}
+
+#[inline(always)]
+fn air_inlined<R: Real>(
     c: &Constants<R>,
     model: &DirectDrive,
     body_moves: bool,

@@ -137,11 +137,7 @@ impl Ode<4> for DirectDrive {
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
         let balance = if self.is_general() {
-            // Out of line, so that these terms cost nothing where they are zero.
-            side.outlined(
-                #[inline(always)]
-                || general::balance(c, self, side, &at),
-            )
+            general::balance(c, self, side, &at)
         } else {
             balance(c, self.flow, side, &at)
         };
@@ -257,10 +253,7 @@ impl Model<4> for DirectDrive {
         let (sin, cos) = psi.sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
         let (air, added, translational) = if self.is_general() {
-            let air = side.outlined(
-                #[inline(always)]
-                || general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]),
-            );
+            let air = general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]);
             let power = air.translational_power([phi_dot, psi_dot], cos);
             (air.forces, air.with_added_mass(c, [sin, cos], &slope), power)
         } else {

@@ -1,7 +1,8 @@
 //! The equations of the four-bar model with the terms that the paper leaves out: motion of the body, rotational circulation,
 //! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
-//! On a moving body, each strip has its own direction of flow and its own jump of the lift.
+//! On a moving body, each strip has its own direction of flow and its own jump of the lift. The forces of the air are compiled out of
+//! line, so that the terms cost nothing where they are zero.
 //!
 //! The pitch ψ of [`crate::body`] is −φ.
 
@@ -147,6 +148,19 @@ impl<R: Real> Motion<R> {
 /// Returns the motion at a state, and the forces and moments of the air without the added mass.
 #[inline(always)]
 fn motion_in_air<R: Real>(
+    c: &Constants<R>,
+    body_moves: bool,
+    side: R,
+    y: &[R; 4],
+) -> (Motion<R>, Aerodynamics<R>) {
+    side.outlined(
+        #[inline(always)]
+        || motion_in_air_inlined(c, body_moves, side, y),
+    )
+}
+
+#[inline(always)]
+fn motion_in_air_inlined<R: Real>(
     c: &Constants<R>,
     body_moves: bool,
     side: R,

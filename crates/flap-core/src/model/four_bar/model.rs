@@ -130,11 +130,7 @@ impl Ode<4> for FourBar {
         let at = states::state(&self.drive, drive, y);
         let links = transmission(c, at[0]);
         let balance = if self.is_general() {
-            // Out of line, so that these terms cost nothing where they are zero.
-            side.outlined(
-                #[inline(always)]
-                || general::balance(c, self, &links, side, &at),
-            )
+            general::balance(c, self, &links, side, &at)
         } else {
             balance(c, &links, side, &at)
         };
@@ -231,10 +227,7 @@ impl Model<4> for FourBar {
         let [theta, phi, theta_dot, phi_dot] = y;
         let (sin, cos) = phi.sin_cos();
         let air = if self.is_general() {
-            side.outlined(
-                #[inline(always)]
-                || general::air(c, self, side, &y),
-            )
+            general::air(c, self, side, &y)
         } else {
             aerodynamics(c, side, &y, sin, cos)
         };
