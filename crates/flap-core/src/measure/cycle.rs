@@ -318,6 +318,12 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
     c: &M::Constants<R>,
     at: Instant<'_, R, M::Input<R>, N>,
 ) -> SignalsOf<M::Signals, R> {
+    if M::HAS_PLAIN && model.is_plain() {
+        return at.side.outlined(
+            #[inline(always)]
+            || model.plain_signals(c, at),
+        );
+    }
     at.side.outlined(
         #[inline(always)]
         || model.signals(c, at),

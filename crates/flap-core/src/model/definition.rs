@@ -182,6 +182,16 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         at: Instant<'_, R, Self::Input<R>, N>,
     ) -> SignalsOf<Self::Signals, R>;
 
+    /// Returns the signals of a [plain](Ode::is_plain) variant, with the bits of [`Model::signals`].
+    #[inline(always)]
+    fn plain_signals<R: Real>(
+        &self,
+        c: &Self::Constants<R>,
+        at: Instant<'_, R, Self::Input<R>, N>,
+    ) -> SignalsOf<Self::Signals, R> {
+        self.signals(c, at)
+    }
+
     /// Replaces the means of powers by the sums of their losses over a periodic orbit, see [`SignalCycle::balance`].
     ///
     /// By default all means remain.

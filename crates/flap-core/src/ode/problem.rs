@@ -30,6 +30,22 @@ pub trait Ode<const N: usize>: Sync {
     /// changes it on the surface.
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
+    /// True if some variants are [plain](Ode::is_plain), so that the steps of plain variants are compiled separately.
+    const HAS_PLAIN: bool = false;
+
+    /// Returns true if [`Ode::plain_rhs`] is the derivative of this variant.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        false
+    }
+
+    /// Returns the derivative of a plain variant, with the bits of [`Ode::rhs`] but without the code of other variants, which
+    /// would slow down the steps.
+    #[inline(always)]
+    fn plain_rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
+        self.rhs(c, u, side, y)
+    }
+
     /// Returns the next time after `t` (s) at which the inputs are not smooth, such as the edge of a square wave.
     ///
     /// Infinite if there is none. Steps end at these times.
@@ -75,6 +91,12 @@ pub(crate) fn slope<O: Ode<N>, R: Lanes, const N: usize>(
     side: R,
     y: &[R; N],
 ) -> [R; N] {
+    if O::HAS_PLAIN && ode.is_plain() {
+        return side.outlined(
+            #[inline(always)]
+            || ode.plain_rhs(c, u, side, y),
+        );
+    }
     side.outlined(
         #[inline(always)]
         || ode.rhs(c, u, side, y),

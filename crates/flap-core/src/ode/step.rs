@@ -71,6 +71,29 @@ impl<R: Real, const N: usize> Step<R, N> {
         h: R,
         side: R,
     ) {
+        if O::HAS_PLAIN && ode.is_plain() {
+            self.stages::<O, true, D>(responses, ode, c, t, h, side);
+        } else if O::HAS_PLAIN {
+            h.outlined(
+                #[inline(always)]
+                || self.stages::<O, false, D>(responses, ode, c, t, h, side),
+            );
+        } else {
+            self.stages::<O, false, D>(responses, ode, c, t, h, side);
+        }
+    }
+
+    /// Computes the stages and the error of the step.
+    #[inline(always)]
+    fn stages<O: Ode<N>, const PLAIN: bool, const D: usize>(
+        &mut self,
+        responses: &mut [Step<R, N>; D],
+        ode: &O,
+        c: &O::Constants<R>,
+        t: R,
+        h: R,
+        side: R,
+    ) {
         // The inputs of different stages are independent of each other, so they are computed together. For inputs of
         // many numbers, this would also compute numbers that the right-hand side does not use. Stages 6 and 7 share
         // their time, the end of the step.
@@ -97,7 +120,7 @@ impl<R: Real, const N: usize> Step<R, N> {
             if !ahead && stage > 1 && C[stage] != C[stage - 1] {
                 inputs[0] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
             }
-            last = slopes(ode, c, &inputs[at], side, &y);
+            last = slopes::<O, R, PLAIN, N, D>(ode, c, &inputs[at], side, &y);
             (self.y[stage], self.k[stage]) = (y.motion, last.motion);
             for i in 0..D {
                 (responses[i].y[stage], responses[i].k[stage]) = (y.responses[i], last.responses[i]);

@@ -36,9 +36,21 @@ impl<T> Varied<T, 0> {
     }
 }
 
-/// Returns the derivatives of the state and of its responses, as in [`Ode::rhs`].
+/// Returns [`Ode::plain_rhs`] if `PLAIN`, otherwise [`Ode::rhs`].
 #[inline(always)]
-pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
+fn rhs<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize>(
+    ode: &O,
+    c: &O::Constants<R>,
+    u: &O::Input<R>,
+    side: R,
+    y: &[R; N],
+) -> [R; N] {
+    if PLAIN { ode.plain_rhs(c, u, side, y) } else { ode.rhs(c, u, side, y) }
+}
+
+/// Returns the derivatives of the state and of its responses, as in [`Ode::plain_rhs`] if `PLAIN`, otherwise as in [`Ode::rhs`].
+#[inline(always)]
+pub(super) fn slopes<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     u: &O::Input<R>,
@@ -47,13 +59,13 @@ pub(super) fn slopes<O: Ode<N>, R: Real, const N: usize, const D: usize>(
 ) -> Varied<[R; N], D> {
     if D == 0 {
         // Without this, the loop below would copy states.
-        return Varied { motion: ode.rhs(c, u, side, &y.motion), responses: y.responses };
+        return Varied { motion: rhs::<O, R, PLAIN, N>(ode, c, u, side, &y.motion), responses: y.responses };
     }
     let mut out = *y;
     // A loop, so that the right-hand side is compiled once, as in a step.
     for i in 0..=D {
         let state = if i == 0 { y.motion } else { changed(&y.motion, &y.responses[i - 1]) };
-        let slope = ode.rhs(c, u, side, &state);
+        let slope = rhs::<O, R, PLAIN, N>(ode, c, u, side, &state);
         if i == 0 {
             out.motion = slope;
         } else {
@@ -74,9 +86,15 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Lanes, const N: usize, const D: usiz
     side: R,
     y: &Varied<[R; N], D>,
 ) -> Varied<[R; N], D> {
+    if O::HAS_PLAIN && ode.is_plain() {
+        return side.outlined(
+            #[inline(always)]
+            || slopes::<O, R, true, N, D>(ode, c, u, side, y),
+        );
+    }
     side.outlined(
         #[inline(always)]
-        || slopes(ode, c, u, side, y),
+        || slopes::<O, R, false, N, D>(ode, c, u, side, y),
     )
 }
 

@@ -214,12 +214,6 @@ pub struct Bimorph {
 }
 
 impl Bimorph {
-    /// Returns true if the equations of motion contain terms of `general`.
-    #[inline(always)]
-    fn is_general(&self) -> bool {
-        self.body == BodyTerms::All || self.has_sections || self.stiffens
-    }
-
     /// Sinusoidal drive, constant transmission ratio, and (11) with the folded attack angle.
     pub const SINE: Bimorph = Bimorph {
         drive: Drive::SINE,
@@ -253,15 +247,69 @@ impl Ode<4> for Bimorph {
     }
 
     #[inline(always)]
-    fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
-        if self.is_general() {
-            return general::derivative(c, self, plates, y);
+    fn rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], side: R, y: &[R; 4]) -> [R; 4] {
+        if self.is_plain() {
+            self.plain_rhs(c, plates, side, y)
+        } else {
+            general::derivative(c, self, plates, y)
         }
+    }
+
+    const HAS_PLAIN: bool = true;
+
+    /// Returns true if the equations of motion contain no terms of `general`.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+    }
+
+    #[inline(always)]
+    fn plain_rhs<R: Real>(&self, c: &Constants<R>, plates: &[Plate<R>; 2], _side: R, y: &[R; 4]) -> [R; 4] {
         derivative(c, self.law, self.centre_of_pressure, plates, y)
     }
 }
 
 impl Bimorph {
+    /// Returns the signals at an instant, with these forces of the air.
+    #[inline(always)]
+    fn signals_in<R: Real>(
+        &self,
+        c: &Constants<R>,
+        at: Instant<'_, R, [Plate<R>; 2], 4>,
+        air: &Losses<R>,
+    ) -> Signals<R> {
+        let Instant { input: plates, y, .. } = at;
+        let [x, x_dot, psi, psi_dot] = *y;
+        let transmission = Transmission::at(c, self.law, x);
+        let rate = transmission.times(x_dot);
+        let [f_1, f_2] = plate_forces(c, plates, x);
+        let [i_1, i_2] = currents(c, plates, x, x_dot);
+        let [leak_1, leak_2] = leakage(c, plates, self.mean_voltages(c));
+        let (i_1, i_2) = (i_1 + leak_1, i_2 + leak_2);
+        let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
+        let (power_1, power_2) = (v_1 * i_1, v_2 * i_2);
+        Signals {
+            stroke: stroke(c, self.law, x),
+            pitch: psi,
+            lift: air.lift,
+            drag: air.drag,
+            power: power_1 + power_2,
+            power_plate_1: power_1,
+            power_plate_2: power_2,
+            power_mechanical: (f_1 - f_2) * x_dot,
+            power_drag: air.power_drag,
+            power_rotational: air.power_rotational,
+            power_stroke_damping: stroke_damping(c, &transmission, x_dot, rate) * x_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: v_1 * leak_1 + v_2 * leak_2,
+            current_1: i_1,
+            current_2: i_2,
+            force_1: f_1,
+            force_2: f_2,
+            power_transduced: power_1 + power_2 - charging_power(c, plates),
+        }
+    }
+
     /// Returns the mean voltages of the two plates (V) over a period.
     #[inline(always)]
     fn mean_voltages<R: Real>(&self, c: &Constants<R>) -> [R; 2] {
@@ -371,44 +419,22 @@ impl Model<4> for Bimorph {
 
     #[inline(always)]
     fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Signals<R> {
-        let Instant { input: plates, y, .. } = at;
-        let [x, x_dot, psi, psi_dot] = *y;
+        if self.is_plain() {
+            return self.plain_signals(c, at);
+        }
+        let [x, x_dot, _, psi_dot] = *at.y;
+        let rate = Transmission::at(c, self.law, x).times(x_dot);
+        let air = air_at(c, self, self.body == BodyTerms::All, at);
+        self.signals_in(c, at, &Losses::of(c, &air, rate, psi_dot))
+    }
+
+    #[inline(always)]
+    fn plain_signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Signals<R> {
+        let [x, x_dot, psi, psi_dot] = *at.y;
         let (sin, cos) = psi.sin_cos();
         let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-        let transmission = Transmission::at(c, self.law, x);
-        let rate = transmission.times(x_dot);
-        let air = if self.is_general() {
-            let air = air_at(c, self, self.body == BodyTerms::All, at);
-            Losses::of(c, &air, rate, psi_dot)
-        } else {
-            Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot)
-        };
-        let [f_1, f_2] = plate_forces(c, plates, x);
-        let [i_1, i_2] = currents(c, plates, x, x_dot);
-        let [leak_1, leak_2] = leakage(c, plates, self.mean_voltages(c));
-        let (i_1, i_2) = (i_1 + leak_1, i_2 + leak_2);
-        let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];
-        let (power_1, power_2) = (v_1 * i_1, v_2 * i_2);
-        Signals {
-            stroke: stroke(c, self.law, x),
-            pitch: psi,
-            lift: air.lift,
-            drag: air.drag,
-            power: power_1 + power_2,
-            power_plate_1: power_1,
-            power_plate_2: power_2,
-            power_mechanical: (f_1 - f_2) * x_dot,
-            power_drag: air.power_drag,
-            power_rotational: air.power_rotational,
-            power_stroke_damping: stroke_damping(c, &transmission, x_dot, rate) * x_dot,
-            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
-            power_dielectric: v_1 * leak_1 + v_2 * leak_2,
-            current_1: i_1,
-            current_2: i_2,
-            force_1: f_1,
-            force_2: f_2,
-            power_transduced: power_1 + power_2 - charging_power(c, plates),
-        }
+        let rate = Transmission::at(c, self.law, x).times(x_dot);
+        self.signals_in(c, at, &Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot))
     }
 
     /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power lost to drag and damping of the stroke⟩: (1) has no
@@ -425,7 +451,7 @@ impl Model<4> for Bimorph {
 
     #[inline(always)]
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
-        if self.is_general() || self.body == BodyTerms::Loads {
+        if !self.is_plain() || self.body == BodyTerms::Loads {
             return air_at(c, self, self.body != BodyTerms::None, at).load;
         }
         let [x, x_dot, psi, psi_dot] = *at.y;

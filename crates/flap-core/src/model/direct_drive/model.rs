@@ -107,12 +107,6 @@ impl DirectDrive {
         has_sections: false,
         stiffens: false,
     };
-
-    /// Returns true if the equations of motion contain terms of `general`.
-    #[inline(always)]
-    fn is_general(&self) -> bool {
-        self.body == BodyTerms::All || self.has_sections || self.stiffens
-    }
 }
 
 impl Ode<4> for DirectDrive {
@@ -135,17 +129,20 @@ impl Ode<4> for DirectDrive {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
-        let at = states::state(&self.drive, drive, y);
-        let balance = if self.is_general() {
-            general::balance(c, self, side, &at)
-        } else {
-            balance(c, self.flow, side, &at)
-        };
-        if self.drive.prescribes_stroke() {
-            balance.prescribed(y, drive, c.drive.rate)
-        } else {
-            balance.driven(y, c.gamma * drive.value)
-        }
+        self.derivative::<R, false>(c, drive, side, y)
+    }
+
+    const HAS_PLAIN: bool = true;
+
+    /// Returns true if the equations of motion contain no terms of `general`.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+    }
+
+    #[inline(always)]
+    fn plain_rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        self.derivative::<R, true>(c, drive, side, y)
     }
 
     #[inline(always)]
@@ -162,6 +159,73 @@ impl DirectDrive {
     /// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²) at ψ = 0, with the added mass.
     fn mass_at_rest(c: &Constants<f64>) -> [f64; 3] {
         [c.m11 + c.added.a11, c.m12 - c.added.a12, c.m22 + c.added.a22]
+    }
+}
+
+impl DirectDrive {
+    /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
+    #[inline(always)]
+    fn derivative<R: Real, const PLAIN: bool>(
+        &self,
+        c: &Constants<R>,
+        drive: &Wave<R>,
+        side: R,
+        y: &[R; 4],
+    ) -> [R; 4] {
+        let at = states::state(&self.drive, drive, y);
+        let balance = if PLAIN || self.is_plain() {
+            balance(c, self.flow, side, &at)
+        } else {
+            general::balance(c, self, side, &at)
+        };
+        if self.drive.prescribes_stroke() {
+            balance.prescribed(y, drive, c.drive.rate)
+        } else {
+            balance.driven(y, c.gamma * drive.value)
+        }
+    }
+
+    /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
+    #[inline(always)]
+    fn signals_at<R: Real, const PLAIN: bool>(
+        &self,
+        c: &Constants<R>,
+        at: Instant<'_, R, Wave<R>, 4>,
+    ) -> Signals<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        let [phi, psi, phi_dot, psi_dot] = y;
+        let (sin, cos) = psi.sin_cos();
+        let slope = states::slope(&self.drive, drive, dy);
+        let (air, added, translational) = if PLAIN || self.is_plain() {
+            let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+            let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
+            (air, added_mass(c, sin, cos, &slope), power)
+        } else {
+            let air = general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]);
+            let power = air.translational_power([phi_dot, psi_dot], cos);
+            (air.forces, air.with_added_mass(c, [sin, cos], &slope), power)
+        };
+        // A prescribed stroke does not determine the actuator's force, so its quantities are unknown.
+        let unknown = self.drive.prescribes_stroke();
+        let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
+        let [current, leakage] =
+            if unknown { [phi.lit(f64::NAN); 2] } else { [current(c, drive, phi_dot) + leakage, leakage] };
+        Signals {
+            stroke: phi,
+            pitch: psi,
+            lift: lift(c, &air, &added, sin),
+            lift_translational: air.lift,
+            drag: air.drag,
+            power: current * drive.value,
+            power_translational: translational,
+            power_rotational: -(air.rotation_moment * psi_dot),
+            power_stroke_damping: c.stroke_damping * phi_dot * phi_dot,
+            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
+            power_dielectric: leakage * drive.value,
+            current,
+            power_transduced: (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
+        }
     }
 }
 
@@ -247,40 +311,12 @@ impl Model<4> for DirectDrive {
 
     #[inline(always)]
     fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
-        let Instant { input: drive, side, y, dy } = at;
-        let y = states::state(&self.drive, drive, y);
-        let [phi, psi, phi_dot, psi_dot] = y;
-        let (sin, cos) = psi.sin_cos();
-        let slope = states::slope(&self.drive, drive, dy);
-        let (air, added, translational) = if self.is_general() {
-            let air = general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]);
-            let power = air.translational_power([phi_dot, psi_dot], cos);
-            (air.forces, air.with_added_mass(c, [sin, cos], &slope), power)
-        } else {
-            let air = aerodynamics(c, self.flow, side, &y, sin, cos);
-            let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
-            (air, added_mass(c, sin, cos, &slope), power)
-        };
-        // A prescribed stroke does not determine the actuator's force, so its quantities are unknown.
-        let unknown = self.drive.prescribes_stroke();
-        let leakage = c.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
-        let [current, leakage] =
-            if unknown { [phi.lit(f64::NAN); 2] } else { [current(c, drive, phi_dot) + leakage, leakage] };
-        Signals {
-            stroke: phi,
-            pitch: psi,
-            lift: lift(c, &air, &added, sin),
-            lift_translational: air.lift,
-            drag: air.drag,
-            power: current * drive.value,
-            power_translational: translational,
-            power_rotational: -(air.rotation_moment * psi_dot),
-            power_stroke_damping: c.stroke_damping * phi_dot * phi_dot,
-            power_hinge_damping: c.hinge_damping * psi_dot * psi_dot,
-            power_dielectric: leakage * drive.value,
-            current,
-            power_transduced: (drive.value - c.drive.bias) * (current - c.c_p * drive.rate),
-        }
+        self.signals_at::<R, false>(c, at)
+    }
+
+    #[inline(always)]
+    fn plain_signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
+        self.signals_at::<R, true>(c, at)
     }
 
     /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all other energy returns within a

@@ -97,12 +97,6 @@ impl FourBar {
     /// Sinusoidal drive, with the body at rest.
     pub const SINE: FourBar =
         FourBar { drive: Drive::SINE, body: BodyTerms::None, has_sections: false, stiffens: false };
-
-    /// Returns true if the equations of motion contain terms of `general`.
-    #[inline(always)]
-    fn is_general(&self) -> bool {
-        self.body == BodyTerms::All || self.has_sections || self.stiffens
-    }
 }
 
 impl Ode<4> for FourBar {
@@ -127,12 +121,44 @@ impl Ode<4> for FourBar {
 
     #[inline(always)]
     fn rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        self.derivative::<R, false>(c, drive, side, y)
+    }
+
+    const HAS_PLAIN: bool = true;
+
+    /// Returns true if the equations of motion contain no terms of `general`.
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+    }
+
+    #[inline(always)]
+    fn plain_rhs<R: Real>(&self, c: &Constants<R>, drive: &Wave<R>, side: R, y: &[R; 4]) -> [R; 4] {
+        self.derivative::<R, true>(c, drive, side, y)
+    }
+
+    #[inline(always)]
+    fn switch<R: Real>(&self, _c: &Constants<R>, y: &[R; 4], _dy: &[R; 4]) -> [R; 2] {
+        side_of(y[1], y[3])
+    }
+}
+
+impl FourBar {
+    /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
+    #[inline(always)]
+    fn derivative<R: Real, const PLAIN: bool>(
+        &self,
+        c: &Constants<R>,
+        drive: &Wave<R>,
+        side: R,
+        y: &[R; 4],
+    ) -> [R; 4] {
         let at = states::state(&self.drive, drive, y);
         let links = transmission(c, at[0]);
-        let balance = if self.is_general() {
-            general::balance(c, self, &links, side, &at)
-        } else {
+        let balance = if PLAIN || self.is_plain() {
             balance(c, &links, side, &at)
+        } else {
+            general::balance(c, self, &links, side, &at)
         };
         if self.drive.prescribes_stroke() {
             balance.prescribed(y, drive, c.drive.rate)
@@ -141,9 +167,56 @@ impl Ode<4> for FourBar {
         }
     }
 
+    /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
     #[inline(always)]
-    fn switch<R: Real>(&self, _c: &Constants<R>, y: &[R; 4], _dy: &[R; 4]) -> [R; 2] {
-        side_of(y[1], y[3])
+    fn signals_at<R: Real, const PLAIN: bool>(
+        &self,
+        c: &Constants<R>,
+        at: Instant<'_, R, Wave<R>, 4>,
+    ) -> Signals<R> {
+        let Instant { input: drive, side, y, dy } = at;
+        let y = states::state(&self.drive, drive, y);
+        let [theta, phi, theta_dot, phi_dot] = y;
+        let (sin, cos) = phi.sin_cos();
+        let air = if PLAIN || self.is_plain() {
+            aerodynamics(c, side, &y, sin, cos)
+        } else {
+            general::air(c, self, side, &y)
+        };
+        let added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
+        let links = transmission(c, theta);
+        let slider_rate = links.slope * theta_dot;
+        let leakage = c.actuator.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
+        // A prescribed stroke does not determine the actuator's force and current.
+        let [force, current] = if self.drive.prescribes_stroke() {
+            [theta.lit(f64::NAN); 2]
+        } else {
+            let current = current(&c.actuator, drive, slider_rate);
+            [force(&c.actuator, drive, links.displacement), current + leakage]
+        };
+        let swing = drive.value - c.drive.bias;
+        let rotation_lift = air.rotation.force * sin;
+        let [rotation_stroke, rotation_pitch] = air.rotation_moments(cos);
+        Signals {
+            stroke: theta,
+            pitch: phi,
+            lift: air.lift + rotation_lift + added_mass,
+            lift_translational: air.lift,
+            lift_rotational: rotation_lift,
+            lift_added_mass: added_mass,
+            drag: air.drag,
+            power_drive: force * slider_rate,
+            power_stroke_damping: stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
+            power_hinge_damping: c.wing.hinge_damping * phi_dot * phi_dot,
+            power_translational: -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
+            power_rotational: -(rotation_stroke * theta_dot + rotation_pitch * phi_dot),
+            power: current * drive.value,
+            power_dielectric: leakage * drive.value,
+            current,
+            tip: tip(&c.actuator, links.displacement, force),
+            power_transduced: swing * (current - charging_current(&c.actuator, drive)),
+            power_driving: driving_force(&c.actuator, swing) * slider_rate,
+        }
     }
 }
 
@@ -222,49 +295,12 @@ impl Model<4> for FourBar {
 
     #[inline(always)]
     fn signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
-        let Instant { input: drive, side, y, dy } = at;
-        let y = states::state(&self.drive, drive, y);
-        let [theta, phi, theta_dot, phi_dot] = y;
-        let (sin, cos) = phi.sin_cos();
-        let air = if self.is_general() {
-            general::air(c, self, side, &y)
-        } else {
-            aerodynamics(c, side, &y, sin, cos)
-        };
-        let added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
-        let links = transmission(c, theta);
-        let slider_rate = links.slope * theta_dot;
-        let leakage = c.actuator.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
-        // A prescribed stroke does not determine the actuator's force and current.
-        let [force, current] = if self.drive.prescribes_stroke() {
-            [theta.lit(f64::NAN); 2]
-        } else {
-            let current = current(&c.actuator, drive, slider_rate);
-            [force(&c.actuator, drive, links.displacement), current + leakage]
-        };
-        let swing = drive.value - c.drive.bias;
-        let rotation_lift = air.rotation.force * sin;
-        let [rotation_stroke, rotation_pitch] = air.rotation_moments(cos);
-        Signals {
-            stroke: theta,
-            pitch: phi,
-            lift: air.lift + rotation_lift + added_mass,
-            lift_translational: air.lift,
-            lift_rotational: rotation_lift,
-            lift_added_mass: added_mass,
-            drag: air.drag,
-            power_drive: force * slider_rate,
-            power_stroke_damping: stroke_damping(&c.wing, &links) * theta_dot * theta_dot,
-            power_hinge_damping: c.wing.hinge_damping * phi_dot * phi_dot,
-            power_translational: -(air.stroke_moment * theta_dot + air.pitch_moment * phi_dot),
-            power_rotational: -(rotation_stroke * theta_dot + rotation_pitch * phi_dot),
-            power: current * drive.value,
-            power_dielectric: leakage * drive.value,
-            current,
-            tip: tip(&c.actuator, links.displacement, force),
-            power_transduced: swing * (current - charging_current(&c.actuator, drive)),
-            power_driving: driving_force(&c.actuator, swing) * slider_rate,
-        }
+        self.signals_at::<R, false>(c, at)
+    }
+
+    #[inline(always)]
+    fn plain_signals<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, Wave<R>, 4>) -> Signals<R> {
+        self.signals_at::<R, true>(c, at)
     }
 
     /// ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = the power lost to damping and air. Actuator, springs and inertia return
