@@ -10,7 +10,6 @@ from ._native import (
     NativeBars,
     NativeColours,
     NativeIdentity,
-    NativeLinear,
     NativeMeasure,
     NativeOptimum,
     NativeOrigins,
@@ -360,8 +359,10 @@ def linear(
     inputs: list[str] | None = None,
     trim_to_hover: bool = False,
     positions: bool = False,
-) -> NativeLinear:
-    """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""
+) -> dict[str, Any]:
+    """Return the attributes of `flapwing.LinearModel`, with the real and imaginary parts of the eigenvalues as
+    `eigenvalues_real` and `eigenvalues_imag`.
+    """
 
 def fly(
     design: Any,

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from . import _flapwing
 from ._native import Floats
 
 __all__ = ["LinearModel"]
@@ -96,13 +95,3 @@ class LinearModel:
         fastest = self.eigenvalues[0] if len(self.eigenvalues) else float("nan")
         size = f"{len(self.states)} states, {len(self.inputs)} inputs"
         return f"<flapwing.LinearModel: {size}, first eigenvalue {fastest:.4g} 1/s>"
-
-
-def linear_model(
-    design: Any, keywords: dict[str, Any], point: int | None, inputs: list[str] | None, trim: bool, positions: bool
-) -> LinearModel:
-    """Return the linear model of a vehicle."""
-    native = _flapwing.linear(design, keywords, point=point, inputs=inputs, trim_to_hover=trim, positions=positions)
-    found: dict[str, Any] = dict(native)
-    real, imaginary = found.pop("eigenvalues_real"), found.pop("eigenvalues_imag")
-    return LinearModel(eigenvalues=real + 1j * imaginary, **found)

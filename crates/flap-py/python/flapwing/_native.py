@@ -201,31 +201,6 @@ class NativeUncertainty(TypedDict):
     correlations: list[NativeCorrelation]
 
 
-class NativeLinear(TypedDict):
-    """The linear model of a vehicle; see `flapwing.LinearModel`. Eigenvalues are two arrays."""
-
-    A: Floats
-    B: Floats
-    C: Floats
-    D: Floats
-    damping: Floats
-    control_matrix: Floats
-    W0: Floats
-    residual: Floats
-    eigenvalues_real: Floats
-    eigenvalues_imag: Floats
-    modes: list[str]
-    states: list[str]
-    state_units: list[str]
-    inputs: list[str]
-    input_units: list[str]
-    input_values: Floats
-    wrench: list[str]
-    drive_frequency: float
-    floquet_max: float
-    warnings: list[str]
-
-
 class NativeOrigins(TypedDict):
     """The description of a design, and the sources of its parameters by name."""
 

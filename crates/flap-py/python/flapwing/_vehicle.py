@@ -8,7 +8,7 @@ from typing import Any
 
 from . import _flapwing
 from ._flapwing import Grid
-from ._linear import LinearModel, linear_model
+from ._linear import LinearModel
 from ._mistakes import refused
 from ._types import Value
 
@@ -230,7 +230,10 @@ class Vehicle(_Entries):
         """
         if isinstance(inputs, str):
             raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
-        return linear_model(self, dict(params), point, None if inputs is None else list(inputs), trim, positions)
+        names = None if inputs is None else list(inputs)
+        found = _flapwing.linear(self, dict(params), point=point, inputs=names, trim_to_hover=trim, positions=positions)
+        eigenvalues = found.pop("eigenvalues_real") + 1j * found.pop("eigenvalues_imag")
+        return LinearModel(eigenvalues=eigenvalues, **found)
 
     def __repr__(self) -> str:
         wings = [
