@@ -1,6 +1,6 @@
-"""Makes the pictures of docs/how-to/plots-python.md and docs/how-to/devices.md, in some ten seconds:
+"""Makes the pictures of docs/how-to/plots-python.md, devices.md and hover.md, in less than a minute:
 
-    pip install "./crates/flap-py[plot,fit]"
+    pip install "./crates/flap-py[plot,fit]" control
     python docs/site/pictures.py             # into docs/pictures
     python docs/site/pictures.py elsewhere
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -24,6 +25,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 REPOSITORY = Path(__file__).parents[2]
+
+DRIVE = {"drive_voltage_pp": "140 V", "drive_frequency": "120 Hz"}
 
 # Maps keep all of their colours: with few, their colour bars have steps.
 MAPS = ("best", "column", "control-matrix", "gaps", "heatmap")
@@ -178,7 +181,7 @@ def devices() -> Figure:
     return plot.response_panels(responses, ["stroke_pp_deg", "vehicle_lift_mgf", "efficiency_gf_per_w"])
 
 
-def wing_path() -> plot.WingPath:
+def wing_path() -> plot.Animation:
     """One cycle of it, seen from the wing's tip."""
     return plot.wing_path(flapwing.trajectory("jafferis2016"), frames=36)
 
@@ -234,16 +237,35 @@ def force_panels() -> Figure:
     return plot.force_panels(flapwing.sweep(course, difference_drive_voltage_pp="20 V"))
 
 
-def eigenvalues() -> Axes:
-    """Eigenvalues about hover, with wings that respond to the body and with frozen wings."""
+def hovering() -> flapwing.Vehicle:
+    """The robot of docs/how-to/hover.md."""
     place = ["0 mm", "2 mm", "0 mm"]
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
-    drive = {"drive_voltage_pp": "140 V", "drive_frequency": "120 Hz"}
     body = {"body_inertia_roll": 1.5e-9, "body_inertia_pitch": 1.5e-9, "body_inertia_yaw": 0.5e-9}
-    design = {"preset": "jafferis2016", "params": {**drive, **body}}
-    robot = flapwing.Vehicle(design, wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
-    models = {response: robot.linear(trim=True, body_response=response) for response in ("passive", "frozen")}
+    design = {"preset": "jafferis2016", "params": {**DRIVE, **body}}
+    return flapwing.Vehicle(design, wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+
+
+def eigenvalues() -> Axes:
+    """Eigenvalues about hover, with wings that respond to the body and with frozen wings."""
+    models = {response: hovering().linear(trim=True, body_response=response) for response in ("passive", "frozen")}
     return plot.eigenvalues(models)
+
+
+def flights() -> dict[str, flapwing.Table]:
+    """Flights with a linear-quadratic regulator, of the coupled motion and of the linear model."""
+    import control
+
+    robot = hovering()
+    model = robot.linear(trim=True)
+    states, inputs = [0.1, 0.1, 0.1, 5.0, 5.0, 5.0, 0.1, 0.1, 0.5], [10.0, 2.0, 10.0, 10.0]
+    gains, _, _ = control.lqr(model.A, model.B, np.diag(np.power(states, -2.0)), np.diag(np.power(inputs, -2.0)))
+    disturbance = {"velocity_forward": "0.1 m/s", "rate_pitch": "2 rad/s"}
+    options: dict[str, Any] = {"disturbance": disturbance, "gains": gains, "inputs": model.inputs}
+    return {
+        "coupled": flapwing.fly(robot, seconds=1, **options),
+        "averaged": flapwing.fly(robot, seconds=1, averaged=True, **options),
+    }
 
 
 def main() -> None:
@@ -287,6 +309,12 @@ def main() -> None:
     last = eigenvalues().get_figure(root=True)
     assert last is not None
     save(last, folder / "py-eigenvalues.png", True)
+    flown = flights()
+    save(plot.flight(flown), folder / "py-flight.png", True)
+    path = folder / "py-flight.gif"
+    wing = flapwing.trajectory("jafferis2016", **DRIVE)
+    plot.flight_film(flown["coupled"][:36], wing, frames=36).save(path, dpi=50)
+    share_colours(path)
     plt.close("all")
 
 

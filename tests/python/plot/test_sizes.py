@@ -10,6 +10,8 @@ from matplotlib.figure import Figure
 
 CUBE = {"drive_voltage_pp": VOLTS, "hinge_stiffness": [6e-5, 8e-5], "drive_frequency": HERTZ}
 
+ALONG, ABOUT = ("forward", "left", "up"), ("roll", "pitch", "yaw")
+
 
 def gaps():
     table = fails(fails(grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ), [0, 1]), [7], "subharmonic")
@@ -34,6 +36,13 @@ def sample():
     return {**table, "lift_mean_mn": rng.normal(3.0, 0.5, 80), "power_mean_mw": rng.normal(50.0, 5.0, 80)}
 
 
+def flight():
+    names = [f"{stem}_{name}_{unit}" for stem, unit in (("velocity", "m_s"), ("position", "m")) for name in ALONG]
+    names += [f"{stem}_{name}_{unit}" for stem, unit in (("rate", "rad_s"), ("angle", "rad")) for name in ABOUT]
+    rng = np.random.default_rng(3)
+    return {"time_s": np.linspace(0.0, 1.0, 20), **{name: rng.normal(size=20) for name in [*names, "amplitude"]}}
+
+
 KINDS = {
     "response": lambda motion: plot.response(gaps(), "lift_mean_mn"),
     "response_panels": lambda motion: plot.response_panels(
@@ -56,6 +65,7 @@ KINDS = {
         1e-3 * np.arange(24.0).reshape(6, 4),
         inputs=["drive_voltage_pp", "difference_drive_voltage_pp", "drive_offset", "difference_drive_offset"],
     ),
+    "flight": lambda motion: plot.flight({"coupled": flight(), "averaged": flight()}),
     "force_panels": lambda motion: plot.force_panels(vehicle()),
 }
 

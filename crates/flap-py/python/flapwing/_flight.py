@@ -78,7 +78,8 @@ def fly(
     Table
         One row for each wing beat, with the time at its middle. The columns are `time_s`, the states with the position,
         the inputs in SI units, and force and torque of the air. Velocities and rates are in body axes, and the position
-        is in fixed axes. Rotations by the yaw angle, then pitch, then roll lead to the attitude.
+        is in fixed axes. Rotations by the yaw angle, then pitch, then roll lead to the attitude. `meta` also has the
+        `disturbance`.
 
     Raises
     ------
@@ -121,7 +122,13 @@ def fly(
         )
     for text in native["warnings"]:
         warnings.warn(text, stacklevel=2)
-    return Table._of(native, keywords=keywords)
+    for column in native["columns"]:
+        # The description of an input has its unit, as in "drive_voltage_pp (V)".
+        if inputs is not None and column["name"] in inputs:
+            column["unit"] = column["doc"].rpartition(" (")[2].removesuffix(")")
+    table = Table._of(native, keywords=keywords)
+    table.meta["disturbance"] = dict(disturbance or {})
+    return table
 
 
 def _matrix(gains: Any) -> list[list[float]]:

@@ -25,8 +25,11 @@ except ImportError as _missing:
 del _matplotlib
 
 from .._labels import label
+from ._animation import Animation
 from ._eigenvalues import eigenvalues
 from ._fit import fit
+from ._flight import flight
+from ._flight_film import flight_film
 from ._forces import control_matrix, force_panels
 from ._heatmap import heatmap
 from ._histogram import histogram
@@ -37,13 +40,15 @@ from ._scatter import scatter
 from ._style import style
 from ._tornado import tornado
 from ._trajectory import trajectory
-from ._wing_path import WingPath, wing_path
+from ._wing_path import wing_path
 
 __all__ = [
-    "WingPath",
+    "Animation",
     "control_matrix",
     "eigenvalues",
     "fit",
+    "flight",
+    "flight_film",
     "force_panels",
     "heatmap",
     "histogram",

@@ -57,6 +57,8 @@ _WHOLE = _Kind(_is_whole, "it must be a whole number")
 _KINDS: dict[str, _Kind | None] = {
     "table": None,
     "models": None,
+    "motion": None,
+    "vehicle": None,
     "design": None,
     "percentiles": None,
     **dict.fromkeys(
@@ -65,9 +67,9 @@ _KINDS: dict[str, _Kind | None] = {
     "lift": _Kind(
         lambda value: value is None or isinstance(value, str), 'it must be a name, such as "lift_mn", or None'
     ),
-    **dict.fromkeys(["inputs", "measures", "portrait"], _NAMES),
-    **dict.fromkeys(["label", "maximize", "minimize", "signals"], _ONE_OR_MORE),
-    **dict.fromkeys(["change", "frequency", "radius", "vmax", "vmin"], _NUMBER),
+    **dict.fromkeys(["inputs", "measures", "portrait", "views"], _NAMES),
+    **dict.fromkeys(["groups", "label", "maximize", "minimize", "signals"], _ONE_OR_MORE),
+    **dict.fromkeys(["change", "frequency", "radius", "scale", "vmax", "vmin"], _NUMBER),
     **dict.fromkeys(["curve", "frames", "pitch_sign", "top"], _WHOLE),
     "cmap": _Kind(
         lambda value: isinstance(value, (str, Colormap)), 'it must be a colour map of matplotlib, such as "viridis"'

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.animation import FuncAnimation, HTMLWriter
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -15,6 +12,7 @@ from matplotlib.figure import Figure
 from .. import _labels
 from .._data import Data
 from . import _style
+from ._animation import Animation
 from ._checks import checked
 
 # Number of past chords that are shown, and their distance in cycles.
@@ -25,37 +23,6 @@ _STEPS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 90)
 
 # Smaller strokes, peak to peak (rad), are drawn enlarged.
 _SMALL = np.radians(11.0)
-
-
-class WingPath(FuncAnimation):
-    """An animation that notebooks display with buttons."""
-
-    def __init__(self, scene: _Scene) -> None:
-        self._scene = scene
-        super().__init__(scene.figure, scene.draw, frames=scene.cycle.frames, interval=40, blit=False)
-
-    def save(  # type: ignore[override]  # the rest goes through `options`
-        self, filename: str | os.PathLike[str], writer: Any = None, **options: Any
-    ) -> None:
-        """Save the animation.
-
-        Parameters
-        ----------
-        filename : path
-            A name that ends in ``.gif``, in ``.html`` (a page with buttons), or in another format of matplotlib's
-            writer (by default ffmpeg).
-        writer, **options
-            As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
-        """
-        ending = Path(filename).suffix.lower()
-        if writer is None and ending == ".gif":
-            writer = "pillow"
-        elif writer is None and ending in (".html", ".htm"):
-            writer = HTMLWriter(fps=options.get("fps", 25), embed_frames=True, default_mode="loop")
-        super().save(os.fspath(filename), writer=writer, **options)
-
-    def _repr_html_(self) -> str:
-        return self.to_jshtml()
 
 
 @checked
@@ -69,7 +36,7 @@ def wing_path(
     pitch_sign: int | None = None,
     legend: bool | str = True,
     ax: Axes | None = None,
-) -> WingPath:
+) -> Animation:
     """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
 
     The dot is the leading edge of the wing, which is up, and the line ends at the trailing edge. The length of the
@@ -102,7 +69,7 @@ def wing_path(
 
     Returns
     -------
-    WingPath
+    Animation
         A matplotlib ``FuncAnimation``, whose `save` also writes ``.gif`` and ``.html``.
 
     Raises
@@ -117,16 +84,16 @@ def wing_path(
         raise ValueError(f"`pitch_sign` must be 1 or -1, not {pitch_sign}")
     if lift is not None and lift != "lift_mn":
         data[lift]
-    cycle = _Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
-    sign = _pitch_sign(data, cycle) if pitch_sign is None else pitch_sign
+    cycle = Cycle(data, frames, frequency, lift if lift is not None and lift in data else None)
+    sign = pitch_sign_of(data, cycle) if pitch_sign is None else pitch_sign
     if radius is None:
         swept = float(np.radians(np.ptp(cycle.stroke)))
         radius = 2.5 / swept if 0.0 < swept < _SMALL else 3.0
     with _style.applied(ax):
-        return WingPath(_Scene(cycle, sign, radius, legend, ax))
+        return Animation(_Scene(cycle, sign, radius, legend, ax))
 
 
-class _Cycle:
+class Cycle:
     """The resampled last cycle of a trajectory. The phase rises from 0 to 1."""
 
     def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
@@ -149,8 +116,8 @@ class _Cycle:
 class _Scene:
     """The parts of the animation: fixed parts, and parts that move in every frame."""
 
-    def __init__(self, cycle: _Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
-        self.cycle = cycle
+    def __init__(self, cycle: Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
+        self.cycle, self.frames = cycle, cycle.frames
         along = np.radians(cycle.stroke) * radius
         tilt = np.radians(cycle.pitch) * sign
         self.leading = np.column_stack([along, np.zeros_like(along)])
@@ -266,7 +233,7 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
     return float(t[-1] - t[n - 1 - shift])
 
 
-def _pitch_sign(data: Data, cycle: _Cycle) -> int:
+def pitch_sign_of(data: Data, cycle: Cycle) -> int:
     """Return 1 if the trailing edge lags at a positive pitch, and -1 if the trailing edge leads.
 
     The sign is the convention of the model. For a table without a model, the sign is chosen so that the trailing edge

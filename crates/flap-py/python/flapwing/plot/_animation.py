@@ -1,0 +1,58 @@
+"""Animations that are saved as files and shown in notebooks."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Protocol
+
+from matplotlib.animation import FuncAnimation, HTMLWriter
+from matplotlib.figure import Figure
+
+
+class Scene(Protocol):
+    """A figure with parts that move."""
+
+    figure: Figure
+    #: Number of frames.
+    frames: int
+
+    def draw(self, frame: int) -> list[Any]:
+        """Move all parts to their places in a frame, and return the moved parts."""
+
+
+class Animation(FuncAnimation):
+    """An animation that notebooks display with buttons."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        super().__init__(scene.figure, scene.draw, frames=scene.frames, interval=40, blit=False)
+
+    def save(  # type: ignore[override]  # the rest goes through `options`
+        self, filename: str | os.PathLike[str], writer: Any = None, **options: Any
+    ) -> None:
+        """Save the animation.
+
+        Parameters
+        ----------
+        filename : path
+            A name that ends in ``.gif``, in ``.html`` (a page with buttons), or in another format of matplotlib's
+            writer (by default ffmpeg).
+        writer, **options
+            As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
+        """
+        ending = Path(filename).suffix.lower()
+        if writer is None and ending == ".gif":
+            writer = "pillow"
+        elif writer is None and ending in (".html", ".htm"):
+            writer = HTMLWriter(fps=options.get("fps", 25), embed_frames=True, default_mode="loop")
+        # The writer draws each frame. Without this, matplotlib draws each frame twice.
+        canvas: Any = self._scene.figure.canvas
+        canvas.draw_idle = lambda: None
+        try:
+            super().save(os.fspath(filename), writer=writer, **options)
+        finally:
+            del canvas.draw_idle
+
+    def _repr_html_(self) -> str:
+        return self.to_jshtml()
