@@ -25,6 +25,7 @@ def given(kind):
         plot.scatter,
         plot.histogram,
         plot.trajectory,
+        plot.flight,
         plot.wing_path,
         plot.control_matrix,
     ],

@@ -360,9 +360,7 @@ def linear(
     trim_to_hover: bool = False,
     positions: bool = False,
 ) -> dict[str, Any]:
-    """Return the attributes of `flapwing.LinearModel`, with the real and imaginary parts of the eigenvalues as
-    `eigenvalues_real` and `eigenvalues_imag`.
-    """
+    """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""
 
 def fly(
     design: Any,
