@@ -39,7 +39,7 @@ impl<R: Real> NormalLoad<R> {
     }
 }
 
-/// Integral ∫ c^n r^m dr over a wing, with the chord c and the distance r from the stroke axis, as a function of n and m.
+/// Integral ∫ c^n r^m dr over a wing as a function of n and m. c is the chord, r the distance from the stroke axis.
 pub type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
 
 crate::per_lane! {
@@ -146,7 +146,7 @@ impl<R: Real> Circulation<R> {
 crate::per_lane! {
     /// Normal force of the rotational drag of the sections of a wing, without a moment about the span axis.
     pub struct RotationalForce<R> {
-        /// ½Cρ I ∫ c³ dr (kg·m), with the integral I of z|z| over a chord of 1, and the distance z behind the pitch axis.
+        /// ½Cρ I ∫ c³ dr (kg·m). I is the integral of z|z| over a chord of 1, with the distance z behind the pitch axis.
         pub force: R,
         /// ½Cρ I ∫ r c³ dr (kg·m²).
         pub moment: R,

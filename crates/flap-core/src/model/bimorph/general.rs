@@ -1,5 +1,7 @@
-//! The equations of the bimorph model with the terms that the paper leaves out: motion of the body, rotational circulation and
-//! added mass of the sections, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The equations of the bimorph model with the terms that the paper leaves out.
+//!
+//! The terms are motion of the body, forces of the sections along the normal, and nonlinear springs. Without such
+//! terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! The paper's wing is lumped. Body motion changes the direction of the flow along the span, so the wing is cut into four
 //! strips ([`super::strips`]) on a moving body.
@@ -146,8 +148,8 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
     [e_0, e_1 - rates[0] * rates[1] * turned[0], e_2]
 }
 
-/// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s, the load N of the added mass, nonlinear
-/// springs, and the inertial moment of the hinge on a turning body, see [`Shoulder::gyroscopic`].
+/// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s, the load N of the added mass, and nonlinear
+/// springs. A turning body adds the inertial moment of the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂

@@ -42,9 +42,10 @@ impl Moving<f64> {
     }
 }
 
-/// Chord along the span as a beta distribution (Ellington 1984): c = c̄ r̂^(P−1) (1 − r̂)^(Q−1)/B(P, Q), with r̂ from 0 to 1.
+/// Chord along the span as a beta distribution of r̂ = r/R (Ellington 1984).
 ///
 /// ```text
+/// c = c̄ r̂^(P−1) (1 − r̂)^(Q−1)/B(P, Q)
 /// P = r̂₁ K     Q = (1 − r̂₁) K     K = r̂₁ (1 − r̂₁)/(r̂₂² − r̂₁²) − 1
 /// ```
 struct Chord {
