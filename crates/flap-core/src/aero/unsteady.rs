@@ -39,7 +39,9 @@ impl<R: Real> NormalLoad<R> {
     }
 }
 
-/// Integral ∫ c^n r^m dr over a wing as a function of n and m. c is the chord, r the distance from the stroke axis.
+/// Integral ∫ c^n r^m dr over a wing as a function of n and m.
+///
+/// The chord is c, the distance from the stroke axis r.
 pub type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
 
 crate::per_lane! {

@@ -1,5 +1,7 @@
-//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked
-//! parameters, most important parameters, effects of terms, surveys, optima, quadratic maps of vehicles. Also experiments on single points.
+//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked parameters.
+//!
+//! Also most important parameters, effects of terms, surveys, optima, and quadratic maps of vehicles.
+//! Also experiments on single points.
 
 pub mod control;
 pub mod deviation;

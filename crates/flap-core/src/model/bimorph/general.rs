@@ -148,8 +148,9 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
     [e_0, e_1 - rates[0] * rates[1] * turned[0], e_2]
 }
 
-/// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s, the load N of the added mass, and nonlinear
-/// springs. A turning body adds the inertial moment of the hinge, see [`Shoulder::gyroscopic`].
+/// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s.
+///
+/// N is the load of the added mass. Nonlinear springs are added. A turning body adds the inertial moment of the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂
