@@ -26,7 +26,7 @@ const TERMS: [Term; 18] = [
     term("stroke_loss_factor", 0.1, ALL),
     term("hinge_damping", 1e-9, ALL),
     term("hinge_loss_factor", 0.1, ALL),
-    term("stroke_stiffening", 1e-6, BIMORPH),
+    term("stroke_stiffening", 1e-5, BIMORPH),
     term("hinge_stiffening", 1e-6, BIMORPH),
     term("hinge_stiffening", 3e-5, OTHERS),
     term("hinge_stop_stiffness", 3e-5, ALL),
