@@ -165,7 +165,6 @@ impl DirectDrive {
 impl DirectDrive {
     /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
     #[inline(always)]
-    #[inline(always)]
     fn derivative<R: Real, const PLAIN: bool>(
         &self,
         c: &Constants<R>,
@@ -187,7 +186,6 @@ impl DirectDrive {
     }
 
     /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
-    #[inline(always)]
     #[inline(always)]
     fn signals_at<R: Real, const PLAIN: bool>(
         &self,

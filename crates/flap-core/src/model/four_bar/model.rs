@@ -146,7 +146,6 @@ impl Ode<4> for FourBar {
 impl FourBar {
     /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
     #[inline(always)]
-    #[inline(always)]
     fn derivative<R: Real, const PLAIN: bool>(
         &self,
         c: &Constants<R>,
@@ -169,7 +168,6 @@ impl FourBar {
     }
 
     /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
-    #[inline(always)]
     #[inline(always)]
     fn signals_at<R: Real, const PLAIN: bool>(
         &self,
