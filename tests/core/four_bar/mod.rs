@@ -62,19 +62,18 @@ struct Moments {
 
 /// The moments at a state, from loads without accelerations.
 fn moments(c: &Constants<f64>, side: f64, y: &[f64; 4]) -> Moments {
-    let [theta, phi, _, phi_dot] = *y;
     let load = |constants: &Constants<f64>, y: &[f64; 4], dy: [f64; 4]| {
         let input = &Wave::with_rate(0.0, 0.0);
         Probe { model: &FourBar::default(), constants, input, side }.load(y, &dy)
     };
     let (mut translating, mut rotating) = (*c, *c);
-    translating.air.rotation_pitch = 0.0;
+    (translating.air.rotation_stroke, translating.air.rotation_pitch) = (0.0, 0.0);
     (rotating.air.lift, rotating.air.drag) = ([0.0; 4], [0.0; 4]);
-    let translation = load(&translating, y, [0.0; 4]);
+    let [translation, rotation] = [&translating, &rotating].map(|constants| load(constants, y, [0.0; 4]));
     Moments {
         stroke: -translation.drag_moment,
         pitch: -translation.span_moment,
-        rotation_stroke: -load(c, &[theta, phi, 0.0, 0.0], [0.0, phi_dot, 0.0, 0.0]).drag_moment,
-        rotation_pitch: -load(&rotating, y, [0.0; 4]).span_moment,
+        rotation_stroke: -rotation.drag_moment,
+        rotation_pitch: -rotation.span_moment,
     }
 }

@@ -118,6 +118,9 @@ impl Circulation<f64> {
     /// Returns the circulation times `factor`, in air of this density (kg/m³), for a pitch axis `axis` chords behind the
     /// leading edge.
     pub fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
+        if factor == 0.0 {
+            return Circulation::NONE;
+        }
         let kappa = factor * PI * (0.75 - axis) * density;
         Circulation {
             force: [0, 1, 2].map(|m| kappa * integral(2, m)),
@@ -167,6 +170,9 @@ impl RotationalForce<f64> {
         axis: f64,
         integral: &ChordIntegral<'_>,
     ) -> RotationalForce<f64> {
+        if coefficient == 0.0 {
+            return RotationalForce::NONE;
+        }
         let cube = |z: f64| z.abs() * z.abs() * z.abs();
         let dynamic = 0.5 * coefficient * density * (cube(1.0 - axis) - cube(axis)) / 3.0;
         RotationalForce { force: dynamic * integral(3, 0), moment: dynamic * integral(3, 1) }

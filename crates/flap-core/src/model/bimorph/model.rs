@@ -211,6 +211,8 @@ pub struct Bimorph {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
+    /// True without any of these terms in the equations of motion.
+    pub is_plain: bool,
 }
 
 impl Bimorph {
@@ -222,12 +224,21 @@ impl Bimorph {
         body: BodyTerms::None,
         has_sections: false,
         stiffens: false,
+        is_plain: true,
     };
 }
 
 impl Default for Bimorph {
     fn default() -> Bimorph {
         Bimorph::SINE
+    }
+}
+
+impl Bimorph {
+    /// Returns the variant with the right `is_plain`.
+    fn classified(self) -> Bimorph {
+        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        Bimorph { is_plain, ..self }
     }
 }
 
@@ -260,7 +271,7 @@ impl Ode<4> for Bimorph {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+        self.is_plain
     }
 
     #[inline(always)]
@@ -343,7 +354,9 @@ impl Model<4> for Bimorph {
             body: body.terms(),
             has_sections: p.has_sections(),
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
+            is_plain: false,
         }
+        .classified()
     }
 
     fn with_terms_of(&self, other: &Bimorph) -> Bimorph {
@@ -355,6 +368,7 @@ impl Model<4> for Bimorph {
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
+        .classified()
     }
 
     /// Returns a start at rest.

@@ -149,13 +149,12 @@ impl Constants<f64> {
         let k_lift = FRAC_PI_2 * (r / c) / (1.0 + (aspect * aspect + 1.0).sqrt());
 
         // The shape moments determine all integrals of the chord but ∫ c² dr.
-        let cuts = elements(p);
         let chords = |n: i32, m: i32| match (n, m) {
             (2, 1) => (c * c) * (r * r) * p.shape_moment_12,
             (2, 2) => (c * c) * (r * r * r) * p.shape_moment_22,
             (3, 0) => (c * c * c) * r * p.shape_moment_03,
             (3, 1) => (c * c * c) * (r * r) * p.shape_moment_13,
-            (n, m) => sum(&cuts, |r, c| c.powi(n) * r.powi(m)),
+            (n, m) => sum(&elements(p), |r, c| c.powi(n) * r.powi(m)),
         };
 
         let drive = p.drive();
@@ -180,7 +179,8 @@ impl Constants<f64> {
             m22: m_s,
 
             added: AddedMass {
-                f0: FRAC_PI_4 * rho * chords(2, 0),
+                // Set on a moving body.
+                f0: 0.0,
                 f1: FRAC_PI_4 * rho * (c * c) * (r * r) * p.shape_moment_12,
                 f2: 0.5 * FRAC_PI_4 * rho * (c * c * c) * r * p.shape_moment_03,
                 a11: FRAC_PI_4 * rho * (c * c) * (r * r * r) * p.shape_moment_22,

@@ -2,7 +2,7 @@
 
 use super::constants::Constants;
 use super::general;
-use super::motion::motion;
+use super::motion::with_motion;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use crate::aero::{Wing, chord_table};
@@ -96,6 +96,8 @@ pub struct DirectDrive {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
+    /// True without any of these terms in the equations of motion.
+    pub is_plain: bool,
 }
 
 impl DirectDrive {
@@ -106,7 +108,16 @@ impl DirectDrive {
         body: BodyTerms::None,
         has_sections: false,
         stiffens: false,
+        is_plain: true,
     };
+}
+
+impl DirectDrive {
+    /// Returns the variant with the right `is_plain`.
+    fn classified(self) -> DirectDrive {
+        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        DirectDrive { is_plain, ..self }
+    }
 }
 
 impl Ode<4> for DirectDrive {
@@ -137,7 +148,7 @@ impl Ode<4> for DirectDrive {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+        self.is_plain
     }
 
     #[inline(always)]
@@ -251,7 +262,9 @@ impl Model<4> for DirectDrive {
             body: body.terms(),
             has_sections: p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
+            is_plain: false,
         }
+        .classified()
     }
 
     fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
@@ -261,12 +274,13 @@ impl Model<4> for DirectDrive {
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
+        .classified()
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants { moving: motion(&params, self.body)?, ..Constants::derive(&params)? };
+        let constants = with_motion(Constants::derive(&params)?, &params, self.body)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 

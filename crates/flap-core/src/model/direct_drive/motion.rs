@@ -1,16 +1,25 @@
-//! Motion of the body as a constant of the direct-drive model.
+//! Motion of the body as constants of the direct-drive model.
 
-use super::params::{AddedMass, CentreOfPressure, FlowDirection, Params};
-use crate::body::{BodyMotion, BodyTerms};
+use core::f64::consts::FRAC_PI_4;
+
+use super::chord::elements;
+use super::constants::Constants;
+use super::params::{self, CentreOfPressure, FlowDirection, Params};
+use crate::aero::{AddedMass, sum};
+use crate::body::BodyTerms;
 use crate::parameter::Invalid;
 
-/// Returns the motion of the body of a point with these terms.
+/// Returns the constants of a point with these terms of the body's motion.
 ///
 /// # Errors
 /// If another reading of the paper is required.
-pub(super) fn motion(p: &Params, terms: BodyTerms) -> Result<BodyMotion<f64>, Invalid> {
+pub(super) fn with_motion(
+    constants: Constants<f64>,
+    p: &Params,
+    terms: BodyTerms,
+) -> Result<Constants<f64>, Invalid> {
     if terms == BodyTerms::None {
-        return Ok(BodyMotion::REST);
+        return Ok(constants);
     }
     if p.flow_direction == FlowDirection::Uniform {
         return Err(Invalid::together(
@@ -24,11 +33,13 @@ pub(super) fn motion(p: &Params, terms: BodyTerms) -> Result<BodyMotion<f64>, In
             "centre_of_pressure = \"literal\" has no meaning on a moving body: set it to \"folded\" or \"directional\"",
         ));
     }
-    if p.added_mass == AddedMass::Lagrangian {
+    if p.added_mass == params::AddedMass::Lagrangian {
         return Err(Invalid::together(
             &["added_mass", "body_velocity_forward"],
             "added_mass = \"lagrangian\" has no equations for a moving body: set it to \"paper\"",
         ));
     }
-    Ok(p.body.motion())
+    let f0 = FRAC_PI_4 * p.air_density * sum(&elements(p), |_, c| c * c);
+    let added = AddedMass { f0, ..constants.added };
+    Invalid::unless_finite(Constants { moving: p.body.motion(), added, ..constants })
 }

@@ -81,7 +81,7 @@ const DERIVED: &[Column] = &[
 ];
 
 /// Variant of the four-bar model: the choices on which its equations branch.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
     /// Drive voltage, or prescribed stroke.
     pub drive: Drive,
@@ -91,12 +91,33 @@ pub struct FourBar {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
+    /// True without any of these terms in the equations of motion.
+    pub is_plain: bool,
 }
 
 impl FourBar {
     /// Sinusoidal drive, with the body at rest.
-    pub const SINE: FourBar =
-        FourBar { drive: Drive::SINE, body: BodyTerms::None, has_sections: false, stiffens: false };
+    pub const SINE: FourBar = FourBar {
+        drive: Drive::SINE,
+        body: BodyTerms::None,
+        has_sections: false,
+        stiffens: false,
+        is_plain: true,
+    };
+}
+
+impl FourBar {
+    /// Returns the variant with the right `is_plain`.
+    fn classified(self) -> FourBar {
+        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        FourBar { is_plain, ..self }
+    }
+}
+
+impl Default for FourBar {
+    fn default() -> FourBar {
+        FourBar::SINE
+    }
 }
 
 impl Ode<4> for FourBar {
@@ -129,7 +150,7 @@ impl Ode<4> for FourBar {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.body != BodyTerms::All && !self.has_sections && !self.stiffens
+        self.is_plain
     }
 
     #[inline(always)]
@@ -241,7 +262,9 @@ impl Model<4> for FourBar {
             body: p.body.terms(),
             has_sections: p.circulation_factor != 0.0,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
+            is_plain: false,
         }
+        .classified()
     }
 
     fn with_terms_of(&self, other: &FourBar) -> FourBar {
@@ -251,6 +274,7 @@ impl Model<4> for FourBar {
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
+        .classified()
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
