@@ -280,7 +280,7 @@ impl Model<4> for DirectDrive {
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = with_motion(Constants::derive(&params)?, &params, self.body)?;
+        let constants = with_motion(&Constants::derive(&params)?, &params, self.body)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 

@@ -14,12 +14,12 @@ use crate::parameter::Invalid;
 /// # Errors
 /// If another reading of the paper is required.
 pub(super) fn with_motion(
-    constants: Constants<f64>,
+    constants: &Constants<f64>,
     p: &Params,
     terms: BodyTerms,
 ) -> Result<Constants<f64>, Invalid> {
     if terms == BodyTerms::None {
-        return Ok(constants);
+        return Ok(*constants);
     }
     if p.flow_direction == FlowDirection::Uniform {
         return Err(Invalid::together(
@@ -41,5 +41,5 @@ pub(super) fn with_motion(
     }
     let f0 = FRAC_PI_4 * p.air_density * sum(&elements(p), |_, c| c * c);
     let added = AddedMass { f0, ..constants.added };
-    Invalid::unless_finite(Constants { moving: p.body.motion(), added, ..constants })
+    Invalid::unless_finite(Constants { moving: p.body.motion(), added, ..*constants })
 }
