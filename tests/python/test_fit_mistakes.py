@@ -24,6 +24,10 @@ def changed(**columns):
             "set 1 has the column `strok_pp_deg`, which is neither a parameter nor a measure, did you mean `stroke_pp_deg`?\nrename or remove it",
         ),
         (
+            changed(strok_pp_deg=[1, 2, 3, 4], camera=[1, 2, 3, 4]),
+            "set 1 has 2 columns that are neither parameters nor measures: `strok_pp_deg`, did you mean `stroke_pp_deg`?; `camera`\nrename or remove them",
+        ),
+        (
             changed(stroke_pp_deg=[60, 62, np.nan, 59]),
             "set 1, column `stroke_pp_deg`, row 3 is nan, but readings must be finite numbers\nremove the row",
         ),
@@ -248,7 +252,13 @@ def test_free_parameters_that_are_refused(free, error, says):
             ValueError,
             "`hold_out` has `drive_shape`, which is not a parameter with",
         ),
-        ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "`hold_out` holds none of the 4 readings out\n"),
+        ({"hold_out": {"drive_frequency": (1, 2)}}, ValueError, "(1, 2)} holds none of the 4 readings out\nit must be"),
+        (
+            {"hold_out": [{"drive_frequency": (105, None)}, {"drive_frequency": (None, 105)}]},
+            ValueError,
+            "`hold_out` holds all of the 4 readings out\n",
+        ),
+        ({"hold_out": [{"drive_frequency": (95, 105)}, 3]}, TypeError, "`hold_out` is list, with 3\nit must be"),
         (
             {"hold_out": {"drive_voltage_pp": (1, 2)}},
             ValueError,

@@ -2,12 +2,16 @@
 
 `fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. All other classes are parts of a `Fit`.
 
-- `_data`: readings in the units of the model, with their standard errors
+- `_names`, `_cells`, `_noise`: names, cells and standard errors in columns of readings
+- `_data`, `_held`: readings in the units of the model; readings that are not fitted
 - `_parameters`: free parameters, and the coordinates of the search
 - `_model`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
+- `_structure`, `_discrepancy`, `_drift`: patterns in residuals; discrepancy of the model; disagreement of data sets
+- `_assess`: errors of an estimate, from these tests
 - `_solution`, `_result`: the estimates and the quality of the fit; predictions of the fit
+- `_points`, `_plan`: operating points of predictions; the next readings
 - `_report`, `_device`: the result as text, and as a device
 - `_fit`: the function `fit`
 """
@@ -15,13 +19,17 @@
 from __future__ import annotations
 
 from ._data import Readings
+from ._discrepancy import Discrepancy
 from ._fit import fit
 from ._intervals import Profile
 from ._parameters import FreeParameter
-from ._result import Fit, NextMeasurements, Prediction
-from ._solution import Effort, Estimate, Goodness, HeldOut, Residuals, Unsettled
+from ._plan import NextMeasurements
+from ._result import Fit, Prediction
+from ._solution import Effort, Estimate, Goodness, HeldOut, Outlier, Residuals, Unsettled
+from ._structure import Structure
 
 __all__ = [
+    "Discrepancy",
     "Effort",
     "Estimate",
     "Fit",
@@ -29,10 +37,12 @@ __all__ = [
     "Goodness",
     "HeldOut",
     "NextMeasurements",
+    "Outlier",
     "Prediction",
     "Profile",
     "Readings",
     "Residuals",
+    "Structure",
     "Unsettled",
     "fit",
 ]

@@ -11,11 +11,13 @@ import numpy as np
 from .. import _arguments, _flapwing
 from .._progress import Progress, shown
 from .._types import Array, Design, Mask, Places, Value
-from . import _data, _intervals, _parameters, _search, _solution
-from ._data import DataSet, Names
-from ._model import Answer, Model
+from . import _data, _held, _intervals, _parameters, _search
+from ._assess import assess, kinds, sigma_known
+from ._data import DataSet
+from ._model import FINE, Answer, Model
+from ._names import Names
 from ._result import Fit
-from ._search import FINE, Found, Target
+from ._search import Found, Target
 from ._solution import Effort, Estimate, Unsettled
 
 #: Names of the loss functions of `scipy.optimize.least_squares`.
@@ -109,17 +111,17 @@ def fit(
     names = Names(_with_keywords(design, keywords))
     sets = _data.resolve(data, names, sigma)
     space = _parameters.space(free, names, sets, keywords)
+    measured = np.concatenate([values for one in sets for values in one.measured.values()])
+    held = _held.held_rows(hold_out, sets, seed, len(measured), names)
     with shown(progress) as show:
-        model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran))
-        measured = np.concatenate([values for one in sets for values in one.measured.values()])
-        held = _data.held_rows(hold_out, sets, seed, len(measured), names)
+        model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran), held)
         _check_count(model, sets, len(measured) - int(held.sum()))
         guesses = _search.first_guesses(sets)
         target = Target(measured, _search.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
         indistinct = _intervals.indistinct(model, target, seed)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
         made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), indistinct)
-    agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
+    agreed = 0 if made.effort.agreed == 0 else sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
     made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
     return made
 
@@ -136,46 +138,47 @@ def _finish(
 ) -> Fit:
     """Return the result of the fit from the best of the searches."""
     target, found, answer = _settle(model, sets, target, best, guesses)
-    covariance = _covariance(model, target, found, answer)
-    sigma_known = all(noise.kind != "unknown" for one in sets for noise in one.noise.values())
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
     if readings <= len(model.space):
         raise ValueError(_too_few(model, sets, found, answer, held))
-    quantile = _quantile(sigma_known, readings - len(model.space))
-    profiles = None
+    result = assess(model, sets, target, found, answer)
+    profiles, better = None, None
     if profile:
-        profiles, better = _intervals.profiles(model, target, found, covariance, quantile)
+        profiles, better = _intervals.profiles(model, target, found, result.plain, result.quantile, result.factors)
         if better is not None:
             # The profile found a lower minimum, which becomes the fit.
             target, found, answer = _settle(model, sets, target, better, guesses)
-            covariance = _covariance(model, target, found, answer)
-            profiles, _ = _intervals.profiles(model, target, found, covariance, quantile)
-    counted = target.used & np.isfinite(answer.values)
-    difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
-    units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
-    scaled = np.where(counted, difference / target.sigma, np.nan)
-    residuals = _solution.of_residuals(sets, units, difference, scaled, counted)
-    priors = model.space.prior(found.x)[0]
-    jacobian = target.jacobian(model.space, found.x, answer)
+            result = assess(model, sets, target, found, answer)
+            profiles, _ = _intervals.profiles(model, target, found, result.plain, result.quantile, result.factors)
+    for measure in result.discrepancy.noise:
+        if kinds(sets)[measure] == "unknown":
+            # The whole of the estimated standard error is discrepancy.
+            guesses[measure] = 0.0
+    jacobian = target.jacobian(model.space, found.x, answer) / result.factors
     made = Fit(
         model=model,
         sets=sets,
         x=found.x,
-        covariance=covariance,
+        covariance=result.covariance,
         information=jacobian.T @ jacobian,
-        estimates=_estimates(model, found.x, covariance, profiles, quantile),
-        quantile=quantile,
-        sigma_known=sigma_known,
+        estimates=_estimates(model, found.x, result.covariance, profiles, result.quantile),
+        quantile=result.quantile,
+        sigma_known=sigma_known(sets),
         guesses=guesses,
+        discrepancy=result.discrepancy,
+        outliers=result.outliers,
+        drifting=result.drifting,
         combinations=_intervals.combinations(model.space, jacobian, ("best known", "worst known")),
         indistinct=indistinct,
-        goodness=_solution.goodness(residuals, priors, len(model.space), sigma_known),
+        goodness=result.goodness,
         unsettled=_unsettled(sets, answer, held),
-        without_slopes=int((answer.gaps & counted).sum()),
+        without_slopes=int((answer.gaps & target.used & np.isfinite(answer.values)).sum()),
         converged=found.converged,
     )
+    if better is not None:
+        made.effort = Effort(1, 0, 0, 0, 0.0)
     if held.any():
-        made.held_out = _solution.held_out(sets, target, answer, held, covariance, quantile)
+        made._predict_held_out(held)
     return made
 
 
@@ -197,12 +200,6 @@ def _settle(
             break
         target = Target(target.measured, sigma, used, target.loss)
     return target, found, answer
-
-
-def _covariance(model: Model, target: Target, found: Found, answer: Answer) -> Array:
-    residuals = target.residuals(model.space, found.x, answer)
-    weights = np.sqrt(_search.weights(residuals, target.loss))
-    return _search.spread(target.jacobian(model.space, found.x, answer) * weights[:, np.newaxis])
 
 
 def _estimates(
@@ -270,12 +267,6 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
             )
     statuses = ", ".join(sorted({one.status for one in lost}))
     return f"{told}the others are {statuses}\ngive other bounds, or run the design with flapwing.evaluate"
-
-
-def _quantile(sigma_known: bool, freedom: int) -> float:
-    from scipy.stats import norm, t
-
-    return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:

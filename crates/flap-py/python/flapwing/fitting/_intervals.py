@@ -11,9 +11,9 @@ from functools import partial
 import numpy as np
 
 from .._types import Array
-from ._model import Answer, Model
+from ._model import FINE, Answer, Model
 from ._parameters import Coordinate, Space
-from ._search import FINE, NOTHING, Ask, Found, Target, minimise, sobol, together
+from ._search import NOTHING, Ask, Found, Target, minimise, sobol, together
 
 #: Largest number of values of a profile on each side of the estimate.
 _TRIES = 6
@@ -72,18 +72,20 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """The fit from which profiles begin: its readings and estimate, and the height at which profiles end, in standard
-    errors.
+    """The fit from which profiles begin: its readings, its estimate, and the covariance without discrepancy of the
+    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at `quantile` such errors.
     """
 
     space: Space
     target: Target
     found: Found
     covariance: Array
-    height: float
+    quantile: float
+    factors: Array
 
     def side(self, ask: Ask, held: int, way: float) -> _Side:
-        """Return the profile on one side of the estimate, up to the height `height` or the bound of the parameter."""
+        """Return the profile on one side of the estimate, up to its height or the bound of the parameter."""
+        height = self.quantile * float(self.factors[held])
         here = self.found.x[held]
         end = self.space.high[held] if way > 0 else self.space.low[held]
         error = np.sqrt(self.covariance[held, held])
@@ -91,7 +93,7 @@ class _Walks:
         with np.errstate(invalid="ignore", divide="ignore"):
             slope = self.covariance[:, held] / self.covariance[held, held]
         slope = np.where(np.isfinite(slope), slope, 0.0)
-        step = self.height * error if np.isfinite(error) and error > 0 else np.inf
+        step = height * error if np.isfinite(error) and error > 0 else np.inf
         inner, outer = (0.0, 0.0), None
         side = _Side([], [], float(here), False, None)
         best: Found | None = None
@@ -109,24 +111,24 @@ class _Walks:
             rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost))))
             side.x.append(float(here + way * step))
             side.height.append(rise)
-            if rise < self.height and step >= limit:
+            if rise < height and step >= limit:
                 is_open = True
                 break
             reached = here + way * step
-            if abs(rise - self.height) < _NEAR * self.height:
-                reached = here + way * step * self.height / rise
+            if abs(rise - height) < _NEAR * height:
+                reached = here + way * step * height / rise
                 break
-            if rise < self.height:
+            if rise < height:
                 inner = (step, rise)
             else:
                 outer = (step, rise)
             if outer is None:
-                step = step * min(4.0, self.height / max(rise, 0.25 * self.height)) * 1.02
+                step = step * min(4.0, height / max(rise, 0.25 * height)) * 1.02
             else:
-                share = (self.height - inner[1]) / (outer[1] - inner[1])
+                share = (height - inner[1]) / (outer[1] - inner[1])
                 step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
                 reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
-        if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * self.height):
+        if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * height):
             # The profile reaches the end of the range, or hardly rises.
             reached, is_open = end, True
         for share in _BETWEEN:
@@ -142,13 +144,14 @@ class _Walks:
 
 
 def profiles(
-    model: Model, target: Target, found: Found, covariance: Array, height: float
+    model: Model, target: Target, found: Found, covariance: Array, quantile: float, factors: Array
 ) -> tuple[list[Profile], Found | None]:
-    """Return the profiles of all coordinates up to `height` standard errors. If a search for a profile finds a better
-    fit, return the better fit too.
+    """Return the profiles of all coordinates up to `quantile` standard errors. If a search for a profile finds a better
+    fit, return the better fit too. `factors` has the increase of the standard error of each coordinate by the
+    discrepancy of the model.
     """
     space = model.space
-    walks = _Walks(space, target, found, covariance, height)
+    walks = _Walks(space, target, found, covariance, quantile, factors)
     sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
 
     def answer(xs: list[Array]) -> list[Answer]:
@@ -160,7 +163,7 @@ def profiles(
     for held, coordinate in enumerate(space.coordinates):
         below, above = ends[2 * held], ends[2 * held + 1]
         x = np.array([*below.x, found.x[held], *above.x])
-        rise = np.array([*(-np.array(below.height)), 0.0, *above.height])
+        rise = np.array([*(-np.array(below.height)), 0.0, *above.height]) / factors[held]
         order = np.argsort(x)
         values = np.asarray(coordinate.value(x[order]))
         low, high = coordinate.value(below.end), coordinate.value(above.end)

@@ -15,7 +15,8 @@ from .._evaluate import evaluate
 from .._point import run
 from .._table import Table
 from .._types import Array, Mask, Places
-from ._data import DataSet, Names
+from ._data import DataSet
+from ._names import Names
 from ._parameters import Space
 
 #: The longest step along a branch, as a share of the followed parameter. Between more distant readings, points are
@@ -97,8 +98,15 @@ def _taken(values: Any, places: list[int]) -> Any:
     return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]
 
 
+#: The tolerance of the integration of the last search.
+FINE = 1e-6
+
 #: The tolerances of integration and settling for initial states, which need only be close to the motion.
 _NEARBY, _SETTLED = 1e-4, 1e-4
+
+#: A coordinate that is not logarithmic has no derivative by relative changes near zero. If the parameter is nearer to
+#: zero than this share of its range, its derivative is the difference over a step of this share.
+_NEAR_ZERO = 1e-3
 
 #: Number of results of the model that are kept, because a search repeats the point at which an earlier search ended.
 _KEPT = 16
@@ -129,6 +137,19 @@ class Answer:
     gaps: Mask
 
 
+@dataclass(frozen=True)
+class Part:
+    """The operating points of the readings that a search runs: all points with a fitted reading, and all points on
+    branches.
+    """
+
+    points: dict[str, Any]
+    ways: list[Way]
+    asked: Asked
+    #: The places of the measures of `asked` among all readings.
+    places: Places
+
+
 class Model:
     """The readings of data sets as functions of the free parameters."""
 
@@ -140,6 +161,7 @@ class Model:
         keywords: Mapping[str, Any],
         threads: SupportsIndex | None = None,
         told: Callable[[int], object] | None = None,
+        held: Mask | None = None,
     ) -> None:
         self.names, self.space, self.threads, self.told = names, space, threads, told
         settings = _flapwing.settings()
@@ -150,19 +172,21 @@ class Model:
         }
         self.points, self.ways = _points(names, sets)
         self.asked = _asked(sets)
+        self.part = _part(self.points, self.ways, self.asked, held)
         #: Number of points run so far, and number of evaluations of the right-hand side.
         self.ran = 0
         self.rhs_evals = 0
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
-        """Return the readings of the model at several sets of coordinates."""
+        """Return the readings of the model at several sets of coordinates. Readings that are not fitted are nan."""
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}
         known = {key: self._known[key] for key in keys if key not in new}
         if new:
-            found = self.answers(self.points, self.asked, self.ways, list(new.values()), slopes=slopes, rtol=rtol)
-            known.update(zip(new, found))
+            part = self.part
+            found = self.answers(part.points, part.asked, part.ways, list(new.values()), slopes=slopes, rtol=rtol)
+            known.update(zip(new, (self._whole(answer) for answer in found)))
         self._known.update(known)
         for key in list(self._known)[:-_KEPT]:
             del self._known[key]
@@ -195,7 +219,55 @@ class Model:
         table = self._run(keywords, measures)(
             columns, initial_state=begin, gradient=self.space.parameters if slopes else None
         )
-        return self._split(table, asked, rows, xs, slopes)
+        answers = self._split(table, asked, rows, xs, slopes)
+        near = [(place, column) for place, x in enumerate(xs) for column in self._near_zero(x)] if slopes else []
+        if near:
+            moved = [xs[place] + self._step(xs[place], column) for place, column in near]
+            there = self.answers(points, asked, ways, moved, slopes=False, rtol=rtol)
+            for (place, column), x, other in zip(near, moved, there):
+                here = answers[place]
+                difference = (other.values - here.values) / (x[column] - xs[place][column])
+                here.slopes[:, column] = np.nan_to_num(difference)
+                here.gaps[:] |= ~np.isfinite(difference) & np.isfinite(here.values)
+        return answers
+
+    def everything(self, x: Array) -> Answer:
+        """Return all readings of the model at coordinates, also the readings that are not fitted."""
+        return self.answers(self.points, self.asked, self.ways, [x], rtol=FINE)[0]
+
+    def _whole(self, answer: Answer) -> Answer:
+        """Return results for all readings, from the results for the readings that a search runs."""
+        count, places = len(self.asked.row), self.part.places
+        if len(places) == count:
+            return answer
+        values, slopes = np.full(count, np.nan), np.zeros((count, len(self.space)))
+        status, gaps = np.full(count, "held out", dtype="U11"), np.zeros(count, np.bool_)
+        values[places], slopes[places], status[places], gaps[places] = (
+            answer.values,
+            answer.slopes,
+            answer.status,
+            answer.gaps,
+        )
+        return Answer(values, slopes, status, gaps)
+
+    def _near_zero(self, x: Array) -> list[int]:
+        """Return the coordinates whose derivatives by relative changes are unknown, because the parameter is near
+        zero.
+        """
+        coordinates = self.space.coordinates
+        return [
+            column
+            for column, one in enumerate(coordinates)
+            if not one.log and abs(one.value(x[column])) < _NEAR_ZERO * (one.high - one.low)
+        ]
+
+    def _step(self, x: Array, column: int) -> Array:
+        """Return a step of one coordinate to the inside of its bounds."""
+        step = np.zeros(len(x))
+        # The coordinate of a parameter changes by 2 over the range of the parameter.
+        size = 2 * _NEAR_ZERO
+        step[column] = size if x[column] + size <= self.space.high[column] else -size
+        return step
 
     def reason(self, reading: int, x: Array) -> str:
         """Return the reason why the point of a reading is impossible at given coordinates. The reason is empty text if
@@ -250,11 +322,12 @@ class Model:
             found = np.zeros((len(asked.row), len(self.space)))
             gaps = np.zeros(len(asked.row), np.bool_)
             if gradient is not None:
+                near = self._near_zero(x)
                 by = gradient[place, asked.row, which]
                 for column, (one, factor) in enumerate(zip(self.space.coordinates, self.space.slopes(x))):
                     mine = True if one.of_set is None else asked.of_set == one.of_set
                     slope = by[:, self.space.parameters.index(one.parameter)] * factor
-                    found[:, column] = np.where(mine, slope, 0.0)
+                    found[:, column] = 0.0 if column in near else np.where(mine, slope, 0.0)
                 settled = np.isfinite(values[place, asked.row, which])
                 gaps = ~np.isfinite(found).all(axis=1) & settled
                 found = np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
@@ -298,3 +371,21 @@ def _asked(sets: Sequence[DataSet]) -> Asked:
             measure += [name] * len(one)
         begin += len(one)
     return Asked(np.array(of_set, np.intp), np.array(row, np.intp), measure)
+
+
+def _part(points: dict[str, Any], ways: list[Way], asked: Asked, held: Mask | None) -> Part:
+    if held is None or not held.any():
+        return Part(points, ways, asked, np.arange(len(asked.row)))
+    runs = np.zeros(_length(points), np.bool_)
+    runs[asked.row[~held]] = True
+    for way in ways:
+        runs[way.rows] = True
+    places = np.flatnonzero(runs[asked.row])
+    number = np.cumsum(runs) - 1
+    chosen = np.flatnonzero(runs).tolist()
+    return Part(
+        {name: _taken(values, chosen) for name, values in points.items()},
+        [Way(way.parameter, way.falls, number[way.rows]) for way in ways],
+        Asked(asked.of_set[places], number[asked.row[places]], [asked.measure[place] for place in places]),
+        places,
+    )

@@ -10,7 +10,8 @@ import numpy as np
 
 from .. import _flapwing
 from .._types import Array, Value
-from ._data import DataSet, Names
+from ._data import DataSet
+from ._names import Names
 
 #: Default bounds of a parameter, as factors on its value in the design.
 _REACH = 3.0
@@ -58,7 +59,9 @@ class Coordinate:
 
     def value(self, x: Any) -> Any:
         """Return the value of a parameter in SI units at a coordinate. Coordinate 0 is the design's value."""
-        return self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
+        # Rounding must not lead out of the bounds: a parameter may have no values below its bound.
+        value = self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
+        return np.clip(value, self.low, self.high)
 
     def at(self, value: float) -> float:
         """Return the coordinate that belongs to a value of the parameter in SI units."""
@@ -166,18 +169,15 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     if nominal is None or nominal == 0.0:
         if low is None or high is None:
             told = "not set" if nominal is None else "zero"
+            missing = "bounds" if low is None and high is None else "lower bound" if low is None else "upper bound"
             raise ValueError(
-                f"`{name}` is {told} in the design, so it has no default bounds\ngive free={{{name!r}: (low, high)}}"
+                f"`{name}` is {told} in the design, so it has no default {missing}\ngive free={{{name!r}: (low, high)}}"
             )
     else:
         ends = sorted((nominal / _REACH, nominal * _REACH))
         low, high = ends[0] if low is None else low, ends[1] if high is None else high
     _check_bounds(name, low, high, free, names.unit(name))
     log = low * high > 0
-    if not log:
-        # Derivatives by relative changes need a value other than zero.
-        low, high = (1e-9 * (high - low) if low == 0 else low), (-1e-9 * (high - low) if high == 0 else high)
-        log = False
     if nominal is None or not low <= nominal <= high:
         nominal = float(np.sign(low) * np.sqrt(low * high)) if log else 0.5 * (low + high)
     prior = None if free.prior is None else _prior(names, name, free.prior)

@@ -7,13 +7,10 @@ from html import escape
 
 import numpy as np
 
+from ._assess import DOUBTFUL, POOR, TOO_GOOD
 from ._solution import Estimate, Solution
 
-#: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
-#: is doubtful. Above the third limit, the standard errors are too large.
-POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
-
-#: Largest number of unsettled readings that the report lists.
+#: Largest number of unsettled readings, and of outliers, that the report lists.
 _LISTED = 5
 
 
@@ -106,14 +103,26 @@ def _quality(fit: Solution) -> list[str]:
         lines = [f"{told}, p = {good.p:.4f}: the given standard errors are too large"]
     else:
         lines = [f"{told}, p = {good.p:.2f}: the model agrees with the data"]
-    for one in good.residuals:
+    for one in good.structure:
         if one.is_structured:
-            p = min(one.p_runs, one.p_neighbours)
             lines.append(
-                f"residuals of {one.measure} in {one.data_set} are STRUCTURED (p = {p:.1g}): "
-                "neighbouring residuals are alike, so the model lacks "
-                "an effect there, and errors and intervals are too small"
+                f"residuals of {one.measure} along {one.parameter} are STRUCTURED (p = {one.p:.1g}): "
+                "neighbouring residuals are alike, so the model lacks an effect"
             )
+    if fit.discrepancy:
+        sizes = " and ".join(f"{one.size:.2g} {one.unit} of {one.measure}" for one in fit.discrepancy)
+        lines.append(f"model discrepancy: {sizes}, included in errors, intervals and bands")
+    if fit.drifting:
+        lines.append(
+            f"data sets disagree: {fit.drifting} explains the difference best, if each data set has its own value "
+            "(FreeParameter(per_set=True))"
+        )
+    if fit.outliers:
+        listed = ", ".join(
+            f"{one.data_set} row {one.row} {one.measure} ({one.residual:+.1f})" for one in fit.outliers[:_LISTED]
+        )
+        more = f" and {len(fit.outliers) - _LISTED} more" if len(fit.outliers) > _LISTED else ""
+        lines.append(f"outliers (model minus reading in standard errors): {listed}{more}")
     if fit.held_out is not None:
         rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items())
         lines.append(
@@ -127,6 +136,8 @@ def _residuals(fit: Solution) -> tuple[list[str], list[list[str]]]:
     heads = ["data set", "measure", "readings", "rms", "largest", "unit"]
     rows = []
     for one in fit.goodness.residuals:
+        if not one.count:
+            continue
         largest = float(np.nanmax(np.abs(one.values))) if np.isfinite(one.values).any() else np.nan
         rows.append([one.data_set, one.measure, str(one.count), f"{one.rms:.3g}", f"{largest:.3g}", one.unit])
     return heads, rows
@@ -140,10 +151,13 @@ def _correlations(fit: Solution) -> tuple[list[str], list[list[str]]]:
 
 def _course(fit: Solution) -> list[str]:
     one = fit.effort
-    return [
+    lines = [
         f"{one.agreed} of {one.starts} starts ended at this fit; "
         f"{one.points:,} points with {one.rhs_evals:.3g} right-hand sides in {one.seconds:.1f} s"
     ]
+    if one.agreed <= 1 < one.starts:
+        lines.append(f"few starts ended at this fit, so a better fit may exist: fit again with starts={4 * one.starts}")
+    return lines
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .. import _arguments
-from .._flapwing import Grid
-from .._types import Array
-from . import _device, _report
-from ._data import DataSet, Names, Noise, parameter_cells
-from ._model import Answer, Asked, Model, Way
-from ._search import FINE
+from .._types import Array, Mask, Value
+from . import _device, _plan, _report, _search, _solution
+from ._noise import Noise, parse_noise
+from ._plan import NextMeasurements
+from ._points import answers_at, cell, error_of, points_of
 from ._solution import Solution
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """A predicted measure at operating points, with the uncertainty that results from the errors of the parameters.
+    """A predicted measure at operating points, with its uncertainty.
 
     Attributes
     ----------
@@ -32,7 +31,7 @@ class Prediction:
     value : array
         The predicted values of the measure; nan if the motion does not settle.
     error : array
-        Standard errors of the predictions, without the noise of a reading.
+        Standard errors of the predictions, from the errors of the parameters and the discrepancy of the model.
     low, high : array
         Lower and upper ends of the 95 % bands of the predictions.
     status : array of str
@@ -52,156 +51,12 @@ class Prediction:
         heads = [*self.points, f"{self.measure} ({self.unit})" if self.unit else self.measure, "from", "to"]
         rows = [
             [
-                *(_cell(values[row]) for values in self.points.values()),
+                *(cell(values[row]) for values in self.points.values()),
                 *(f"{number[row]:.5g}" for number in (self.value, self.low, self.high)),
             ]
             for row in range(len(self.value))
         ]
         return _report.table(heads, rows)
-
-
-@dataclass(frozen=True)
-class NextMeasurements:
-    """Operating points whose readings would reduce an error most, with the best point first.
-
-    Attributes
-    ----------
-    target, unit : str
-        The parameter or measure whose error is reduced, and its unit.
-    now : float
-        The present error of the target.
-    points : list of dict
-        The operating points: values of parameters, in SI units.
-    measures : list of str
-        The measure to read at each point.
-    errors : list of float
-        The error of the target after the readings at a point and at all points before this point.
-    """
-
-    target: str
-    unit: str
-    now: float
-    points: list[dict[str, Any]]
-    measures: list[str]
-    errors: list[float]
-
-    def __str__(self) -> str:
-        heads = [
-            *(self.points[0] if self.points else []),
-            "measure",
-            f"error of {self.target} after" + (f" ({self.unit})" if self.unit else ""),
-        ]
-        rows = [
-            [*(_cell(value) for value in point.values()), measure, f"{error:.3g}"]
-            for point, measure, error in zip(self.points, self.measures, self.errors)
-        ]
-        return f"error now: {self.now:.3g} {self.unit}".rstrip() + "\n" + _report.table(heads, rows)
-
-
-def _cell(value: Any) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
-
-
-def _points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
-    """Return operating points, given as columns of parameters, a grid, or one point."""
-    if isinstance(given, Grid):
-        listed = [given[row] for row in range(len(given))]
-        return {name: _column(names, [point[name] for point in listed], name) for name in given.varied}
-    found = _arguments.columns_of(place, given)
-    lists = {
-        name: [cells] if isinstance(cells, str) or np.ndim(cells) == 0 else list(cells) for name, cells in found.items()
-    }
-    length = max((len(cells) for cells in lists.values()), default=0)
-    points: dict[str, Any] = {}
-    for header, cells in lists.items():
-        meaning = names.meaning(place, header)
-        if meaning.kind != "parameter":
-            raise ValueError(f"{place} has the column `{header}`, a measure\ngive only parameters of operating points")
-        if len(cells) not in (1, length):
-            raise ValueError(
-                f"{place}: `{header}` has {len(cells)} cells for {length} points\ngive one per point, or one for all"
-            )
-        values = parameter_cells(names, place, header, meaning, cells)
-        points[meaning.name] = values if len(values) == length else np.resize(np.asarray(values), length)
-    if not points or not length:
-        raise ValueError(
-            f"{place} has no points\ngive columns of parameters, such as {{'drive_frequency': [100, 110]}}"
-        )
-    return {name: values if np.asarray(values).dtype.kind == "f" else list(values) for name, values in points.items()}
-
-
-def _column(names: Names, values: list[Any], name: str) -> Any:
-    return [str(value) for value in values] if name in names.options else np.array(values, np.float64)
-
-
-def _answers(
-    model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
-) -> Answer:
-    """Return a measure at other operating points, with the parameters of a data set. If `like` is given, use the branch
-    of the data set `like`.
-    """
-    count = len(next(iter(points.values())))
-    model.names.check_measure(measure)
-    asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
-    ways = []
-    if like is not None and like.branch is not None:
-        ways = [Way(like.parameter, like.branch == "down", np.arange(count))]
-    return model.answers(points, asked, ways, [x], rtol=FINE)[0]
-
-
-def _predict(
-    model: Model, points: dict[str, Any], measure: str, answer: Answer, covariance: Array, quantile: float
-) -> Prediction:
-    """Return a measure at other operating points, with bands from the covariance of the coordinates."""
-    known = np.where(np.isfinite(covariance), covariance, 0.0)
-    error = np.sqrt(np.maximum(0.0, np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)))
-    lost = ~np.isfinite(np.diag(covariance))
-    error[(np.abs(answer.slopes[:, lost]) > 1e-9).any(axis=1)] = np.inf
-    error[answer.gaps | ~np.isfinite(answer.values)] = np.nan
-    with np.errstate(invalid="ignore"):
-        low, high = answer.values - quantile * error, answer.values + quantile * error
-    return Prediction(measure, model.names.unit(measure), points, answer.values, error, low, high, answer.status)
-
-
-def _next_measurements(
-    model: Model,
-    points: dict[str, Any],
-    measures: Mapping[str, Noise],
-    x: Array,
-    information: Array,
-    target: Array,
-    count: int,
-    guesses: Mapping[str, float],
-) -> tuple[list[int], list[str], list[float], float]:
-    """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
-    the present error of the target.
-
-    A reading adds the outer product of its derivatives, in standard errors, to the information matrix. The next reading
-    is the candidate after which the variance of the target is smallest.
-    """
-    rows, names, sensitivities = [], [], []
-    for measure, noise in measures.items():
-        answer = _answers(model, points, measure, x)
-        sigma = noise.of(answer.values, np.nan_to_num(answer.values), guesses[measure])
-        for row in np.flatnonzero(np.isfinite(answer.values) & ~answer.gaps):
-            rows.append(int(row))
-            names.append(measure)
-            sensitivities.append(answer.slopes[row] / sigma[row])
-    if not rows:
-        raise ValueError("no candidate has a settled motion with derivatives\ngive other operating points")
-    # A weak prior, with errors of a hundred times the value, keeps undetermined variances finite.
-    covariance = np.linalg.inv(information + 1e-4 * np.eye(len(information)))
-    a = np.array(sensitivities)
-    now = float(np.sqrt(target @ covariance @ target))
-    chosen, errors = [], []
-    for _ in range(count):
-        moved = a @ covariance
-        gains = (moved @ target) ** 2 / (1.0 + np.einsum("ij,ij->i", moved, a))
-        best = int(np.argmax(gains))
-        covariance = covariance - np.outer(moved[best], moved[best]) / (1.0 + moved[best] @ a[best])
-        chosen.append(best)
-        errors.append(float(np.sqrt(max(0.0, target @ covariance @ target))))
-    return [rows[one] for one in chosen], [names[one] for one in chosen], errors, now
 
 
 class Fit(Solution):
@@ -226,14 +81,23 @@ class Fit(Solution):
         Readings that are ignored, because the motion at their operating point does not settle.
     held_out : HeldOut or None
         The predictions of readings that were not fitted (`hold_out`).
+    discrepancy : list of Discrepancy
+        The discrepancy of the model for each measure. The list is empty if the model agrees with the data.
+    outliers : list of Outlier
+        Fitted readings that are far from the model, with the largest residual first: residuals of more than 4 standard
+        errors, or of 3 standard errors if `loss` is not ``"linear"``.
+    drifting : str
+        The parameter that explains a disagreement between data sets best, if each data set has its own value. Empty if
+        the data sets agree.
     effort : Effort
         The work of the fit: number of starts, points and evaluations, and the time.
     """
 
-    def predict(self, points: Any, measure: str, *, data_set: str | None = None) -> Prediction:
+    def predict(self, points: Any, measure: str, *, data_set: str | None = None, reading: bool = False) -> Prediction:
         """Predict a measure at other operating points, with 95 % bands.
 
-        The 95 % bands are for the value of the model, without the noise of a reading.
+        The bands contain the errors of the parameters. If the model does not agree with the data, the bands also
+        contain the discrepancy of the model for this measure. The discrepancy of a measure without readings is unknown.
 
         Parameters
         ----------
@@ -245,6 +109,9 @@ class Fit(Solution):
         data_set : str, optional
             The data set whose parameters and branch are used. Default: the parameters of the first data set, and
             motions from rest.
+        reading : bool
+            If True, the bands also contain the noise of a reading: 95 % of new readings lie in these bands. The noise
+            has the standard errors of the data.
 
         Returns
         -------
@@ -254,8 +121,9 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            A column, a unit or a measure is unknown.
+            A column, a unit or a measure is unknown, or `reading` is True and the data have no readings of the measure.
         """
+        noise = self._noise(measure, {}, data_set) if _arguments.flag("reading", reading) else None
         given = self._points("points", points)
         place, like = 0, None
         if data_set is not None:
@@ -264,11 +132,24 @@ class Fit(Solution):
                 raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
             place = known.index(data_set)
             like = self._sets[place]
-        answer = _answers(self._model, given, measure, self._x, place, like)
-        return _predict(self._model, given, measure, answer, self._covariance, self._quantile)
+        answer = answers_at(self._model, given, measure, self._x, place, like)
+        error = np.hypot(error_of(answer, self._covariance), self._discrepancy_of(measure, answer.values))
+        if noise is not None:
+            error = np.hypot(error, noise.of(answer.values, answer.values, self._guesses[measure]))
+        unit = self._model.names.unit(measure)
+        with np.errstate(invalid="ignore"):
+            low, high = answer.values - self._quantile * error, answer.values + self._quantile * error
+        return Prediction(measure, unit, given, answer.values, error, low, high, answer.status)
 
     def next_measurements(
-        self, candidates: Any, target: str | Mapping[str, Any], *, count: int = 5, measures: list[str] | None = None
+        self,
+        candidates: Any,
+        target: str | Mapping[str, Any],
+        *,
+        count: int = 5,
+        measures: Sequence[str] | None = None,
+        sigma: Mapping[str, Value] | None = None,
+        repeats: bool = False,
     ) -> NextMeasurements:
         """Return the operating points at which readings would reduce the error of a parameter or a prediction most.
 
@@ -280,9 +161,14 @@ class Fit(Solution):
             The parameter whose error is reduced, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency":
             110}``.
         count : int
-            Number of readings to choose. A point may occur twice, because a repeated reading adds information.
+            Number of readings to choose. If there are fewer candidates, all candidates are returned.
         measures : list of str, optional
-            Measures that can be read. Default: the measures of the data.
+            Measures that can be read. Default: the measures of the data and of `sigma`.
+        sigma : dict, optional
+            Standard errors of readings by measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. Default: the standard
+            errors of the data. Measures without readings in the data need a standard error.
+        repeats : bool
+            If True, a measure may be read several times at the same point.
 
         Returns
         -------
@@ -293,24 +179,24 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            A name is unknown, there are no points, or no point has a settled motion.
+            A name is unknown, a standard error is missing, there are no points, or no point has a settled motion.
         """
+        repeats = _arguments.flag("repeats", repeats)
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
             raise ValueError(f"`count` is {count!r}\nit must be a whole number, 1 or more")
         points = self._points("candidates", candidates)
         slopes, name, unit = self._target(target)
-        known = {measure: noise for one in self._sets for measure, noise in one.noise.items()}
-        noises = {}
-        for measure in measures if measures is not None else list(known):
-            if measure not in known:
-                raise ValueError(
-                    f"the data have no readings of `{measure}`, so their error is unknown\n"
-                    f"choose among {', '.join(known)}"
-                )
-            noise = known[measure]
-            noises[measure] = noise if np.ndim(noise.size) == 0 else Noise(noise.kind, float(np.median(noise.size)))
-        rows, chosen, errors, now = _next_measurements(
-            self._model, points, noises, self._x, self._information, slopes, int(count), self._guesses
+        given = {} if sigma is None else dict(sigma)
+        known = [measure for one in self._sets for measure in one.measured]
+        wanted = list(dict.fromkeys(measures if measures is not None else [*known, *given]))
+        noises = {measure: self._noise(measure, given) for measure in wanted}
+
+        def errors_of(measure: str, values: Array) -> Array:
+            noise = noises[measure].of(values, np.nan_to_num(values), self._guesses.get(measure, 1.0))
+            return np.hypot(noise, self._discrepancy_of(measure, values))
+
+        rows, chosen, errors, now = _plan.plan(
+            self._model, points, wanted, self._x, self._information, slopes, int(count), repeats, errors_of
         )
         return NextMeasurements(
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
@@ -343,6 +229,41 @@ class Fit(Solution):
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
+    def _noise(self, measure: str, sigma: Mapping[str, Any], data_set: str | None = None) -> Noise:
+        """Return the standard error of new readings of a measure: a given standard error, or a typical standard error
+        of the data.
+        """
+        self._model.names.check_measure(measure)
+        if measure in sigma:
+            return parse_noise("sigma", sigma[measure], measure, self._model.names.unit(measure))
+        known = {measure: noise for one in reversed(self._sets) for measure, noise in one.noise.items()}
+        for one in self._sets:
+            if one.name == data_set:
+                known.update(one.noise)
+        if measure not in known:
+            raise ValueError(
+                f"the data have no readings of `{measure}`, so their standard error is unknown\n"
+                f"choose among {', '.join(known)}, or give next_measurements(..., sigma={{{measure!r}: ...}})"
+            )
+        noise = known[measure]
+        return noise if np.ndim(noise.size) == 0 else Noise(noise.kind, float(np.median(noise.size)))
+
+    def _discrepancy_of(self, measure: str, values: Array) -> Array:
+        """Return the standard deviations of the discrepancy of the model at given values of a measure."""
+        noise = self._discrepancy.get(measure)
+        return np.zeros(len(values)) if noise is None else noise.of(values, np.nan_to_num(values), 1.0)
+
+    def _predict_held_out(self, held: Mask) -> None:
+        """Compute `held_out`: predictions of the readings in the mask `held`."""
+        answer = self._model.everything(self._x)
+        error = np.hypot(error_of(answer, self._covariance), _search.sigmas(self._sets, answer.values, self._guesses))
+        names = np.array(self._model.asked.measure)
+        for measure in self._discrepancy:
+            mine = names == measure
+            error[mine] = np.hypot(error[mine], self._discrepancy_of(measure, answer.values[mine]))
+        measured = np.concatenate([values for one in self._sets for values in one.measured.values()])
+        self.held_out = _solution.held_out(names, measured, answer.values, held, self._quantile * error)
+
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
         """Return the derivatives of a target with respect to the coordinates, and the name and the unit of the target.
         A target is a parameter or a prediction.
@@ -363,7 +284,7 @@ class Fit(Solution):
             )
         measure = str(target["measure"])
         points = self._points("target", {name: value for name, value in target.items() if name != "measure"})
-        answer = _answers(self._model, points, measure, self._x)
+        answer = answers_at(self._model, points, measure, self._x)
         if len(answer.values) != 1 or not np.isfinite(answer.values[0]) or answer.gaps[0]:
             raise ValueError(
                 f"`{measure}` has no derivatives at this point, or there are several\nchoose another point"
@@ -372,7 +293,7 @@ class Fit(Solution):
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
         """Return operating points, with added columns for the parameters that have the same value in all data sets."""
-        points = _points_of(self._model.names, place, given)
+        points = points_of(self._model.names, place, given)
         count = len(next(iter(points.values())))
         for name, values in self._model.points.items():
             if name in points:

@@ -13,7 +13,7 @@ import numpy as np
 
 from .._types import Array, Mask
 from ._data import DataSet
-from ._model import Answer, Model
+from ._model import FINE, Answer, Model
 from ._parameters import Space
 
 _Result = TypeVar("_Result")
@@ -78,8 +78,8 @@ def together(
     return [found[place] for place in range(len(searches))]
 
 
-#: Tolerances of the integration: for choosing starts, for the searches from all starts, and for the last search.
-LOOK, COARSE, FINE = 1e-4, 1e-5, 1e-6
+#: Tolerances of the integration: for choosing starts, and for the searches from all starts.
+LOOK, COARSE = 1e-4, 1e-5
 
 #: Number of sets of coordinates that are tried for each start.
 _LOOKS = 4
@@ -220,9 +220,9 @@ def polish(model: Model, target: Target, begin: Array) -> Found:
     return minimise(ask, model.space, target, begin, None)
 
 
-def spread(jacobian: Array) -> Array:
-    """Return the covariance of coordinates from the derivatives of residuals. The covariance is infinite along a
-    direction without effect.
+def inverse(jacobian: Array) -> tuple[Array, Mask]:
+    """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
+    residuals do not determine. The covariance leaves out directions without effect.
     """
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
@@ -230,12 +230,16 @@ def spread(jacobian: Array) -> Array:
     sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
     known = sizes > NOTHING * sizes[0]
     scaled = directions[known] / sizes[known, np.newaxis] / lengths
-    covariance: Array = scaled.T @ scaled
-    lost = np.sum(directions[~known] ** 2, axis=0) > 1e-4
-    covariance[lost, :] = np.nan
-    covariance[:, lost] = np.nan
-    covariance[lost, lost] = np.inf
-    return covariance
+    return scaled.T @ scaled, np.sum(directions[~known] ** 2, axis=0) > 1e-4
+
+
+def without(covariance: Array, lost: Mask) -> Array:
+    """Return a covariance that is infinite for undetermined coordinates."""
+    found = covariance.copy()
+    found[lost, :] = np.nan
+    found[:, lost] = np.nan
+    found[lost, lost] = np.inf
+    return found
 
 
 #: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have

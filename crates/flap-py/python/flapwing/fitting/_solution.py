@@ -1,4 +1,4 @@
-"""The solution of a fit, on which predictions, report and device are based, and tests of the residuals."""
+"""The solution of a fit, on which predictions, report and device are based."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .._types import Array, Mask, Places
+from .._types import Array, Mask
 from ._data import DataSet
+from ._discrepancy import Discrepancies
 from ._intervals import Profile
-from ._model import Answer, Model
-from ._search import Target
+from ._model import Model
+from ._structure import Structure
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,8 @@ class HeldOut:
     rms : dict of str to float
         Root mean square of the prediction errors of each measure, in the unit of the measure.
     covered : float
-        The share of the readings that lie within their 95 % bands. These bands include the noise of readings.
+        The share of the readings that lie within their 95 % bands. These bands include the errors of the parameters,
+        the discrepancy of the model, and the noise of the readings.
     """
 
     count: int
@@ -104,7 +106,7 @@ class Effort:
     starts : int
         Number of searches.
     agreed : int
-        Number of searches that ended at the best fit.
+        Number of searches that ended at the best fit; 0 if only a profile found the best fit.
     points : int
         Number of design points that were run.
     rhs_evals : int
@@ -120,11 +122,24 @@ class Effort:
     seconds: float
 
 
-#: Limit of the probability below which residuals are structured. All tests share this limit.
-_SIGNIFICANT = 0.01
+@dataclass(frozen=True)
+class Outlier:
+    """A fitted reading that is far from the model.
 
-#: Smallest number of residuals for a test of structure.
-_FEWEST = 8
+    Attributes
+    ----------
+    data_set, measure : str
+        The data set and the measure of the reading.
+    row : int
+        The row of the reading in the data set, counted from 1.
+    residual : float
+        Model minus reading, in standard errors of the reading.
+    """
+
+    data_set: str
+    measure: str
+    row: int
+    residual: float
 
 
 @dataclass(frozen=True)
@@ -145,11 +160,8 @@ class Residuals:
         Root mean square of the residuals, in the measure's unit.
     count : int
         Number of fitted readings of the measure in the data set.
-    p_runs, p_neighbours : float
-        Probabilities for residuals that are only noise. `p_runs` is the probability of at most as many changes of sign
-        as in `values`. `p_neighbours` is the probability of neighbours that are at least as similar as in `values`.
     is_structured : bool
-        True if the residuals have a pattern, which means that the model lacks an effect.
+        True if the residuals of the measure have a pattern over all data sets, see `Structure`.
     """
 
     data_set: str
@@ -159,8 +171,6 @@ class Residuals:
     scaled: Array
     rms: float
     count: int
-    p_runs: float
-    p_neighbours: float
     is_structured: bool = False
 
 
@@ -179,12 +189,15 @@ class Goodness:
         given. The probability is nan if standard errors are estimated.
     residuals : list of Residuals
         The residuals by data set and measure.
+    structure : list of Structure
+        Tests of the residuals of each measure for patterns along each parameter of the operating points.
     """
 
     chi_square: float
     freedom: int
     p: float
     residuals: list[Residuals]
+    structure: list[Structure]
 
     @property
     def is_structured(self) -> bool:
@@ -192,19 +205,13 @@ class Goodness:
         return any(one.is_structured for one in self.residuals)
 
 
-def order(points: Mapping[str, Array | list[str]]) -> Places:
-    """Return an order of the rows of a data set in which neighbours are similar. In the returned order, the parameter
-    with most values varies fastest.
-    """
-    numbers = {name: np.asarray(values) for name, values in points.items() if isinstance(values, np.ndarray)}
-    if not numbers:
-        return np.arange(len(next(iter(points.values()), [])))
-    names = sorted(numbers, key=lambda name: -len(np.unique(numbers[name])))
-    return np.lexsort([numbers[name] for name in names])
-
-
 def of_residuals(
-    sets: Sequence[DataSet], units: Mapping[str, str], values: Array, scaled: Array, used: Mask
+    sets: Sequence[DataSet],
+    units: Mapping[str, str],
+    values: Array,
+    scaled: Array,
+    counted: Mask,
+    structured: set[str],
 ) -> list[Residuals]:
     """Return the residuals of a fit by data set and measure."""
     found, begin = [], 0
@@ -212,64 +219,17 @@ def of_residuals(
         for measure in one.measured:
             part = slice(begin, begin + len(one))
             begin += len(one)
-            counts = used[part] & np.isfinite(values[part])
-            in_order = order(one.points) if one.points else np.arange(len(one))
-            noise = scaled[part][in_order][counts[in_order]]
-            rms = float(np.sqrt(np.mean(values[part][counts] ** 2))) if counts.any() else np.nan
-            p_runs, p_neighbours = _runs(noise), _neighbours(noise)
-            found.append(
-                Residuals(
-                    one.name,
-                    measure,
-                    units[measure],
-                    values[part].copy(),
-                    scaled[part].copy(),
-                    rms,
-                    int(counts.sum()),
-                    p_runs,
-                    p_neighbours,
-                )
-            )
-    limit = _SIGNIFICANT / max(1, 2 * len(found))
-    return [
-        Residuals(**{**vars(one), "is_structured": bool(min(one.p_runs, one.p_neighbours) < limit)}) for one in found
-    ]
+            mine = values[part][counted[part]]
+            rms = float(np.sqrt(np.mean(mine**2))) if len(mine) else np.nan
+            unit, is_structured = units[measure], measure in structured
+            residuals = values[part].copy(), scaled[part].copy()
+            found.append(Residuals(one.name, measure, unit, *residuals, rms, len(mine), is_structured))
+    return found
 
 
-def _runs(noise: Array) -> float:
-    """Return the probability of at most as many runs of residuals with one sign as in the given residuals (test of Wald
-    and Wolfowitz).
-    """
-    from scipy.stats import norm
-
-    signs = noise[noise != 0] > 0
-    above, below = int(signs.sum()), int((~signs).sum())
-    count = above + below
-    if count < _FEWEST:
-        return 1.0
-    if min(above, below) == 0:
-        return float(2.0**-count)
-    runs = 1 + int(np.count_nonzero(signs[1:] != signs[:-1]))
-    mean = 1 + 2 * above * below / count
-    variance = (mean - 1) * (mean - 2) / (count - 1)
-    return float(norm.cdf((runs + 0.5 - mean) / np.sqrt(max(variance, 1e-12))))
-
-
-def _neighbours(noise: Array) -> float:
-    """Return the probability of neighbours that are at least as similar as in the given residuals, from the correlation
-    of each residual with the next.
-    """
-    from scipy.stats import norm
-
-    count = len(noise)
-    square = float(noise @ noise)
-    if count < _FEWEST or square == 0.0:
-        return 1.0
-    likeness = float(noise[1:] @ noise[:-1]) / square
-    return float(norm.sf(likeness * np.sqrt(count)))
-
-
-def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_known: bool) -> Goodness:
+def goodness(
+    residuals: list[Residuals], structure: list[Structure], priors: Array, parameters: int, sigma_known: bool
+) -> Goodness:
     """Return the quality of a fit from its residuals and the residuals of the priors."""
     from scipy.stats import chi2
 
@@ -277,24 +237,20 @@ def goodness(residuals: list[Residuals], priors: Array, parameters: int, sigma_k
     total = float(sum(part @ part for part in scaled) + priors @ priors)
     freedom = sum(len(part) for part in scaled) + len(priors) - parameters
     p = float(chi2.sf(total, freedom)) if sigma_known and freedom > 0 else np.nan
-    return Goodness(total, freedom, p, residuals)
+    return Goodness(total, freedom, p, residuals, structure)
 
 
-def held_out(
-    sets: Sequence[DataSet], target: Target, answer: Answer, held: Mask, covariance: Array, quantile: float
-) -> HeldOut:
-    """Return the prediction errors of readings that were not fitted."""
-    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
-    error = answer.values - target.measured
-    known = np.where(np.isfinite(covariance), covariance, 0.0)
-    of_model = np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)
-    inside = np.abs(error) <= quantile * np.sqrt(target.sigma**2 + np.maximum(0.0, of_model))
-    settled = held & np.isfinite(error)
+def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: Mask, reach: Array) -> HeldOut:
+    """Return the prediction errors of readings that were not fitted. `names` has the measure of each reading, and
+    `reach` half of the width of the 95 % band of each reading.
+    """
+    difference = values - measured
+    settled = held & np.isfinite(difference)
     rms = {
-        str(measure): float(np.sqrt(np.mean(error[settled & (which == measure)] ** 2)))
-        for measure in dict.fromkeys(which[settled].tolist())
+        str(measure): float(np.sqrt(np.mean(difference[settled & (names == measure)] ** 2)))
+        for measure in dict.fromkeys(names[settled].tolist())
     }
-    return HeldOut(int(held.sum()), rms, float(np.mean(inside[held])))
+    return HeldOut(int(held.sum()), rms, float(np.mean((np.abs(difference) <= reach)[held])))
 
 
 class Solution:
@@ -312,6 +268,9 @@ class Solution:
         quantile: float,
         sigma_known: bool,
         guesses: Mapping[str, float],
+        discrepancy: Discrepancies,
+        outliers: list[Outlier],
+        drifting: str,
         combinations: list[str],
         indistinct: list[str],
         goodness: Goodness,
@@ -331,6 +290,8 @@ class Solution:
         self.effort = Effort(1, 1, 0, 0, 0.0)
         self._model, self._sets, self._x, self._quantile = model, sets, x, quantile
         self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
+        self.discrepancy, self._discrepancy, self.outliers = discrepancy.listed, discrepancy.noise, outliers
+        self.drifting = drifting
 
     @property
     def values(self) -> dict[str, Any]:

@@ -1,0 +1,129 @@
+"""The assessment of an estimate: errors, discrepancy of the model, patterns in the residuals, and outliers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._types import Array, Mask, Places
+from . import _search, _solution
+from ._data import DataSet
+from ._discrepancy import Discrepancies, of_residuals
+from ._drift import between_sets
+from ._model import Answer, Model
+from ._search import Found, Target
+from ._solution import Goodness, Outlier
+from ._structure import Layout, tests
+
+#: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
+#: is doubtful. Above the third limit, the standard errors are too large.
+POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
+
+#: Smallest residual of an outlier, in standard errors: for the linear loss, and for losses that reduce the weight of
+#: outliers.
+_OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """The errors of an estimate, and the quality of the fit."""
+
+    #: The covariance of the coordinates, without and with the discrepancy of the model; infinite for coordinates that
+    #: the data do not determine.
+    plain: Array
+    covariance: Array
+    #: The increase of the standard error of each coordinate by the discrepancy.
+    factors: Array
+    discrepancy: Discrepancies
+    goodness: Goodness
+    outliers: list[Outlier]
+    #: The parameter that explains a disagreement between data sets best; empty if data sets agree.
+    drifting: str
+    quantile: float
+
+
+def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessed:
+    """Return the errors of an estimate, and the quality of the fit."""
+    counted = target.used & np.isfinite(answer.values)
+    difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
+    scaled = np.where(counted, difference / target.sigma, np.nan)
+    units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
+    layout = Layout(model.points, model.asked.row, _branches(sets))
+    names = np.array(model.asked.measure)
+    measures = {measure: np.flatnonzero(counted & (names == measure)) for measure in units}
+    structure = tests(layout, measures, scaled)
+    structured = {one.measure for one in structure if one.is_structured}
+    is_far = _far(measures, structured, scaled, target.loss)
+    residuals = _solution.of_residuals(sets, units, difference, scaled, counted, structured)
+    priors = model.space.prior(found.x)[0]
+    good = _solution.goodness(residuals, structure, priors, len(model.space), sigma_known(sets))
+    # A loss function that is not linear reduces the weights of readings.
+    weights = np.sqrt(_search.weights(target.residuals(model.space, found.x, answer), target.loss))
+    jacobian = target.jacobian(model.space, found.x, answer) * weights[:, np.newaxis]
+    inverse, lost = _search.inverse(jacobian)
+    slopes = np.zeros((len(scaled), len(model.space)))
+    slopes[target.used] = jacobian[: int(target.used.sum())]
+    fitted = counted & ~is_far
+    discrepancy = Discrepancies([], {}, inverse, np.inf)
+    if structured or good.p < DOUBTFUL:
+        if target.loss != "linear":
+            measures = {measure: chosen[~is_far[chosen]] for measure, chosen in measures.items()}
+        discrepancy = of_residuals(
+            layout, measures, kinds(sets), units, structured, answer.values, target.sigma, scaled, slopes, inverse
+        )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        factors = np.sqrt(np.diag(discrepancy.covariance) / np.diag(inverse))
+    return Assessed(
+        _search.without(inverse, lost),
+        _search.without(discrepancy.covariance, lost),
+        np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0),
+        discrepancy,
+        good,
+        _listed(model, sets, scaled, is_far),
+        between_sets(model.space, model.asked.of_set[fitted], scaled[fitted], slopes[fitted]),
+        _quantile(sigma_known(sets), min(good.freedom, discrepancy.freedom)),
+    )
+
+
+def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
+    """Return a mask of the outliers. If the residuals of a measure are larger than their standard errors, the limit is
+    larger by a typical residual: the median, or the root mean square if the model lacks an effect.
+    """
+    limit = _OUTLYING if loss == "linear" else _OUTLYING_ROBUST
+    far = np.zeros(len(scaled), np.bool_)
+    for measure, chosen in measures.items():
+        size = np.abs(scaled[chosen])
+        if len(size):
+            typical = np.sqrt(np.mean(size**2)) if measure in structured else 1.4826 * np.median(size)
+            far[chosen] = size > limit * max(1.0, float(typical))
+    return far
+
+
+def _listed(model: Model, sets: list[DataSet], scaled: Array, is_far: Mask) -> list[Outlier]:
+    """Return the outliers, with the largest residual first."""
+    places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
+    found = sorted(np.flatnonzero(is_far).tolist(), key=lambda place: -abs(scaled[place]))
+    return [Outlier(*places[place], float(scaled[place])) for place in found]
+
+
+def _branches(sets: list[DataSet]) -> Places:
+    """Return the number of the branch of each reading."""
+    known = [None, "up", "down"]
+    return np.concatenate([np.full(len(one) * len(one.measured), known.index(one.branch), np.intp) for one in sets])
+
+
+def _quantile(sigma_known: bool, freedom: float) -> float:
+    from scipy.stats import norm, t
+
+    return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
+
+
+def sigma_known(sets: list[DataSet]) -> bool:
+    return "unknown" not in {noise.kind for one in sets for noise in one.noise.values()}
+
+
+def kinds(sets: list[DataSet]) -> dict[str, str]:
+    """Return the kind of the standard errors of each measure."""
+    return {measure: noise.kind for one in sets for measure, noise in one.noise.items()}

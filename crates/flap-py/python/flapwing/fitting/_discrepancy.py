@@ -1,0 +1,156 @@
+"""The discrepancy of a model: the difference between model and robot beyond the noise of the readings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._types import Array, Places
+from ._noise import Noise
+from ._structure import Layout
+
+#: Largest correlation of the discrepancy at neighbouring points.
+_MOST = 0.95
+
+#: Smallest discrepancy that counts, in standard errors of the readings.
+_LEAST = 0.1
+
+#: Smallest share of the discrepancy's squares that remains in the residuals. A fit that follows more of the discrepancy
+#: has too few readings for an estimate of its size.
+_REST = 0.2
+
+#: Number of rows of the correlation matrix that are computed together.
+_CHUNK = 512
+
+
+@dataclass(frozen=True)
+class Discrepancy:
+    """The discrepancy of a model for a measure: its difference from the robot beyond the noise of the readings.
+
+    Attributes
+    ----------
+    measure, unit : str
+        The measure, and the unit of `size`: the measure's unit, or ``"%"`` of the model's value.
+    size : float
+        The standard deviation of the discrepancy at a random operating point of the data.
+    readings : float
+        The number of readings with independent discrepancies that contain as much information as the readings of the
+        data. Neighbouring points have similar discrepancies, so the number is less than the number of readings.
+    """
+
+    measure: str
+    unit: str
+    size: float
+    readings: float
+
+
+@dataclass(frozen=True)
+class Discrepancies:
+    """The discrepancy of all measures, and its effect on the covariance of the coordinates."""
+
+    listed: list[Discrepancy]
+    #: The discrepancy of each measure, in the form of standard errors.
+    noise: dict[str, Noise]
+    covariance: Array
+    #: Number of independent readings less the number of parameters; infinite without discrepancy.
+    freedom: float
+
+
+def of_residuals(
+    layout: Layout,
+    measures: Mapping[str, Places],
+    kinds: Mapping[str, str],
+    units: Mapping[str, str],
+    structured: set[str],
+    values: Array,
+    sigma: Array,
+    scaled: Array,
+    jacobian: Array,
+    inverse: Array,
+) -> Discrepancies:
+    """Return the discrepancy that explains the squares of the residuals.
+
+    The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij, where s is the model's value (for
+    standard errors in per cent) or 1. The correlation ρ falls with the distance of two points, in ranks along each
+    parameter. Its decline follows from the products of neighbouring residuals. The expected sum of squares accounts for
+    the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum likelihood.
+
+    `measures` has the fitted readings of each measure, and `structured` the measures whose residuals have a pattern.
+    The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain the
+    discrepancy: if their residuals have a pattern, all of the standard error is discrepancy. `inverse` is the
+    covariance of the coordinates without discrepancy.
+    """
+    base = np.ones(len(scaled))
+    spread = np.zeros_like(inverse)
+    listed, noises, independent = [], {}, []
+    for measure, chosen in measures.items():
+        residuals, slopes = scaled[chosen], jacobian[chosen]
+        kind = kinds[measure]
+        relative = kind == "relative"
+        # The discrepancy is `shape` standard errors of each reading per unit of its size.
+        shape = Noise("relative" if relative else "absolute").of(values[chosen], values[chosen], 1.0) / sigma[chosen]
+        square = float(shape @ shape)
+        likeness = _likeness(layout, chosen, scaled, shape)
+        own = 0.0 if kind == "unknown" else 1.0
+        if kind == "unknown" and measure not in structured:
+            continue
+        size = max(float(residuals @ residuals) - own * len(chosen), 0.0) / square
+        if measure in structured:
+            # The noise of readings does not contribute to products of neighbours.
+            size = max(size, 0.0, *likeness.values())
+        if size <= 0.0:
+            continue
+        declines = {name: float(np.clip(product / size, 0.0, _MOST)) for name, product in likeness.items()}
+        by_slopes, total = _correlated(layout, chosen, declines, shape, slopes)
+        noise = own * (len(chosen) - float(np.sum(inverse * (slopes.T @ slopes))))
+        rest = max(square - float(np.sum(inverse * by_slopes)), _REST * square)
+        size = max((float(residuals @ residuals) - noise) / rest, size)
+        if np.sqrt(size * square / len(chosen)) < _LEAST:
+            continue
+        base[chosen] = own
+        spread += size * by_slopes
+        count = len(chosen) * square / max(total, square)
+        unit = "%" if relative else units[measure]
+        listed.append(Discrepancy(measure, unit, float(np.sqrt(size)) * (100.0 if relative else 1.0), count))
+        noises[measure] = Noise("relative" if relative else "absolute", float(np.sqrt(size)))
+        independent.append(count)
+    if not listed:
+        return Discrepancies([], {}, inverse, np.inf)
+    kept = np.concatenate([*measures.values()])
+    lost = (1.0 - base[kept])[:, np.newaxis] * jacobian[kept]
+    covariance = inverse + inverse @ (spread - lost.T @ jacobian[kept]) @ inverse
+    return Discrepancies(listed, noises, covariance, sum(independent) - len(inverse))
+
+
+def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:
+    """Return the mean product of neighbouring residuals along each parameter, per square of `shape`."""
+    whole = np.zeros(len(scaled))
+    whole[chosen] = shape
+    found = {}
+    for parameter in layout.varied:
+        first, second = layout.pairs(parameter, chosen)
+        if len(first):
+            found[parameter] = float(scaled[first] @ scaled[second]) / float(whole[first] @ whole[second])
+    return found
+
+
+def _correlated(
+    layout: Layout, chosen: Places, declines: Mapping[str, float], shape: Array, slopes: Array
+) -> tuple[Array, float]:
+    """Return the products of `slopes` with the correlation matrix of the discrepancy, and the sum of its elements, both
+    weighted by `shape`.
+    """
+    weighted = shape[:, np.newaxis] * slopes
+    ranks = {name: layout.ranks[name][chosen] for name in layout.varied}
+    by_slopes, total = np.zeros((slopes.shape[1], slopes.shape[1])), 0.0
+    for begin in range(0, len(chosen), _CHUNK):
+        part = slice(begin, begin + _CHUNK)
+        correlation = np.ones((len(shape[part]), len(shape)))
+        for name, rank in ranks.items():
+            distance = np.abs(rank[part, np.newaxis] - rank)
+            correlation *= declines.get(name, 0.0) ** distance
+        by_slopes += weighted[part].T @ (correlation @ weighted)
+        total += float(shape[part] @ correlation @ shape)
+    return by_slopes, total

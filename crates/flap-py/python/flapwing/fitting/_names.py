@@ -1,0 +1,173 @@
+"""The names of parameters and measures, and the meaning of the columns of readings."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .. import _flapwing
+from .._flapwing import Grid
+from .._types import Design
+
+#: Columns of flap's tables that are neither parameters nor measures.
+COURSE = {
+    "bistable",
+    "branch",
+    "curve",
+    "cycles",
+    "error_estimate",
+    "floquet_max",
+    "gradient_gap",
+    "period",
+    "point",
+    "residual",
+    "rhs_evals",
+    "stable",
+    "status",
+}
+
+#: Short names of columns in other tables of flap.
+_SHORT = {"frequency": "drive_frequency"}
+
+_IN_BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*(.*?)\s*[)\]]\s*")
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """The meaning of a column of readings."""
+
+    #: ``"parameter"``, ``"measure"``, or ``"sigma"`` for the standard error of a measure.
+    kind: str
+    #: The name of the parameter or measure.
+    name: str
+    #: The factor from the unit of the column to the unit of the parameter (SI) or of the measure.
+    factor: float
+    #: True if standard errors are in per cent of the model's value.
+    is_share: bool = False
+
+
+def _hint(name: str, known: list[str]) -> str:
+    """Return the nearest known name as part of an error message; empty if no known name is near."""
+    near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
+    return f", did you mean `{near[0]}`?" if near else ""
+
+
+class Names:
+    """The names of a design: its parameters and measures with their units."""
+
+    def __init__(self, design: Design) -> None:
+        self.grid = Grid(design)
+        if len(self.grid) != 1:
+            raise ValueError(
+                f"the design has {len(self.grid)} points, but a fit takes one\n"
+                "leave out its axes: the data contain the points"
+            )
+        self.model = self.grid.model
+        self.states = _flapwing.states(self.model)
+        self.nominal: dict[str, Any] = self.grid[0]
+        listed = _flapwing.params(self.model)
+        self.parameters = {parameter["name"]: parameter["unit"] for parameter in listed}
+        self.options = {parameter["name"]: parameter["options"] for parameter in listed if parameter["options"]}
+        self.measures = {measure["name"]: measure["unit"] for measure in _flapwing.measures(self.model)}
+
+    def is_measure(self, name: str) -> bool:
+        """Return True for a measure of the model or of the design's ``[measure]``."""
+        if name in self.measures:
+            return True
+        try:
+            _flapwing.check(self.grid, keywords={}, measures=[name])
+        except ValueError:
+            return False
+        self.measures[name] = ""
+        return True
+
+    def parameter(self, name: str) -> str:
+        """Return the name of a parameter. Raise ValueError for an unknown name."""
+        return name if name in self.parameters else _flapwing.parameter(self.model, name)
+
+    def unit(self, name: str) -> str:
+        """Return the unit of a parameter or a measure."""
+        return self.parameters[name] if name in self.parameters else self.measures[name]
+
+    def meaning(self, place: str, header: str) -> Meaning:
+        """Return the meaning of a column. Raise ValueError for a name that is neither a parameter nor a measure."""
+        return self.meanings(place, [header])[0]
+
+    def meanings(self, place: str, headers: Sequence[str]) -> list[Meaning]:
+        """Return the meanings of columns. Raise ValueError for names without a meaning."""
+        found = [self._meaning(place, header) for header in headers]
+        unknown = [header for header, one in zip(headers, found) if one is None]
+        if unknown:
+            known = [*self.parameters, *self.measures]
+            if len(unknown) == 1:
+                header = unknown[0]
+                told = f"the column `{header}`, which is neither a parameter nor a measure{_hint(header, known)}"
+            else:
+                listed = "; ".join(f"`{header}`{_hint(header, known)}" for header in unknown)
+                told = f"{len(unknown)} columns that are neither parameters nor measures: {listed}"
+            raise ValueError(
+                f"{place} has {told}\nrename or remove {'it' if len(unknown) == 1 else 'them'}: "
+                f"flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) list the names"
+            )
+        return [one for one in found if one is not None]
+
+    def _meaning(self, place: str, header: str) -> Meaning | None:
+        match = _IN_BRACKETS.fullmatch(header)
+        name, unit = (match[1], match[2]) if match else (header, None)
+        name = name.strip().replace(" ", "_")
+        if name.lower() != name and not self._is_known(name):
+            # "Stroke pp (deg)"
+            name = name.lower()
+        for mark, rest in (("sigma_", name.removeprefix("sigma_")), ("_sigma", name.removesuffix("_sigma"))):
+            if rest != name and mark in name:
+                is_share = unit == "%"
+                found = self._found(place, header, rest, None if is_share else unit)
+                if found is not None and found.kind == "measure":
+                    return Meaning("sigma", found.name, 0.01 if is_share else found.factor, is_share)
+        return self._found(place, header, name, unit)
+
+    def check_measure(self, name: str) -> None:
+        """Raise ValueError with the nearest name if `name` is not a measure."""
+        if not self.is_measure(name):
+            raise ValueError(
+                f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"
+                f"flapwing.measures({self.model!r}) lists them"
+            )
+
+    def _is_known(self, name: str) -> bool:
+        return name in self.parameters or self.is_measure(name)
+
+    def _found(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
+        stem, ending = _flapwing.split_unit(name)
+        for candidate, own in ((name, None), (stem, ending)):
+            candidate = self._renamed(_SHORT.get(candidate, candidate))
+            if candidate in self.parameters:
+                return Meaning("parameter", candidate, self._factor(place, header, candidate, unit or own))
+        if self.is_measure(name):
+            return Meaning("measure", name, self._factor(place, header, name, unit))
+        for measure in self.measures:
+            if (ending or unit) and _flapwing.split_unit(measure)[0] == stem:
+                return Meaning("measure", measure, self._factor(place, header, measure, unit or ending))
+        return None
+
+    def _renamed(self, name: str) -> str:
+        try:
+            return self.parameter(name)
+        except ValueError:
+            return name
+
+    def _factor(self, place: str, header: str, name: str, unit: str | None) -> float:
+        wanted = self.unit(name)
+        if unit is None or unit == wanted:
+            return 1.0
+        if "%" in unit and wanted:
+            raise ValueError(
+                f"{place}, column `{header}`: per cent is no unit of `{name}`, which is in {wanted}\nconvert it"
+            )
+        try:
+            return _flapwing.quantity(header, f"1 {unit}", wanted)
+        except ValueError as error:
+            raise ValueError(f"{place}, column `{header}`: {error}") from None

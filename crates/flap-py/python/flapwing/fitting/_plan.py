@@ -1,0 +1,98 @@
+"""The next readings of a fit: operating points whose readings would reduce an error most."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .._types import Array
+from . import _report
+from ._model import Model
+from ._points import answers_at, cell
+
+
+@dataclass(frozen=True)
+class NextMeasurements:
+    """Operating points whose readings would reduce an error most, with the best point first.
+
+    Attributes
+    ----------
+    target, unit : str
+        The parameter or measure whose error is reduced, and its unit.
+    now : float
+        The present error of the target.
+    points : list of dict
+        The operating points: values of parameters, in SI units.
+    measures : list of str
+        The measure to read at each point.
+    errors : list of float
+        The error of the target after the readings at a point and at all points before this point.
+    """
+
+    target: str
+    unit: str
+    now: float
+    points: list[dict[str, Any]]
+    measures: list[str]
+    errors: list[float]
+
+    def __str__(self) -> str:
+        heads = [
+            *(self.points[0] if self.points else []),
+            "measure",
+            f"error of {self.target} after" + (f" ({self.unit})" if self.unit else ""),
+        ]
+        rows = [
+            [*(cell(value) for value in point.values()), measure, f"{error:.3g}"]
+            for point, measure, error in zip(self.points, self.measures, self.errors)
+        ]
+        return f"error now: {self.now:.3g} {self.unit}".rstrip() + "\n" + _report.table(heads, rows)
+
+
+def plan(
+    model: Model,
+    points: dict[str, Any],
+    measures: Sequence[str],
+    x: Array,
+    information: Array,
+    target: Array,
+    count: int,
+    repeats: bool,
+    errors_of: Callable[[str, Array], Array],
+) -> tuple[list[int], list[str], list[float], float]:
+    """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
+    the present error of the target.
+
+    A reading adds the outer product of its derivatives, in standard errors, to the information matrix. The next reading
+    is the candidate after which the variance of the target is smallest. `errors_of` returns the standard errors of the
+    readings of a measure at given values.
+    """
+    rows, names, sensitivities = [], [], []
+    for measure in measures:
+        answer = answers_at(model, points, measure, x)
+        sigma = errors_of(measure, answer.values)
+        for row in np.flatnonzero(np.isfinite(answer.values) & ~answer.gaps):
+            rows.append(int(row))
+            names.append(measure)
+            sensitivities.append(answer.slopes[row] / sigma[row])
+    if not rows:
+        raise ValueError("no candidate has a settled motion with derivatives\ngive other operating points")
+    # A weak prior, with errors of a hundred times the value, keeps undetermined variances finite.
+    covariance = np.linalg.inv(information + 1e-4 * np.eye(len(information)))
+    a = np.array(sensitivities)
+    now = float(np.sqrt(target @ covariance @ target))
+    chosen: list[int] = []
+    errors: list[float] = []
+    for _ in range(count if repeats else min(count, len(a))):
+        moved = a @ covariance
+        gains = (moved @ target) ** 2 / (1.0 + np.einsum("ij,ij->i", moved, a))
+        if not repeats:
+            gains[chosen] = -1.0
+        best = int(np.argmax(gains))
+        covariance = covariance - np.outer(moved[best], moved[best]) / (1.0 + moved[best] @ a[best])
+        chosen.append(best)
+        errors.append(float(np.sqrt(max(0.0, target @ covariance @ target))))
+    return [rows[one] for one in chosen], [names[one] for one in chosen], errors, now

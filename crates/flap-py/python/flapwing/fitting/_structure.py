@@ -1,0 +1,120 @@
+"""Tests of the residuals of a fit for patterns along the parameters of the operating points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .._types import Array, Places
+
+#: Limit of the probability below which residuals are structured. All tests of a fit share this limit.
+_SIGNIFICANT = 0.01
+
+#: Smallest number of pairs of residuals, or of residuals in groups, for a test.
+_FEWEST = 8
+
+#: Values of a parameter that differ by less than this share count as equal.
+_EQUAL = 0.005
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A test of the residuals of a measure for a pattern along a parameter, over all data sets.
+
+    Attributes
+    ----------
+    measure, parameter : str
+        The measure of the residuals, and the parameter of the operating points along which they are compared.
+    p : float
+        The probability of residuals at least as similar to their neighbours as these residuals, if residuals are only
+        noise. Neighbours differ in `parameter` and have equal other parameters. If too few readings have equal other
+        parameters, the test compares the means of the residuals at each value of `parameter` (analysis of variance).
+    is_structured : bool
+        True if the residuals have a pattern, which means that the model lacks an effect.
+    """
+
+    measure: str
+    parameter: str
+    p: float
+    is_structured: bool = False
+
+
+class Layout:
+    """The operating points of all readings, as ranks of the values of each parameter that varies."""
+
+    def __init__(self, points: Mapping[str, Any], rows: Places, branches: Places) -> None:
+        ranks = {name: _ranks(np.asarray(values)[rows]) for name, values in points.items()}
+        self.varied = [
+            name for name, values in points.items() if isinstance(values, np.ndarray) and ranks[name].max(initial=0) > 0
+        ]
+        #: The ranks of the values of each parameter; equal values have equal ranks.
+        self.ranks = ranks
+        self._branches = branches
+
+    def pairs(self, parameter: str, chosen: Places) -> tuple[Places, Places]:
+        """Return pairs of neighbours along a parameter among the chosen readings: the first and the second reading of
+        each pair. The other parameters of a pair are equal.
+        """
+        others = [self._branches, *(ranks for name, ranks in self.ranks.items() if name != parameter)]
+        keys = np.stack([one[chosen] for one in others])
+        order = np.lexsort([self.ranks[parameter][chosen], *keys])
+        same = (keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0)
+        return chosen[order[:-1][same]], chosen[order[1:][same]]
+
+
+def _ranks(values: np.ndarray[Any, Any]) -> Places:
+    if values.dtype.kind != "f":
+        return np.unique(values, return_inverse=True)[1].astype(np.intp)
+    order = np.argsort(values, kind="stable")
+    ordered = values[order]
+    ranks = np.empty(len(values), np.intp)
+    ranks[order] = np.concatenate([[0], np.cumsum(np.diff(ordered) > _EQUAL * np.abs(ordered[1:]))])
+    return ranks
+
+
+def tests(layout: Layout, measures: Mapping[str, Places], scaled: Array) -> list[Structure]:
+    """Return a test for each measure and each parameter that varies. `measures` has the readings of each measure, and
+    `scaled` the residuals in standard errors.
+    """
+    found = [
+        Structure(measure, parameter, p)
+        for measure, chosen in measures.items()
+        for parameter in layout.varied
+        if (p := _probability(layout, parameter, chosen, scaled)) is not None
+    ]
+    limit = _SIGNIFICANT / max(1, len(found))
+    return [Structure(one.measure, one.parameter, one.p, one.p < limit) for one in found]
+
+
+def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) -> float | None:
+    from scipy.stats import f_oneway
+
+    first, second = layout.pairs(parameter, chosen)
+    if len(first) >= _FEWEST:
+        return _of_pairs(scaled[first], scaled[second], scaled[chosen])
+    ranks = layout.ranks[parameter][chosen]
+    count = len(np.unique(ranks))
+    if len(chosen) >= _FEWEST and 2 <= count <= len(chosen) // 4:
+        return float(f_oneway(*(scaled[chosen][ranks == rank] for rank in np.unique(ranks))).pvalue)
+    # No points share their other parameters, so all points are neighbours along the parameter.
+    noise = scaled[chosen][np.argsort(ranks, kind="stable")]
+    return _of_pairs(noise[:-1], noise[1:], noise) if len(noise) > _FEWEST else None
+
+
+def _of_pairs(first: Array, second: Array, noise: Array) -> float | None:
+    """Return the probability of pairs of neighbours that are at least as similar: from the number of pairs with
+    different signs, and from the mean product of the pairs.
+    """
+    from scipy.stats import binom, norm
+
+    products = first * second
+    square = float(np.mean(noise**2))
+    signs = products[products != 0.0]
+    if square == 0.0 or not len(signs):
+        return None
+    p_signs = binom.cdf(np.count_nonzero(signs < 0), len(signs), 0.5)
+    p_products = norm.sf(products.sum() / (square * np.sqrt(len(products))))
+    return float(min(1.0, 2.0 * min(p_signs, p_products)))
