@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _flapwing
+from .._evaluate import evaluate
 from ._solution import Solution
 
 #: Largest correlation in a device file, so that the correlation matrix of rounded numbers stays positive definite.
@@ -49,10 +50,10 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     ]
     before = _flapwing.uncertainty(names.grid)
     # A fitted or newly set value does not keep the old error and source.
-    anew = {*fitted, *fit._model.keywords}
+    anew = {*fitted, *fit._model.keywords, *names.grid.varied}
     kept = {name: error for name, error in before["errors"].items() if name not in anew}
     told = {name: source for name, source in origins["sources"].items() if name not in anew}
-    for name, value in _set(fit).items():
+    for name, value in _set(fit, fitted).items():
         known_by = [f"sd = {kept[name]!r}"] if name in kept else []
         known_by += [f"source = {_text(told[name])}"] if name in told else []
         if known_by:
@@ -65,7 +66,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
         one = fit.estimates[label]
         if np.isfinite(one.error) and one.error > 0:
             known.append((name, place[label]))
-            doubt = "" if one.is_known else ", but not fixed by the data"
+            doubt = (
+                "" if one.is_known else ", at the end of its range" if one.at_bound else ", but not fixed by the data"
+            )
             lines.append(f'{name} = {{ value = {one.value!r}, sd = {one.error!r}, source = "fitted{doubt}" }}')
         else:
             lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
@@ -99,15 +102,38 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
     return labels
 
 
-def _set(fit: Solution) -> dict[str, Any]:
-    """Return the parameters of the design, and the parameters that were keywords of the call of `fit`."""
+def _set(fit: Solution, labels: dict[str, str]) -> dict[str, Any]:
+    """Return the parameters of the design and its derived parameters, and the parameters that were keywords of the call
+    of `fit`.
+    """
     model = fit._model
     given = {
         name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)
         for name, value in model.keywords.items()
         if name in model.names.parameters
     }
-    return {**model.names.nominal, **given}
+    return {**model.names.nominal, **given, **_derived(fit, labels)}
+
+
+def _derived(fit: Solution, labels: dict[str, str]) -> dict[str, float]:
+    """Return the derived parameters of the design, at the fitted values. Raise ValueError if a derived parameter
+    differs between the readings.
+    """
+    model = fit._model
+    names = model.names.grid.varied
+    if not names:
+        return {}
+    fitted = {name: fit.estimates[label].value for name, label in labels.items()}
+    keywords = {name: value for name, value in model.keywords.items() if name not in model.points}
+    measure = [model.asked.measure[0]]
+    table = evaluate(model.names.grid, model.points, measures=measure, **keywords, **fitted)
+    for name in names:
+        if np.ptp(table[name]) > 1e-9 * np.abs(table[name]).max():
+            raise ValueError(
+                f"the derived parameter `{name}` differs between the readings, so a device cannot contain it\n"
+                "use the grid of the fit with the fitted values: flapwing.run(grid, **fit.values)"
+            )
+    return {name: float(table[name][0]) for name in names}
 
 
 def _same(value: Any, other: Any) -> bool:

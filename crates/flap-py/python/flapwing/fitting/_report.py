@@ -53,10 +53,11 @@ def _estimates(fit: Solution) -> tuple[list[str], list[list[str]]]:
     heads = ["parameter", "unit", "value", "error", "error %", "95 % from", "to", ""]
     rows = []
     for name, one in fit.estimates.items():
-        share = 100 * one.error / abs(one.value) if one.value else np.inf
+        # An estimate at a bound of zero has no meaningful share.
+        share = f"{100 * one.error / abs(one.value):.2g}" if one.error < 1e3 * abs(one.value) else "-"
         low = "open" if one.open_below else f"{one.low:.5g}"
         high = "open" if one.open_above else f"{one.high:.5g}"
-        rows.append([name, one.unit, f"{one.value:.5g}", f"{one.error:.2g}", f"{share:.2g}", low, high, _verdict(one)])
+        rows.append([name, one.unit, f"{one.value:.5g}", f"{one.error:.2g}", share, low, high, _verdict(one)])
     return heads, rows
 
 
