@@ -4,7 +4,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting._structure import Layout, tests
+from flapwing.fitting import _structure
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 VOLTAGES = [110.0, 130.0, 150.0, 170.0]
@@ -28,7 +28,6 @@ def test_errors_intervals_and_bands_of_a_wrong_model_hold_its_discrepancy(wrong)
     assert wrong.held_out.covered >= 0.9
     report = str(wrong)
     assert f"model discrepancy: {wrong.discrepancy[0].size:.2g} % of stroke_pp_deg and " in report
-    # Errors without discrepancy are those of `information` of the residuals.
     for one in wrong.estimates.values():
         assert one.error > 0.01 * one.value
         assert one.high - one.low == pytest.approx(2 * wrong._quantile * one.error, rel=0.2)
@@ -84,11 +83,11 @@ def test_patterns_along_each_parameter_are_found(jitter):
     frequency, voltage = np.tile(np.arange(70.0, 150.0, 10.0), 8), np.repeat(np.arange(100.0, 180.0, 10.0), 8)
     points = {"drive_frequency": frequency + jitter * draw.uniform(0, 9, 64), "drive_voltage_pp": voltage}
     noise = draw.normal(size=64)
-    layout = Layout(points, np.arange(64), np.zeros(64, np.intp))
+    layout = _structure.Layout(points, np.arange(64), np.zeros(64, np.intp))
     measures = {"stroke_pp_deg": np.arange(64)}
 
     def structured(scaled):
-        return [one.parameter for one in tests(layout, measures, scaled) if one.is_structured]
+        return [one.parameter for one in _structure.tests(layout, measures, scaled) if one.is_structured]
 
     assert structured(noise) == []
     assert "drive_voltage_pp" in structured(0.5 * noise + np.sin((voltage - 100.0) / 15.0))
@@ -146,8 +145,8 @@ def test_readings_that_are_held_out_run_only_once():
     for held in (None, [{"drive_voltage_pp": (None, 125)}, {"drive_frequency": (100, None)}]):
         found = flapwing.fit(PRESET, data, FREE, sigma="3 %", starts=1, profile=False, hold_out=held, **AS_MADE)
         effort[held is None] = found.effort.points
-    assert found.held_out.count == 12 + 3 * 7 and found.goodness.freedom == 15 - 2
-    # 15 of 48 points run in each step, and all points at the end.
+    assert found.held_out.count == 12 + 3 * 8 and found.goodness.freedom == 12 - 2
+    # 12 of 48 points run in each step, and all points at the end.
     assert effort[False] < 0.45 * effort[True]
 
 

@@ -69,9 +69,10 @@ def fit(
         points of a Sobol' sequence.
     seed : int
         Seed of the Sobol' sequence and of a random `hold_out`.
-    hold_out : float, str, list of str or dict, optional
+    hold_out : float, str, dict, or list of str and dict, optional
         Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
-        parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units.
+        parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units; None is an
+        open end. The readings that are held out run only once, after the search.
     profile : bool
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster.
@@ -87,7 +88,8 @@ def fit(
     -------
     Fit
         Estimates of the parameters, their errors and confidence intervals, and the quality of the fit. Print the result
-        to read the report.
+        to read the report. If the model disagrees with the data, errors and intervals contain the discrepancy of the
+        model (`Fit.discrepancy`).
 
     Raises
     ------

@@ -35,8 +35,8 @@ class Profile:
     value : array
         Values of the parameter in SI units, in rising order.
     rise : array
-        The signed square root of the rise of the cost at each value, in standard errors. This rise is 0 at the
-        estimate, and nearly a straight line if the data determine the parameter well.
+        The signed square root of the rise of the cost at each value, in standard errors that contain the discrepancy of
+        the model. This rise is 0 at the estimate, and nearly a straight line if the data determine the parameter well.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool

@@ -27,6 +27,7 @@ class FreeParameter:
         Bounds of the parameter, in SI units or as text with units. Default: a third of the design's value, and three
         times the design's value. The first search begins at the design's value, or at the middle of the bounds if the
         design's value is outside of the bounds.
+        Bounds of zero are allowed if the parameter may be zero.
     prior : (value, error), optional
         A value that is known before the fit, and its standard error: numbers in SI units, or text with units. The error
         can also be a text such as ``"5 %"``.

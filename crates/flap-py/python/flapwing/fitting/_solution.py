@@ -27,7 +27,8 @@ class Estimate:
     value : float
         The estimated value of the parameter, in SI units.
     error : float
-        Standard error of the parameter from the derivatives at the estimate, in SI units.
+        Standard error of the parameter from the derivatives at the estimate, in SI units. If the model disagrees with
+        the data, the error contains the discrepancy of the model.
     low, high : float
         Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval
         follows from the profile.

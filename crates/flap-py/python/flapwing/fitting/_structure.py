@@ -30,8 +30,8 @@ class Structure:
         The measure of the residuals, and the parameter of the operating points along which they are compared.
     p : float
         The probability of residuals at least as similar to their neighbours as these residuals, if residuals are only
-        noise. Neighbours differ in `parameter` and have equal other parameters. If too few readings have equal other
-        parameters, the test compares the means of the residuals at each value of `parameter` (analysis of variance).
+        noise. Neighbours differ in `parameter` and have equal other parameters. If several readings share each value of
+        `parameter`, the test also compares the means of the residuals at each value (analysis of variance).
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
@@ -92,19 +92,22 @@ def tests(layout: Layout, measures: Mapping[str, Places], scaled: Array) -> list
 def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) -> float | None:
     from scipy.stats import f_oneway
 
+    found = []
     first, second = layout.pairs(parameter, chosen)
     if len(first) >= _FEWEST:
-        return _of_pairs(scaled[first], scaled[second], scaled[chosen])
+        found.append(_of_pairs(scaled[first], scaled[second], scaled[chosen]))
     ranks = layout.ranks[parameter][chosen]
     count = len(np.unique(ranks))
-    if len(chosen) >= _FEWEST and 2 <= count <= len(chosen) // 4:
-        return float(f_oneway(*(scaled[chosen][ranks == rank] for rank in np.unique(ranks))).pvalue)
-    # No points share their other parameters, so all points are neighbours along the parameter.
-    noise = scaled[chosen][np.argsort(ranks, kind="stable")]
-    return _of_pairs(noise[:-1], noise[1:], noise) if len(noise) > _FEWEST else None
+    if len(chosen) >= _FEWEST and 2 <= count <= len(chosen) // 4 and np.ptp(scaled[chosen]) > 0.0:
+        found.append(float(f_oneway(*(scaled[chosen][ranks == rank] for rank in np.unique(ranks))).pvalue))
+    if not found and len(chosen) > _FEWEST:
+        # No points share their other parameters, so all points are neighbours along the parameter.
+        noise = scaled[chosen][np.argsort(ranks, kind="stable")]
+        found.append(_of_pairs(noise[:-1], noise[1:], noise))
+    return min(1.0, len(found) * min(found)) if found else None
 
 
-def _of_pairs(first: Array, second: Array, noise: Array) -> float | None:
+def _of_pairs(first: Array, second: Array, noise: Array) -> float:
     """Return the probability of pairs of neighbours that are at least as similar: from the number of pairs with
     different signs, and from the mean product of the pairs.
     """
@@ -114,7 +117,7 @@ def _of_pairs(first: Array, second: Array, noise: Array) -> float | None:
     square = float(np.mean(noise**2))
     signs = products[products != 0.0]
     if square == 0.0 or not len(signs):
-        return None
+        return 1.0
     p_signs = binom.cdf(np.count_nonzero(signs < 0), len(signs), 0.5)
     p_products = norm.sf(products.sum() / (square * np.sqrt(len(products))))
     return float(min(1.0, 2.0 * min(p_signs, p_products)))
