@@ -37,3 +37,10 @@ def test_exact_derivatives_take_less_work_than_differences():
 def test_planned_readings_are_fewer_than_those_at_random():
     told = run("next", "--trials", 5)
     assert int(re.search(r"in (\d) of 5 trials", told)[1]) >= 3
+
+
+def test_bands_cover_readings_that_are_held_out():
+    told = run("discrepancy", "--seeds", 1)
+    covered = [float(share) for share in re.findall(r"([\d.]+) % of the readings held out in their bands", told)]
+    # Each share has 90 readings.
+    assert len(covered) == 4 and min(covered) > 88
