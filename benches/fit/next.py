@@ -50,7 +50,7 @@ def main() -> None:
         """The rows to be measured next."""
         data = {name: values[rows] for name, values in candidates.items()}
         found = flapwing.fit(PRESET, {**data, MEASURE: readings}, list(TRUE), sigma="3 %", starts=1, profile=False)
-        points = found.next_measurements(candidates, TARGET, count=EACH).points
+        points = found.next_measurements(candidates, TARGET, count=EACH, repeats=True).points
         return np.array([number[tuple(float(point[name]) for name in candidates)] for point in points])
 
     wins = 0
