@@ -2,7 +2,7 @@
 
 use super::Ode;
 use super::tableau::{self, A, B, C, E, STAGES};
-use super::variation::{Varied, slopes};
+use super::variation::{Varied, slopes, slopes_outlined};
 use crate::num::Real;
 
 /// A step: its initial state and the results of an attempt.
@@ -120,7 +120,12 @@ impl<R: Real, const N: usize> Step<R, N> {
             if !ahead && stage > 1 && C[stage] != C[stage - 1] {
                 inputs[0] = ode.input(c, h.mul_add(h.lit(C[stage]), t));
             }
-            last = slopes::<O, R, PLAIN, N, D>(ode, c, &inputs[at], side, &y);
+            last = if O::HAS_PLAIN && !PLAIN {
+                // Out of line, so that the terms of other variants are compiled once.
+                slopes_outlined(ode, c, &inputs[at], side, &y)
+            } else {
+                slopes::<O, R, PLAIN, N, D>(ode, c, &inputs[at], side, &y)
+            };
             (self.y[stage], self.k[stage]) = (y.motion, last.motion);
             for i in 0..D {
                 (responses[i].y[stage], responses[i].k[stage]) = (y.responses[i], last.responses[i]);

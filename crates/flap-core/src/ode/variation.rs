@@ -79,7 +79,7 @@ pub(super) fn slopes<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize, cons
 
 /// [`slopes`] kept out of line, for the reason given at [`slope`].
 #[inline(always)]
-pub(super) fn slopes_outlined<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
+pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize>(
     ode: &O,
     c: &O::Constants<R>,
     u: &O::Input<R>,
