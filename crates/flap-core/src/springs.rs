@@ -21,7 +21,8 @@ crate::parameters! {
         /// Loss factor of the wing hinge. The loss factor adds a viscous damping: loss factor times stiffness, divided
         /// by the angular drive frequency.
         hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Cubic stiffness of the wing hinge: the hinge adds the moment -hinge_stiffening * pitch^3.
+        /// Cubic stiffness of the wing hinge: the hinge adds a moment of hinge_stiffening times the third power of the pitch,
+        /// against the pitch.
         hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
         /// Pitch at which the stop of the hinge begins to act, in both directions.
         hinge_stop_angle: f64 = ("rad", "", Number(NonNegative), default: FRAC_PI_3),

@@ -33,8 +33,8 @@ crate::parameters! {
         /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
         /// Jafferis et al. (2016) do not use this parameter.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Cubic stiffness of the stroke: the transmission adds the moment -stroke_stiffening * stroke^3 about the stroke
-        /// axis. Jafferis et al. (2016) do not use this parameter.
+        /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of the
+        /// stroke, against the stroke. Jafferis et al. (2016) do not use this parameter.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,

@@ -127,7 +127,8 @@ crate::parameters! {
         /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the value is for a free
         /// or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Cubic stiffness of the stroke: the actuator adds the moment -stroke_stiffening * stroke^3. Ozaki and Hamaguchi (2018)
+        /// Cubic stiffness of the stroke: the actuator adds a moment of stroke_stiffening times the third power of the stroke,
+        /// against the stroke. Ozaki and Hamaguchi (2018)
         /// do not use this parameter.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use this parameter.
