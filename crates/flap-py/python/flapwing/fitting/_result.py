@@ -84,8 +84,8 @@ class Fit(Solution):
     discrepancy : list of Discrepancy
         The discrepancy of the model for each measure. The list is empty if the model agrees with the data.
     outliers : list of Outlier
-        Fitted readings that are far from the model, with the largest residual first: residuals of more than 4 standard
-        errors, or of 3 standard errors if `loss` is not ``"linear"``.
+        Fitted readings that are far from the model, with the largest residual first. The limit is 4 standard errors, or
+        3 standard errors if `loss` is not ``"linear"``.
     drifting : str
         The parameter that explains a disagreement between data sets best, if each data set has its own value. Empty if
         the data sets agree.

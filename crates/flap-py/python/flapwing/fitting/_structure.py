@@ -108,8 +108,9 @@ def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) 
 
 
 def _of_pairs(first: Array, second: Array, noise: Array) -> float:
-    """Return the probability of pairs of neighbours that are at least as similar: from the number of pairs with
-    different signs, and from the mean product of the pairs.
+    """Return the probability of pairs of neighbours that are at least as similar.
+
+    The probability follows from the number of pairs with different signs, and from the mean product of the pairs.
     """
     from scipy.stats import binom, norm
 
