@@ -14,9 +14,9 @@ _SIGNIFICANT = 1e-3
 def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -> str:
     """Return the shared parameter that explains a disagreement between data sets best; empty if data sets agree.
 
-    A parameter explains the disagreement if a value for each data set reduces the sum of squares of the residuals (F
-    test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled` has the residuals in standard errors, `jacobian` their derivatives,
-    and `of_set` the data set of each reading.
+    A parameter explains the disagreement if a value for each data set reduces the sum of squares of the residuals
+    (F test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled` has the
+    residuals in standard errors, `jacobian` their derivatives, and `of_set` the data set of each reading.
     """
     from scipy.stats import f
 
