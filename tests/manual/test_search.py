@@ -58,6 +58,8 @@ SEARCHES = {
     "bistable voltage": ["how-to/response"],
     "hysteresis voltage": ["how-to/response"],
     "fit damping": ["how-to/fit"],
+    "missing effect": ["how-to/compare-laws"],
+    "model selection": ["how-to/compare-laws"],
     "not modelled": ["models/limits"],
     "accuracy experiments": ["models/limits", "evidence/reproduction"],
     "hinge stiffness formula": ["models/terms"],

@@ -4,9 +4,10 @@
 its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, and `evaluate` runs a batch of points.
 `respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
 changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
-`fit` fits parameters to readings. `optimise` finds the best design within the axes of a grid. `wrench_map` fits a
-quadratic map of the forces and torques of a vehicle, and `fly` simulates its flight. `live` opens a page in the
-browser, with sliders for the parameters and curves that change with the sliders.
+`fit` fits parameters to readings, `compare` compares fits, and `select` chooses free parameters. `optimise` finds the
+best design within the axes of a grid. `wrench_map` fits a quadratic map of the forces and torques of a vehicle, and
+`fly` simulates its flight. `live` opens a page in the browser, with sliders for the parameters and curves that change
+with the sliders.
 
 Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
 Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.
@@ -50,11 +51,12 @@ from ._sweep import read, sweep
 from ._table import Table
 from ._vehicle import Vehicle, Wing
 from ._wrench_map import WrenchMap, wrench_map
-from .fitting import Fit, FreeParameter, Readings, fit
+from .fitting import Comparison, Fit, FreeParameter, Readings, Selection, candidates, compare, fit, select
 
 __all__ = [
     "ActiveBound",
     "BistableBand",
+    "Comparison",
     "ConditionValue",
     "DampedSine",
     "Diagnostic",
@@ -74,6 +76,7 @@ __all__ = [
     "Readings",
     "Resonances",
     "Row",
+    "Selection",
     "State",
     "Table",
     "Vehicle",
@@ -81,7 +84,9 @@ __all__ = [
     "Wing",
     "WrenchMap",
     "__version__",
+    "candidates",
     "chirp",
+    "compare",
     "edges",
     "evaluate",
     "fit",
@@ -98,6 +103,7 @@ __all__ = [
     "resonance",
     "respond",
     "run",
+    "select",
     "states",
     "sweep",
     "track_wing",

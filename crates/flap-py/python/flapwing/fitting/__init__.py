@@ -14,10 +14,13 @@
 - `_points`, `_plan`: operating points of predictions; the next readings
 - `_report`, `_device`: the result as text, and as a device
 - `_fit`: the function `fit`
+- `_compare`: comparison of fits of the same readings
+- `_select`: forward selection of free parameters
 """
 
 from __future__ import annotations
 
+from ._compare import ComparedFit, Comparison, DecidingMeasurements, DecidingReading, compare
 from ._data import Readings
 from ._discrepancy import Discrepancy
 from ._fit import fit
@@ -25,10 +28,15 @@ from ._intervals import Profile
 from ._parameters import FreeParameter
 from ._plan import NextMeasurements
 from ._result import Fit, Prediction
+from ._select import Selection, SelectionStep, candidates, select
 from ._solution import Effort, Estimate, Goodness, HeldOut, Outlier, Residuals, Unsettled
 from ._structure import Structure
 
 __all__ = [
+    "ComparedFit",
+    "Comparison",
+    "DecidingMeasurements",
+    "DecidingReading",
     "Discrepancy",
     "Effort",
     "Estimate",
@@ -42,7 +50,12 @@ __all__ = [
     "Profile",
     "Readings",
     "Residuals",
+    "Selection",
+    "SelectionStep",
     "Structure",
     "Unsettled",
+    "candidates",
+    "compare",
     "fit",
+    "select",
 ]

@@ -176,6 +176,8 @@ def _finish(
         unsettled=_unsettled(sets, answer, held),
         without_slopes=int((answer.gaps & target.used & np.isfinite(answer.values)).sum()),
         converged=found.converged,
+        loss=target.loss,
+        held=held,
     )
     if better is not None:
         made.effort = Effort(1, 0, 0, 0, 0.0)

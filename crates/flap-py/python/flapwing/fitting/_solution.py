@@ -278,6 +278,8 @@ class Solution:
         unsettled: list[Unsettled],
         without_slopes: int,
         converged: bool,
+        loss: str,
+        held: Mask,
     ) -> None:
         self.estimates, self.combinations, self.indistinct = estimates, combinations, indistinct
         self.goodness, self.unsettled, self.without_slopes, self.converged = (
@@ -293,6 +295,7 @@ class Solution:
         self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
         self.discrepancy, self._discrepancy, self.outliers = discrepancy.listed, discrepancy.noise, outliers
         self.drifting = drifting
+        self._loss, self._held = loss, held
 
     @property
     def values(self) -> dict[str, Any]:

@@ -1,0 +1,684 @@
+"""Forward selection of free parameters: which parameters or further terms the readings require."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, SupportsIndex, TypeGuard
+
+import numpy as np
+
+from .. import _arguments, _flapwing
+from .._flapwing import Grid
+from .._progress import Progress, shown
+from .._types import Array, Design, Mask, Value
+from . import _data, _fit, _held, _intervals, _parameters, _report, _search
+from ._compare import criteria, log_likelihoods
+from ._data import DataSet
+from ._model import Answer, Model
+from ._names import Names
+from ._parameters import Coordinate, FreeParameter, Space
+from ._result import Fit
+from ._search import FINE, Found, Target
+from ._solution import Effort
+
+#: Largest error of the cost of a fit, and largest number of rounds in which standard errors are updated.
+_COST, _ROUNDS = 0.005, 4
+
+#: Largest predicted rise of chi-square for which a parameter is removed on trial.
+_NEEDED = 10.0
+
+#: A candidate is fitted if its predicted gain is at least this share of the best gain of the step.
+_WORTH = 0.5
+
+#: Numbers that were fitted to one vehicle in the presets of `bimorph`, with the parameters of the other models that are
+#: uncertain in most robots.
+_UNCERTAIN = (
+    "hinge_stiffness",
+    "transmission_stiffness",
+    "wing_inertia_stroke",
+    "wing_inertia_hinge",
+    "wing_inertia_product",
+    "drag_coefficient_max",
+    "drag_coefficient_min",
+    "lift_coefficient_max",
+    "pressure_radius",
+    "pressure_min",
+    "pressure_max",
+    "rotation_pressure_width",
+    "force_factor",
+    "stiffness_factor",
+    "deflection_factor",
+)
+
+#: Terms that the papers leave out, and a number with wide bounds. The bounds are multiples of a typical size of the
+#: design; see `_sizes`.
+_BOUNDS = {
+    "drag_coefficient_min": (0.05, 2.0, "one"),
+    "stroke_damping": (0.0, 1.0, "stroke damping"),
+    "stroke_loss_factor": (0.0, 0.5, "one"),
+    "hinge_damping": (0.0, 0.5, "hinge damping"),
+    "hinge_loss_factor": (0.0, 0.5, "one"),
+    "transmission_growth": (-0.25, 0.5, "transmission"),
+    "stroke_stiffening": (-0.2, 1.0, "stroke stiffness"),
+    "hinge_stiffening": (-0.2, 1.0, "hinge stiffness"),
+    "hinge_stop_stiffness": (0.0, 10.0, "hinge stiffness"),
+    "modulus_decline": (0.0, 0.5, "per field"),
+    "circulation_factor": (0.0, 2.0, "one"),
+    "rotation_force_factor": (0.0, 2.0, "one"),
+    "added_mass_factor": (0.0, 2.0, "one"),
+    "plate_ratio": (0.5, 1.5, "one"),
+}
+
+
+def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
+
+    def of(name: str) -> float:
+        value = values.get(name)
+        return float(value) if isinstance(value, (int, float)) and value > 0 else np.nan
+
+    rate = 2.0 * np.pi * of("drive_frequency")
+    inertia = of("wing_inertia_stroke" if "wing_inertia_stroke" in values else "leading_edge_inertia")
+    return {
+        "one": 1.0,
+        "stroke damping": inertia * rate,
+        "stroke stiffness": inertia * rate**2,
+        "hinge damping": of("hinge_stiffness") / rate,
+        "hinge stiffness": of("hinge_stiffness"),
+        "transmission": of("transmission_ratio") ** 3,
+        "per field": 2.0 * of("piezo_thickness") / of("drive_voltage_pp"),
+    }
+
+
+def candidates(design: Design, /) -> dict[str, FreeParameter]:
+    """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
+
+    The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
+    design's value. The parameters in the next table have other bounds, where ω is the angular drive frequency, J the
+    wing's inertia about the stroke axis, κ the `hinge_stiffness`, T the `transmission_ratio`, and E half of the drive
+    voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
+
+    ====================================== ==================
+    parameter                              bounds
+    ====================================== ==================
+    drag_coefficient_min                   0.05 to 2
+    stroke_damping                         0 to J ω
+    stroke_loss_factor, hinge_loss_factor  0 to 0.5
+    hinge_damping                          0 to 0.5 κ/ω
+    transmission_growth                    -0.25 T³ to 0.5 T³
+    stroke_stiffening                      -0.2 J ω² to J ω²
+    hinge_stiffening                       -0.2 κ to κ
+    hinge_stop_stiffness                   0 to 10 κ
+    modulus_decline                        0 to 0.5 / E
+    circulation_factor, added_mass_factor  0 to 2
+    rotation_force_factor                  0 to 2
+    plate_ratio                            0.5 to 1.5
+    ====================================== ==================
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, a device, or a grid without axes.
+
+    Returns
+    -------
+    dict of str to FreeParameter
+        The candidates with their bounds in SI units. Remove or add entries before you call `select`.
+
+    Raises
+    ------
+    ValueError
+        The design is unknown.
+
+    Examples
+    --------
+    >>> flapwing.candidates("jafferis2016")["hinge_loss_factor"].high
+    0.5
+    """
+    grid = Grid(design)
+    listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
+    sizes = _sizes(listed)
+    found = {name: FreeParameter() for name in _UNCERTAIN if _is_number(listed.get(name)) and listed[name] != 0}
+    for name, (low, high, size) in _BOUNDS.items():
+        value, low, high = listed.get(name), low * sizes[size], high * sizes[size]
+        if _is_number(value) and np.isfinite(high):
+            # A damping of a preset that is not zero has a value of its own.
+            is_own = low == 0.0 and value != 0.0
+            found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)
+    return found
+
+
+def _is_number(value: Any) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+@dataclass(frozen=True)
+class SelectionStep:
+    """One step of a selection: the fit after a parameter is freed or removed.
+
+    Attributes
+    ----------
+    freed : str
+        The parameter that the step freed; empty for the first fit and for a step that removes a parameter.
+    removed : str
+        The parameter that the step set back to its value in the design, because later parameters made it unnecessary;
+        empty in most steps.
+    parameters : list of str
+        All free parameters after the step.
+    chi_square : float
+        Sum of the squares of the residuals in standard errors. For estimated standard errors, chi-square contains no
+        information.
+    criterion : float
+        The criterion after the step.
+    gain : float
+        The decrease of the criterion in this step; nan for the first fit.
+    p : float
+        The probability that noise alone improves the fit as much as the best of all candidates; nan if the step frees
+        no parameter.
+    held_out : float
+        Root mean square of the errors of readings that were not fitted, in standard errors; nan without `hold_out`.
+    alternatives : dict of str to float
+        The other candidates that were fitted in this step, and their criterion minus the criterion of the freed
+        parameter. An alternative with a difference below 2 explains the readings about as well.
+    """
+
+    freed: str
+    removed: str
+    parameters: list[str]
+    chi_square: float
+    criterion: float
+    gain: float
+    p: float
+    held_out: float
+    alternatives: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Selection:
+    """The result of `select`. ``print(selection)`` shows the path of the selection.
+
+    Attributes
+    ----------
+    steps : list of SelectionStep
+        The steps of the selection; the first step is the fit of the parameters `start`.
+    fit : Fit or None
+        The final fit with several starts and profiles; None if no parameter is free.
+    remaining : dict of str to float
+        The candidates that are not free, with the predicted decrease of chi-square if the candidate is freed next. The
+        largest decrease is first.
+    stopped : str
+        The reason for the end of the selection.
+    at_bounds : list of str
+        Parameters that ended at a bound in one of the fits. Their fits could be better with wider bounds.
+    criterion : str
+        The name of the criterion.
+    fits : int
+        Number of fits, without the final fit.
+    points, rhs_evals : int
+        Number of points and of evaluations of the equations of motion of all fits, with the final fit.
+    seconds : float
+        Time of the selection (s).
+    """
+
+    steps: list[SelectionStep]
+    fit: Fit | None
+    remaining: dict[str, float]
+    stopped: str
+    at_bounds: list[str]
+    criterion: str
+    fits: int
+    points: int
+    rhs_evals: int
+    seconds: float
+
+    @property
+    def parameters(self) -> list[str]:
+        """The selected parameters, with the parameters `start` first."""
+        return self.steps[-1].parameters
+
+    def __str__(self) -> str:
+        with_held = any(np.isfinite(step.held_out) for step in self.steps)
+        heads = ["freed", "parameters", "chi-square", self.criterion, "gain", "p"]
+        heads += ["held-out rms"] * with_held + ["also fitted"]
+        rows = []
+        for step in self.steps:
+            cells = [
+                step.freed or (f"{step.removed} removed" if step.removed else "start"),
+                str(len(step.parameters)),
+                f"{step.chi_square:.1f}",
+                f"{step.criterion:.1f}",
+            ]
+            numbers = [(step.gain, ".1f"), (step.p, ".1g")]
+            cells += [format(number, form) if np.isfinite(number) else "" for number, form in numbers]
+            cells += [f"{step.held_out:.2f}"] * with_held
+            rows.append([*cells, ", ".join(f"{name} {more:+.1f}" for name, more in step.alternatives.items())])
+        effort = f"{self.fits} fits, {self.points:,} points with {self.rhs_evals:.3g} right-hand sides"
+        lines = [_report.table(heads, rows), f"stopped: {self.stopped}"]
+        if self.at_bounds:
+            lines.append(f"at a bound in a fit: {', '.join(self.at_bounds)}; give wider bounds and select again")
+        return "\n".join([*lines, f"{effort} in {self.seconds:.1f} s"])
+
+
+@dataclass(frozen=True)
+class _State:
+    """A fit of some of the parameters."""
+
+    names: list[str]
+    x: Array
+    target: Target
+    answer: Answer
+    guesses: dict[str, float]
+    chi_square: float
+    deviance: float
+    criterion: float
+
+
+@dataclass
+class _Work:
+    """The data of a selection, and the fits of subsets of the parameters."""
+
+    names: Names
+    sets: list[DataSet]
+    #: The coordinates of each parameter.
+    coordinates: dict[str, list[Coordinate]]
+    keywords: Mapping[str, Any]
+    held: Mask
+    criterion: str
+    threads: SupportsIndex | None
+    told: Callable[[int], object] | None
+    fits: int = 0
+    at_bounds: dict[str, None] = field(default_factory=dict)
+    models: list[Model] = field(default_factory=list)
+
+    @property
+    def rhs_evals(self) -> int:
+        return sum(model.rhs_evals for model in self.models)
+
+    @property
+    def points(self) -> int:
+        return sum(model.ran for model in self.models)
+
+    def space(self, names: Sequence[str]) -> Space:
+        return Space([one for name in names for one in self.coordinates[name]])
+
+    def model(self, space: Space) -> Model:
+        before = self.points
+        told = self.told
+        show = None if told is None else lambda ran: told(before + ran)
+        made = Model(self.names, self.sets, space, self.keywords, self.threads, show)
+        self.models.append(made)
+        return made
+
+    def fitted(self, names: list[str], begin: Array, guesses: Mapping[str, float], values: Array) -> _State:
+        """Return the fit of some parameters by a search from `begin`. The first standard errors belong to `values`."""
+        space = self.space(names)
+        model = self.model(space)
+        known = dict(guesses)
+        measured = np.concatenate([cells for one in self.sets for cells in one.measured.values()])
+        target = Target(measured, _search.sigmas(self.sets, values, known), ~self.held, "linear")
+        self.fits += 1
+        x, answer, target = self._searched(model, target, begin, known)
+        self._note_bounds(space, x)
+        log, sigma, estimated = log_likelihoods(self.sets, answer.values, ~self.held)
+        priors = space.prior(x)[0]
+        error = (np.where(np.isfinite(answer.values), answer.values, 0.0) - measured) / sigma
+        deviance = float(-2.0 * np.sum(log[~self.held]) + priors @ priors)
+        count = len(space) + estimated
+        value = criteria(deviance, count, int((~self.held).sum()))[self.criterion]
+        chi_square = float(np.sum(error[~self.held] ** 2) + priors @ priors)
+        return _State(names, x, target, answer, known, chi_square, deviance, value)
+
+    def _searched(
+        self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
+    ) -> tuple[Array, Answer, Target]:
+        """Return the end of a search from `begin`, with the standard errors at the end of the search."""
+
+        def ask(x: Array) -> Answer:
+            return model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
+
+        x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
+        for _ in range(_ROUNDS):
+            if len(x):
+                cost = _search.cost_of(target.residuals(model.space, x, ask(x)), "linear")
+                tolerance = float(np.clip(_COST / max(cost, 1e-300), 1e-8, 1e-3))
+                x = _search.minimise(ask, model.space, target, x, None, tolerance=tolerance).x
+            answer = ask(x)
+            used = target.used & np.isfinite(answer.values)
+            _search.new_guesses(self.sets, target, used, answer, len(x), guesses)
+            before = target.sigma
+            target = replace(target, sigma=_search.sigmas(self.sets, answer.values, guesses))
+            if np.allclose(target.sigma, before, rtol=0.01):
+                break
+        return x, answer, target
+
+    def _note_bounds(self, space: Space, x: Array) -> None:
+        """Add the parameters at a bound to `at_bounds`. The bound at or nearest to the design's
+        value does not count.
+        """
+        for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
+            nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
+            for bound in (low, high):
+                is_design = abs(one.value(bound) - nominal) < 1e-6 * (one.high - one.low)
+                if abs(place - bound) < 1e-3 * (high - low) and not is_design:
+                    self.at_bounds[one.parameter] = None
+
+    def held_out(self, state: _State) -> float:
+        """Return the rms of the errors of readings that were not fitted, in standard errors; nan if there are none."""
+        if not self.held.any():
+            return float("nan")
+        _, sigma, _ = log_likelihoods(self.sets, state.answer.values, ~self.held)
+        error = (np.nan_to_num(state.answer.values) - state.target.measured) / sigma
+        return float(np.sqrt(np.mean(error[self.held] ** 2)))
+
+    def predicted(self, state: _State, more: Sequence[str]) -> dict[str, tuple[float, Array]]:
+        """Return the predicted decrease of chi-square if a further parameter is freed, and the start of that fit.
+
+        The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
+        One evaluation gives the derivatives for all candidates at their values in the design.
+        """
+        active = self.space(state.names)
+        beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
+        space = Space([*active.coordinates, *(one for _, one in beside)])
+        x = np.concatenate([state.x, np.zeros(len(beside))])
+        answer = self.model(space).at([x], rtol=FINE)[0]
+        # Motions that do not settle have no derivatives.
+        target = replace(state.target, used=~self.held & np.isfinite(answer.values))
+        residuals, jacobian = target.residuals(space, x, answer), target.jacobian(space, x, answer)
+        free = jacobian[:, : len(active)]
+        found = {}
+        for name in more:
+            place = [len(active) + number for number, (owner, _) in enumerate(beside) if owner == name]
+            found[name] = self._step(name, state.x, residuals, free, jacobian[:, place], space, place)
+        return dict(sorted(found.items(), key=lambda one: -one[1][0]))
+
+    def without(self, state: _State, name: str) -> _State | None:
+        """Return the fit without a parameter. Return None if the derivatives predict that chi-square rises too much."""
+        space = self.space(state.names)
+        mine = np.array([one.parameter == name for one in space.coordinates])
+        covariance = _search.without(*_search.inverse(state.target.jacobian(space, state.x, state.answer)))
+        errors = np.sqrt(np.diag(covariance)[mine])
+        if np.sum(((state.x[mine] - self.at_design(name)) / errors) ** 2) > _NEEDED:
+            return None
+        names = [other for other in state.names if other != name]
+        return self.fitted(names, state.x[~mine], state.guesses, state.answer.values)
+
+    def at_design(self, name: str) -> Array:
+        """Return the coordinates of a parameter at the value of the design, or at the nearest bound."""
+        value = float(self.names.nominal[name])
+        return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])
+
+    def _linear(self, one: Coordinate) -> Coordinate:
+        """Return a linear coordinate without prior, whose origin is the design's value."""
+        value = float(self.names.nominal[one.parameter])
+        return replace(one, nominal=value, log=False, prior=None)
+
+    def _step(
+        self, name: str, x: Array, residuals: Array, free: Array, added: Array, space: Space, place: list[int]
+    ) -> tuple[float, Array]:
+        """Return the predicted decrease of chi-square for one candidate, and the coordinates after the step."""
+        own = self.coordinates[name]
+        left = np.linalg.pinv(free, rcond=_search.NOTHING) if free.shape[1] else np.zeros((0, len(residuals)))
+        # The part of the derivatives and of the residuals that the free parameters cannot change.
+        across, rest = added - free @ (left @ added), residuals - free @ (left @ residuals)
+        known = np.linalg.norm(across, axis=0) > _search.NOTHING * np.linalg.norm(added, axis=0)
+        across[:, ~known] = 0.0
+        step = np.linalg.lstsq(across, -rest, rcond=None)[0]
+        origin = [space.coordinates[number] for number in place]
+        low, high = (np.array([one.at(getattr(one, end)) for one in origin]) for end in ("low", "high"))
+        step = np.clip(step, np.minimum(low, 0.0), np.maximum(high, 0.0))
+        gain = float(rest @ rest - np.sum((rest + across @ step) ** 2))
+        moved = x - left @ (residuals + added @ step)
+        active = Space(space.coordinates[: len(x)])
+        begin = [np.clip(moved, active.low, active.high)]
+        values = [float(np.clip(one.value(size), one.low, one.high)) for one, size in zip(origin, step)]
+        begin.append(np.array([one.at(value) for one, value in zip(own, values)]))
+        return max(0.0, gain), np.concatenate(begin)
+
+
+def select(
+    design: Design,
+    data: Any,
+    /,
+    candidates: Sequence[str] | Mapping[str, Any],
+    *,
+    start: Sequence[str] | Mapping[str, Any] = (),
+    budget: int | None = None,
+    rhs_budget: float | None = None,
+    criterion: str = "AICc",
+    significance: float = 0.05,
+    tries: int = 3,
+    sigma: Any = None,
+    starts: int = 4,
+    seed: int = 0,
+    hold_out: Any = None,
+    profile: bool = True,
+    threads: SupportsIndex | None = None,
+    progress: Progress = False,
+    **keywords: Value,
+) -> Selection:
+    """Select the parameters that readings require: free one candidate after the other, as long as the fit improves.
+
+    Use this function to find the effect that a model lacks. Each step predicts the gain of all candidates from their
+    derivatives at the present fit (score test), and fits the most promising candidates. The step frees the candidate
+    with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the improvement is not
+    significant. Then `select` fits all selected parameters once more like `fit`, with several starts and profiles.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, a device, or a grid without axes.
+    data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
+        The readings, as for `fit`.
+    candidates : list of str, or dict
+        The parameters that may be freed, with bounds as for `fit`. `flapwing.candidates` returns a suitable dictionary.
+        Until a candidate is freed, it has its value in the design.
+    start : list of str, or dict
+        The parameters that are free from the beginning, with bounds as for `fit`.
+    budget : int, optional
+        Largest number of free parameters, including `start`. Default: a fifth of the number of readings.
+    rhs_budget : float, optional
+        Number of right-hand sides after which no further step begins. The final fit is not limited.
+    criterion : {"AICc", "BIC"}
+        The criterion that each step must lower.
+    significance : float
+        Largest probability that noise alone explains a step. The probability takes into account that the best of all
+        candidates was chosen (Bonferroni). With 1, only the criterion decides, which frees too many parameters.
+    tries : int
+        Largest number of candidates that are fitted in a step.
+    sigma, seed, hold_out, threads, progress
+        As for `fit`. Readings in `hold_out` do not take part in the selection.
+    starts : int
+        Number of starts of the final fit, in addition to the estimate of the selection.
+    profile : bool
+        True if the final fit computes profiles.
+    **keywords : float or str
+        Parameters of all data and solver settings.
+
+    Returns
+    -------
+    Selection
+        The steps, the final fit, and the predicted gains of the candidates that are not free.
+
+    Raises
+    ------
+    ValueError
+        As for `fit`; an unknown criterion; a candidate without a value in the design; a budget below the number of
+        parameters in `start`.
+    TypeError
+        An argument has the wrong type.
+    ImportError
+        SciPy is not installed.
+
+    Examples
+    --------
+    >>> points = {"drive_frequency": [100.0, 105.0, 110.0, 115.0, 120.0, 125.0], "drive_voltage_pp": 160.0}
+    >>> table = flapwing.evaluate("jafferis2016", points, hinge_stiffness=1.3e-6)
+    >>> data = {name: table[name] for name in ("drive_frequency", "drive_voltage_pp", "stroke_pp_deg")}
+    >>> found = flapwing.select("jafferis2016", data, ["hinge_stiffness", "wing_area"], sigma="1 deg", starts=1)
+    >>> found.parameters
+    ['hinge_stiffness']
+    """
+    _fit._check("linear", starts, seed)
+    _check(criterion, significance, tries, budget)
+    begun = time.perf_counter()
+    names = Names(_fit._with_keywords(design, keywords))
+    sets = _data.resolve(data, names, sigma)
+    first = {names.parameter(name): given for name, given in _listed("start", start).items()}
+    wanted = {names.parameter(name): given for name, given in _listed("candidates", candidates).items()}
+    more = [name for name in wanted if name not in first]
+    if not more:
+        raise ValueError("`candidates` has no parameter that is not in `start`\ngive at least one")
+    space = _parameters.space({**wanted, **first}, names, sets, keywords)
+    _check_values(names, more)
+    readings = sum(len(one) * len(one.measured) for one in sets)
+    held = _held.held_rows(hold_out, sets, seed, readings, names)
+    most = max(len(first) + 1, int((~held).sum()) // 5) if budget is None else int(budget)
+    if most < len(first):
+        raise ValueError(f"`budget` is {budget}, but `start` has {len(first)} parameters\nraise the budget")
+    coordinates = {name: [one for one in space.coordinates if one.parameter == name] for name in space.parameters}
+    with shown(progress) as show:
+        told = None if show is None else lambda ran: show(ran, ran)
+        work = _Work(names, sets, coordinates, keywords, held, criterion, threads, told)
+        free = work.space(list(first))
+        begin = np.clip(np.zeros(len(free)), free.low, free.high)
+        unknown = np.full(readings, np.nan)
+        state = work.fitted(list(first), begin, _search.first_guesses(sets), unknown)
+        steps = [_step_of("", state, np.nan, np.nan, work, {})]
+        while True:
+            predicted = work.predicted(state, more) if more else {}
+            if len(state.names) >= most or not more:
+                stopped = f"the budget of {most} parameters is used" if more else "all candidates are free"
+                break
+            if rhs_budget is not None and work.rhs_evals >= rhs_budget:
+                stopped = f"the budget of {rhs_budget:.3g} right-hand sides is used"
+                break
+            best, others = _best(work, state, predicted, tries)
+            p = _chance(state, best, work, len(more))
+            name = best.names[-1]
+            if best.criterion >= state.criterion:
+                stopped = f"no candidate lowers the {criterion}"
+                break
+            if p > significance:
+                stopped = (
+                    f"{name} lowers the {criterion} by {state.criterion - best.criterion:.1f}, "
+                    f"but noise alone does so with probability {p:.2g}"
+                )
+                break
+            differences = {one.names[-1]: one.criterion - best.criterion for one in others}
+            steps.append(_step_of(name, best, state.criterion - best.criterion, p, work, differences))
+            state, more = best, [one for one in more if one != name]
+            for earlier in state.names[len(first) : -1]:
+                without = work.without(state, earlier)
+                if without is not None and without.criterion < state.criterion:
+                    gain = state.criterion - without.criterion
+                    steps.append(_step_of("", without, gain, np.nan, work, {}, removed=earlier))
+                    state, more = without, [*more, earlier]
+        found = _final(work, state, int(starts), seed, _arguments.flag("profile", profile))
+    return Selection(
+        steps,
+        found,
+        {name: gain for name, (gain, _) in predicted.items()},
+        stopped,
+        list(work.at_bounds),
+        criterion,
+        work.fits,
+        work.points,
+        work.rhs_evals,
+        time.perf_counter() - begun,
+    )
+
+
+def _best(
+    work: _Work, state: _State, predicted: Mapping[str, tuple[float, Array]], tries: int
+) -> tuple[_State, list[_State]]:
+    """Return the best fit with one more parameter, and the other fits that were tried."""
+    fitted: list[_State] = []
+    reached = 0.0
+    for name, (gain, begin) in list(predicted.items())[:tries]:
+        if fitted and gain < _WORTH * reached:
+            break
+        names = [*state.names, name]
+        one = work.fitted(names, begin, state.guesses, state.answer.values)
+        if one.deviance > state.deviance:
+            # The predicted step was too long.
+            nearby = np.concatenate([state.x, work.at_design(name)])
+            again = work.fitted(names, nearby, state.guesses, state.answer.values)
+            one = min(one, again, key=lambda other: other.deviance)
+        fitted.append(one)
+        reached = max(reached, state.deviance - one.deviance)
+    fitted.sort(key=lambda one: one.criterion)
+    return fitted[0], fitted[1:]
+
+
+def _chance(state: _State, best: _State, work: _Work, count: int) -> float:
+    """Return the probability that noise alone improves the fit as much, for the best of `count` candidates."""
+    from scipy.stats import chi2
+
+    freedom = len(work.space(best.names)) - len(work.space(state.names))
+    return float(min(1.0, count * chi2.sf(max(0.0, state.deviance - best.deviance), freedom)))
+
+
+def _step_of(
+    freed: str, state: _State, gain: float, p: float, work: _Work, alternatives: dict[str, float], removed: str = ""
+) -> SelectionStep:
+    return SelectionStep(
+        freed,
+        removed,
+        list(state.names),
+        state.chi_square,
+        state.criterion,
+        gain,
+        p,
+        work.held_out(state),
+        alternatives,
+    )
+
+
+def _final(work: _Work, state: _State, starts: int, seed: int, profile: bool) -> Fit | None:
+    """Return the fit of the selected parameters from the estimate of the selection and from further starts."""
+    if not state.names:
+        return None
+    begun = time.perf_counter()
+    model = work.model(work.space(state.names))
+    guesses = dict(state.guesses)
+    target = replace(state.target, used=~work.held)
+    indistinct = _intervals.indistinct(model, target, seed)
+    begins = [state.x, *_search.starts(model, target, starts, seed)]
+    ends: list[Found] = _search.from_all(model, target, begins)
+    made = _fit._finish(model, work.sets, target, ends[0], guesses, work.held, profile, indistinct)
+    agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
+    made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
+    return made
+
+
+def _listed(place: str, given: Any) -> dict[str, Any]:
+    if isinstance(given, str) or not (isinstance(given, Mapping) or hasattr(given, "__iter__")):
+        raise TypeError(
+            f"`{place}` is {type(given).__name__}\nit must be a list of parameters, or a dictionary with bounds"
+        )
+    listed = dict(given) if isinstance(given, Mapping) else dict.fromkeys(given)
+    for name in listed:
+        if not isinstance(name, str):
+            raise TypeError(f"`{place}` has an entry that is {type(name).__name__}\nit must have names of parameters")
+    return listed
+
+
+def _check_values(names: Names, more: Sequence[str]) -> None:
+    for name in more:
+        value = names.nominal.get(name)
+        if not _is_number(value) or not np.isfinite(value):
+            raise ValueError(
+                f"`{name}` has no value in the design, so it has no value before it is freed\nset it in the design"
+            )
+
+
+def _check(criterion: Any, significance: Any, tries: Any, budget: Any) -> None:
+    if criterion not in ("AICc", "BIC"):
+        raise ValueError(f'`criterion` is {criterion!r}\nit must be "AICc" or "BIC"')
+    if not _is_number(significance) or not 0 < significance <= 1:
+        raise ValueError(f"`significance` is {significance!r}\nit must be more than 0 and at most 1")
+    for name, value in (("tries", tries), ("budget", 1 if budget is None else budget)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+            raise ValueError(f"`{name}` is {value!r}\nit must be a whole number, 1 or more")

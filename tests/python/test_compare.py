@@ -1,0 +1,222 @@
+"""Comparisons of fits choose the right law, and selections find the parameter that the data require."""
+
+from types import SimpleNamespace
+
+import flapwing
+import numpy as np
+import pytest
+from fits import PRESET, TRUE, readings
+from flapwing.fitting import _compare, _select
+
+BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
+POINTS = {
+    "drive_frequency": np.tile(np.linspace(75.0, 145.0, 8), 2),
+    "drive_voltage_pp": np.repeat([120.0, 160.0], 8),
+}
+LOSS = {"stroke_loss_factor": (0.0, 0.5)}
+DAMPING = {"hinge_damping": (0.0, 1e-9)}
+FAST = {"sigma": "3 %", "starts": 1, "profile": False}
+
+
+def fits(data, *added, **options):
+    return [flapwing.fit(PRESET, data, {**dict.fromkeys(TRUE), **more}, **{**FAST, **options}) for more in added]
+
+
+@pytest.fixture(scope="module")
+def lossy():
+    """Readings of a robot whose stroke loses energy."""
+    return readings(BOTH, points=POINTS, stroke_loss_factor=0.2)
+
+
+@pytest.fixture(scope="module")
+def compared(lossy):
+    made = fits(lossy, {}, DAMPING, LOSS, hold_out={"drive_frequency": (100, 115)})
+    return flapwing.compare(made, names=["paper", "hinge", "stroke"])
+
+
+def test_the_right_law_is_chosen(compared):
+    best, second, third = compared.fits
+    assert compared.chosen == best.name == "stroke" and compared.is_decided and compared.readings == 24
+    assert [second.name, third.name] == ["hinge", "paper"] and third.delta_aicc > second.delta_aicc > 5
+    assert best.held_out_score > third.held_out_score
+    assert sum(one.weight for one in compared.fits) == pytest.approx(1.0)
+    assert "stroke is clearly better" in str(compared) and "held-out rms (stroke_pp_deg)" in str(compared)
+
+
+def test_criteria_follow_from_the_residuals(lossy):
+    first, second = fits(lossy, {}, LOSS, sigma={"stroke_pp_deg": 2.0, "pitch_amplitude_deg": "1 deg"})
+    compared = flapwing.compare([first, second])
+    for one, fit in zip(sorted(compared.fits, key=lambda one: one.name), (first, second)):
+        count, free = 32, len(fit.estimates)
+        residuals = [part.values for part in fit.goodness.residuals]
+        chi_square = sum(float(np.sum((part / size) ** 2)) for part, size in zip(residuals, (2.0, 1.0)))
+        assert one.chi_square == pytest.approx(chi_square) and one.parameters == free
+        deviance = chi_square + 16 * np.log(2 * np.pi * 4.0) + 16 * np.log(2 * np.pi)
+        assert one.deviance == pytest.approx(deviance)
+        assert one.aicc == pytest.approx(deviance + 2 * free + 2 * free * (free + 1) / (count - free - 1))
+        assert one.bic == pytest.approx(deviance + free * np.log(count))
+    deciding = compared.deciding_readings(count=1000)
+    differences = [one.difference for one in deciding]
+    assert len(differences) == 32 and np.all(np.diff(np.abs(differences)) <= 0)
+    assert sum(differences) == pytest.approx(0.5 * (compared.fits[1].deviance - compared.fits[0].deviance))
+    one = deciding[0]
+    assert lossy[one.measure][one.row - 1] == one.reading
+    assert one.point == {name: values[one.row - 1] for name, values in POINTS.items()}
+
+
+def test_unknown_standard_errors_have_a_concentrated_likelihood(lossy):
+    pair = fits(lossy, {}, LOSS, sigma=None)
+    compared = flapwing.compare(pair)
+    assert compared.chosen == "fit 2" and compared.is_decided
+    for one, fit in zip(sorted(compared.fits, key=lambda one: one.name), pair):
+        spreads = [np.mean(part.values**2) for part in fit.goodness.residuals]
+        assert one.deviance == pytest.approx(sum(16 * (np.log(2 * np.pi * spread) + 1) for spread in spreads))
+        assert one.parameters == len(fit.estimates) + 2
+
+
+def test_readings_that_do_not_decide():
+    """Readings of the paper's law: a further parameter explains only noise."""
+    compared = flapwing.compare(fits(readings(BOTH, points=POINTS, seed=5), LOSS, {}), names=["losses", "paper"])
+    assert not compared.is_decided and compared.chosen == "paper"
+    assert "do not decide between" in compared.verdict and "paper has the fewest parameters" in compared.verdict
+
+
+def test_next_measurements_are_where_predictions_differ(compared):
+    candidates = {"drive_frequency": np.linspace(70, 150, 9), "drive_voltage_pp": 180.0}
+    found = compared.next_measurements(candidates, count=3, measures=["stroke_pp_deg"])
+    stroke, hinge = (side.fit.predict(candidates, "stroke_pp_deg") for side in compared._sides[:2])
+    noise = 0.5 * 0.03**2 * (hinge.value**2 + stroke.value**2)
+    gains = 0.5 * (hinge.value - stroke.value) ** 2
+    gains = gains / (noise + hinge.error**2) + gains / (noise + stroke.error**2)
+    best = int(np.argmax(gains))
+    assert found.points[0] == {"drive_frequency": candidates["drive_frequency"][best], "drive_voltage_pp": 180.0}
+    assert found.values[0] == (stroke.value[best], hinge.value[best]) and found.names == ("stroke", "hinge")
+    assert found.expected[0] == pytest.approx(gains[best], rel=1e-3)
+    assert found.expected[0] < found.expected[1] < found.expected[2]
+    assert "expected difference" in str(found)
+
+
+def test_expected_differences_contain_the_new_fits():
+    """For linear laws, the expected difference is the rise of chi-square after a new fit of the wrong law."""
+    draw = np.random.default_rng(3)
+    slopes = [draw.normal(size=(4, 2)), draw.normal(size=(4, 3))]
+    values = [draw.normal(size=4), draw.normal(size=4)]
+    roots = [np.vstack([draw.normal(size=(6, width)), 0.01 * np.eye(width)]) for width in (2, 3)]
+    variance = draw.uniform(0.5, 2.0, 4)
+    # Without the weak prior of the method, which the last rows of `roots` replace.
+    informations = [root.T @ root - 1e-4 * np.eye(root.shape[1]) for root in roots]
+    laws = [SimpleNamespace(_information=one) for one in informations]
+    chosen, _, expected = _compare._decide(values, slopes, variance, laws, 3)
+    rises = []
+    for place, other in ((0, 1), (1, 0)):
+        weights = 1.0 / np.sqrt(variance[chosen])
+        matrix = np.vstack([roots[place], slopes[place][chosen] * weights[:, np.newaxis]])
+        wanted = np.concatenate([np.zeros(len(roots[place])), (values[other] - values[place])[chosen] * weights])
+        rises.append(np.linalg.lstsq(matrix, wanted, rcond=None)[1][0])
+    assert expected[-1] == pytest.approx(np.mean(rises))
+
+
+def test_select_finds_the_missing_term(lossy):
+    data = flapwing.Readings(lossy, sigma="3 %")
+    candidates = flapwing.candidates(PRESET)
+    held = {"drive_frequency": (100, 115)}
+    found = flapwing.select(PRESET, data, candidates, start=list(TRUE), starts=1, profile=False, hold_out=held)
+    assert found.parameters == [*TRUE, "stroke_loss_factor"]
+    first, second = found.steps
+    assert second.gain == pytest.approx(first.criterion - second.criterion) and second.gain > 10 and second.p < 1e-3
+    assert second.held_out < first.held_out and second.held_out < 1.5
+    estimate = found.fit.estimates["stroke_loss_factor"]
+    assert abs(estimate.value - 0.2) < 3 * estimate.error
+    # The path and the final fit agree, also with a fit of its own.
+    assert found.fit.goodness.chi_square == pytest.approx(second.chi_square, abs=0.1)
+    alone = fits(lossy, LOSS, hold_out=held)[0]
+    assert found.fit.goodness.chi_square == pytest.approx(alone.goodness.chi_square, abs=0.1)
+    assert found.rhs_evals < 3e7 and set(found.remaining) == set(candidates) - set(found.parameters)
+    told = str(found)
+    assert "start" in told and "stroke_loss_factor" in told and "stopped: " in told and "right-hand sides" in told
+
+
+def test_select_from_nothing_within_a_budget(lossy):
+    candidates = {**dict.fromkeys(TRUE), **LOSS}
+    found = flapwing.select(PRESET, lossy, candidates, budget=2, criterion="BIC", **FAST)
+    assert len(found.parameters) == 2 and "the budget of 2 parameters is used" in found.stopped
+    criteria = [step.criterion for step in found.steps]
+    assert criteria == sorted(criteria, reverse=True) and found.criterion == "BIC"
+    short = flapwing.select(PRESET, lossy, candidates, rhs_budget=1, **FAST)
+    assert short.fit is None and short.parameters == [] and "right-hand sides" in short.stopped
+
+
+def test_select_removes_what_later_parameters_replace(monkeypatch):
+    """Readings by another drag law, which first seem to require another lift."""
+    predicted = _select._Work.predicted
+
+    def lift_first(work, state, more):
+        return dict(sorted(predicted(work, state, more).items(), key=lambda one: one[0] != "lift_coefficient_max"))
+
+    monkeypatch.setattr(_select._Work, "predicted", lift_first)
+    data = readings(BOTH, points=POINTS, noise=0.02, drag_coefficient_min=1.0)
+    candidates = {"lift_coefficient_max": None, "drag_coefficient_min": (0.05, 2.0)}
+    found = flapwing.select(PRESET, data, candidates, start=list(TRUE), tries=1, **{**FAST, "sigma": "2 %"})
+    assert [step.freed for step in found.steps] == ["", "lift_coefficient_max", "drag_coefficient_min", ""]
+    assert found.steps[-1].removed == "lift_coefficient_max" and found.parameters == [*TRUE, "drag_coefficient_min"]
+    assert "lift_coefficient_max removed" in str(found) and found.at_bounds == []
+    narrow = {"drag_coefficient_min": (0.1, 0.4)}
+    assert flapwing.select(PRESET, data, narrow, start=list(TRUE), **FAST).at_bounds == ["drag_coefficient_min"]
+
+
+def test_select_frees_nothing_for_noise():
+    data = readings(BOTH, points=POINTS)
+    found = flapwing.select(PRESET, data, flapwing.candidates(PRESET), start=list(TRUE), **FAST)
+    assert found.parameters == list(TRUE) and len(found.steps) == 1
+
+
+@pytest.mark.parametrize("preset", ["jafferis2016", "ozaki2018-small", "arabagi2013-75hz"])
+def test_candidates_are_fitted_numbers_and_terms(preset, flap):
+    """Parameters with a star in the table of the model, and terms with bounds that contain the design's value."""
+    candidates, params = flapwing.candidates(preset), flapwing.params(preset)
+    listed = flap("models", preset).stdout
+    starred = {line.split()[0] for line in listed.splitlines() if " * " in line}
+    assert starred & set(params) <= set(candidates) <= set(params)
+    assert {"hinge_stiffness", "hinge_damping", "stroke_loss_factor", "hinge_loss_factor"} <= set(candidates)
+    for name, free in candidates.items():
+        assert free.low is None or free.low <= params[name].value <= free.high
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"seed": 2}, "fit 1 and fit 2 have different readings of stroke_pp_deg in set 1"),
+        ({"sigma": "2 %"}, "have different standard errors of stroke_pp_deg"),
+        ({"hold_out": 0.3}, "have different readings that are held out"),
+        ({"loss": "cauchy"}, 'fit 2 has loss="cauchy", which has no likelihood'),
+        ({"measures": BOTH}, "have different measures in set 1"),
+    ],
+)
+def test_fits_of_other_readings_are_refused(change, message):
+    def fit(seed=1, measures=("stroke_pp_deg",), **options):
+        points = {name: values[:6] for name, values in POINTS.items()}
+        data = readings(measures, points=points, seed=seed)
+        return flapwing.fit(PRESET, data, ["hinge_stiffness"], **{**FAST, **options})
+
+    with pytest.raises(ValueError, match=message):
+        flapwing.compare([fit(), fit(**change)])
+
+
+def test_mistakes_in_calls():
+    with pytest.raises(TypeError, match="`fits` has an entry that is str"):
+        flapwing.compare(["one", "two"])
+    with pytest.raises(ValueError, match="`fits` has 0 fits"):
+        flapwing.compare([])
+    for keywords, message in [
+        ({"criterion": "AIC"}, "`criterion` is 'AIC'"),
+        ({"significance": 0}, "`significance` is 0"),
+        ({"budget": 0}, "`budget` is 0"),
+        ({"budget": 1, "start": ["wing_area", "wing_length"]}, "`start` has 2 parameters"),
+        ({"start": ["hinge_stiffness"]}, "no parameter that is not in `start`"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            flapwing.select(PRESET, readings(), ["hinge_stiffness"], sigma="3 %", **keywords)
+    with pytest.raises(ValueError, match="`stroke_damping` is zero in the design"):
+        flapwing.select(PRESET, readings(), ["stroke_damping"], sigma="3 %")
+    with pytest.raises(ValueError, match="`wing_radius_1` has no value in the design"):
+        flapwing.select(PRESET, readings(), {"wing_radius_1": (0.3, 0.7)}, sigma="3 %")
