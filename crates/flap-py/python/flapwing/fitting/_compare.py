@@ -520,11 +520,12 @@ def _decide(
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]
     chosen, errors, expected, total = [], [], [], 0.0
-    for _ in range(count):
+    for _ in range(min(count, len(variance))):
         moved = [slope @ covariance for slope, covariance in zip(slopes, covariances)]
         spreads = [variance + np.einsum("ij,ij->i", one, slope) for one, slope in zip(moved, slopes)]
         # differences[0] is the error of the second fit if the first law is right.
         rises = 0.5 * (differences[0] ** 2 / spreads[1] + differences[1] ** 2 / spreads[0])
+        rises[chosen] = -np.inf
         best = int(np.argmax(rises))
         total += float(rises[best])
         chosen.append(best)
