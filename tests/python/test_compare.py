@@ -143,7 +143,7 @@ def test_select_from_nothing_within_a_budget(lossy):
     criteria = [step.criterion for step in found.steps]
     assert criteria == sorted(criteria, reverse=True) and found.criterion == "BIC"
     short = flapwing.select(PRESET, lossy, candidates, rhs_budget=1, **FAST)
-    assert short.fit is None and short.parameters == [] and "right-hand sides" in short.stopped
+    assert short.final is None and short.parameters == [] and "right-hand sides" in short.stopped
 
 
 def test_select_removes_what_later_parameters_replace(monkeypatch):

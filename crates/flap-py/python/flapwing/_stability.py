@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._table import Table
 from ._types import Array
 
 __all__ = ["hover_eigenvalues"]
@@ -23,7 +24,7 @@ _MOTION = ["velocity_forward", "velocity_left", "velocity_up", "rate_roll", "rat
 
 
 def hover_eigenvalues(
-    rows: Mapping[str, Any],
+    rows: Table | Mapping[str, Any],
     total_mass: Array | float,
     body_inertia: Sequence[Array | float],
     *,

@@ -112,8 +112,8 @@ class DecidingMeasurements:
     errors : list of float
         The standard error of the difference at each point: the noise of a reading and the errors of the parameters.
     expected : list of float
-        The expected difference of the two fits in chi-square from the readings at a point and at all points before this
-        point, if one of the two laws is right. Both fits are fitted again after each reading.
+        The expected difference of the two fits in chi-square, if one of the two laws is right. The difference is from
+        the readings at a point and at all points before this point. Both laws are fitted again after each reading.
     """
 
     names: tuple[str, str]
@@ -315,9 +315,9 @@ class Comparison:
         """Return the operating points at which new readings would decide best between the two best fits.
 
         A reading decides if the predictions of both fits differ by many standard errors. The standard error contains
-        the noise of the reading and the errors of the fitted parameters, so that a difference does not count if a new
-        fit can remove it. Each reading is chosen after both fits are updated with the readings before, with derivatives
-        at the estimates.
+        the noise of the reading and the errors of the fitted parameters. A difference that a new fit can remove
+        therefore does not count. Each reading is chosen after both fits are updated with the readings before. These
+        updates use derivatives at the estimates.
 
         Parameters
         ----------
@@ -511,10 +511,10 @@ def _decide(
 ) -> tuple[list[int], list[float], list[float]]:
     """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
 
-    If the first law is right, a reading raises the chi-square of the second fit by the square of the difference of both
-    predictions, divided by the variance of the reading and of the second prediction. This rise already contains the new
-    fit of the second law, whose predictions at all candidates move towards the first law. The mean of this rise and of
-    the rise with exchanged fits is the expected difference.
+    If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
+    difference of both predictions, divided by the variance of the reading and of the second prediction. This rise
+    already contains the new fit of the second law, whose predictions at all candidates move towards the first law. The
+    mean of this rise and of the rise with exchanged fits is the expected difference.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]

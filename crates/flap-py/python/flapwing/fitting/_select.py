@@ -96,26 +96,21 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
-    design's value. The parameters in the next table have other bounds, where ω is the angular drive frequency, J the
-    wing's inertia about the stroke axis, κ the `hinge_stiffness`, T the `transmission_ratio`, and E half of the drive
-    voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
+    design's value. The parameters in the next list have other bounds. In the list, ω is the angular drive frequency, J
+    the wing's inertia about the stroke axis, κ the `hinge_stiffness`, and T the `transmission_ratio`. E is half of the
+    drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
 
-    ====================================== ==================
-    parameter                              bounds
-    ====================================== ==================
-    drag_coefficient_min                   0.05 to 2
-    stroke_damping                         0 to J ω
-    stroke_loss_factor, hinge_loss_factor  0 to 0.5
-    hinge_damping                          0 to 0.5 κ/ω
-    transmission_growth                    -0.25 T³ to 0.5 T³
-    stroke_stiffening                      -0.2 J ω² to J ω²
-    hinge_stiffening                       -0.2 κ to κ
-    hinge_stop_stiffness                   0 to 10 κ
-    modulus_decline                        0 to 0.5 / E
-    circulation_factor, added_mass_factor  0 to 2
-    rotation_force_factor                  0 to 2
-    plate_ratio                            0.5 to 1.5
-    ====================================== ==================
+    - `drag_coefficient_min`: 0.05 to 2
+    - `stroke_damping`: 0 to J ω
+    - `stroke_loss_factor`, `hinge_loss_factor`: 0 to 0.5
+    - `hinge_damping`: 0 to 0.5 κ/ω
+    - `transmission_growth`: -0.25 T³ to 0.5 T³
+    - `stroke_stiffening`: -0.2 J ω² to J ω²
+    - `hinge_stiffening`: -0.2 κ to κ
+    - `hinge_stop_stiffness`: 0 to 10 κ
+    - `modulus_decline`: 0 to 0.5 / E
+    - `circulation_factor`, `rotation_force_factor`, `added_mass_factor`: 0 to 2
+    - `plate_ratio`: 0.5 to 1.5
 
     Parameters
     ----------
@@ -203,7 +198,7 @@ class Selection:
     ----------
     steps : list of SelectionStep
         The steps of the selection; the first step is the fit of the parameters `start`.
-    fit : Fit or None
+    final : Fit or None
         The final fit with several starts and profiles; None if no parameter is free.
     remaining : dict of str to float
         The candidates that are not free, with the predicted decrease of chi-square if the candidate is freed next. The
@@ -223,7 +218,7 @@ class Selection:
     """
 
     steps: list[SelectionStep]
-    fit: Fit | None
+    final: Fit | None
     remaining: dict[str, float]
     stopped: str
     at_bounds: list[str]
@@ -232,6 +227,13 @@ class Selection:
     points: int
     rhs_evals: int
     seconds: float
+
+    @property
+    def fit(self) -> Fit:
+        """The final fit. Raises ValueError if no parameter is free."""
+        if self.final is None:
+            raise ValueError("the selection freed no parameter, so there is no fit\ngive `start`, or more candidates")
+        return self.final
 
     @property
     def parameters(self) -> list[str]:
