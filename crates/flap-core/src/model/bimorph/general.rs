@@ -11,11 +11,11 @@
 use core::f64::consts::FRAC_2_PI;
 
 use super::constants::Constants;
-use super::model::Bimorph;
 use super::params::CentreOfPressure;
 use super::rhs::{self, Plate, elastic_force, plate_forces, stroke_damping};
 use super::strips::Moving;
 use super::transmission::{Transmission, stroke};
+use super::variant::Bimorph;
 use crate::aero::oblique_forces;
 use crate::body::{BodyTerms, Shoulder};
 use crate::model::{Instant, Load};

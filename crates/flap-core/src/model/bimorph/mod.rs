@@ -14,9 +14,11 @@ mod params;
 mod rhs;
 mod strips;
 mod transmission;
+mod variant;
 
 pub use constants::Constants;
-pub use model::{Bimorph, Signals};
+pub use model::Signals;
 pub use params::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params};
 pub use rhs::{Plate, plates, secant_stiffness};
 pub use transmission::Law;
+pub use variant::Bimorph;

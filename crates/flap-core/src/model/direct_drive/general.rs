@@ -5,8 +5,8 @@
 //! line, so that the terms cost nothing where they are zero.
 
 use super::constants::Constants;
-use super::model::DirectDrive;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};
+use super::variant::DirectDrive;
 use crate::aero::{NormalLoad, oblique_forces};
 use crate::body::{BodyTerms, Shoulder};
 use crate::model::stroke_and_pitch::Balance;

@@ -11,7 +11,9 @@ mod model;
 mod motion;
 mod params;
 mod rhs;
+mod variant;
 
 pub use constants::Constants;
-pub use model::{DirectDrive, Signals};
+pub use model::Signals;
 pub use params::{AddedMass, CentreOfPressure, FlowDirection, LiftSign, Params};
+pub use variant::DirectDrive;

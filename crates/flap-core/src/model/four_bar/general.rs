@@ -10,8 +10,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::aerodynamics::{Aerodynamics, aerodynamics, coefficients, load_in, rotational_force};
 use super::constants::Constants;
-use super::model::FourBar;
 use super::rhs::{Transmission, balance_in};
+use super::variant::FourBar;
 use crate::aero::{Flow, NormalLoad, ObliqueForces, ObliqueStrip, oblique_forces};
 use crate::body::{BodyTerms, Sections, Shoulder};
 use crate::model::Load;

@@ -16,8 +16,10 @@ mod model;
 mod params;
 mod rhs;
 mod strips;
+mod variant;
 
 pub use constants::Constants;
-pub use model::{FourBar, Signals};
+pub use model::Signals;
 pub use params::{AddedMassSign, Arms, Params, Quadrature};
 pub use rhs::{Transmission, transmission};
+pub use variant::FourBar;

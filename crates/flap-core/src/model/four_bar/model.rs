@@ -8,6 +8,7 @@ use super::rhs::{
     balance, charging_current, current, driving_force, force, mass_matrix, stroke_damping, tip, transmission,
 };
 use super::strips::Moving;
+use super::variant::FourBar;
 use crate::aero::{Wing, chord_table};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
@@ -79,46 +80,6 @@ const DERIVED: &[Column] = &[
     Column::new("mode_2_hz", "Hz", "upper of the two natural frequencies of small undamped motions, with the added mass of still air",
         |_, c, _| FourBar::modes(c)[1].frequency),
 ];
-
-/// Variant of the four-bar model: the choices on which its equations branch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FourBar {
-    /// Drive voltage, or prescribed stroke.
-    pub drive: Drive,
-    /// Terms of the body's motion.
-    pub body: BodyTerms,
-    /// True with rotational circulation.
-    pub has_sections: bool,
-    /// True with nonlinear springs.
-    pub stiffens: bool,
-    /// True without any of these terms in the equations of motion.
-    pub is_plain: bool,
-}
-
-impl FourBar {
-    /// Sinusoidal drive, with the body at rest.
-    pub const SINE: FourBar = FourBar {
-        drive: Drive::SINE,
-        body: BodyTerms::None,
-        has_sections: false,
-        stiffens: false,
-        is_plain: true,
-    };
-}
-
-impl FourBar {
-    /// Returns the variant with the right `is_plain`.
-    fn classified(self) -> FourBar {
-        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
-        FourBar { is_plain, ..self }
-    }
-}
-
-impl Default for FourBar {
-    fn default() -> FourBar {
-        FourBar::SINE
-    }
-}
 
 impl Ode<4> for FourBar {
     type Constants<R: Real> = Constants<R>;

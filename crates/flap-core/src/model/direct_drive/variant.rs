@@ -1,0 +1,42 @@
+//! Variants of the direct-drive model.
+
+use super::params::FlowDirection;
+use crate::body::BodyTerms;
+use crate::drive::Drive;
+
+/// Variant of the direct-drive model: the choices on which its equations branch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DirectDrive {
+    /// Drive voltage, or prescribed stroke.
+    pub drive: Drive,
+    /// Direction of the air's flow over the wing during reversal.
+    pub flow: FlowDirection,
+    /// Terms of the body's motion.
+    pub body: BodyTerms,
+    /// True with rotational circulation, or a normal force of the rotational drag.
+    pub has_sections: bool,
+    /// True with nonlinear springs.
+    pub stiffens: bool,
+    /// True without any of these terms in the equations of motion.
+    pub is_plain: bool,
+}
+
+impl DirectDrive {
+    /// Sinusoidal drive and one direction of flow for the whole wing, with the body at rest.
+    pub const SINE: DirectDrive = DirectDrive {
+        drive: Drive::SINE,
+        flow: FlowDirection::Uniform,
+        body: BodyTerms::None,
+        has_sections: false,
+        stiffens: false,
+        is_plain: true,
+    };
+}
+
+impl DirectDrive {
+    /// Returns the variant with the right `is_plain`.
+    pub(super) fn classified(self) -> DirectDrive {
+        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        DirectDrive { is_plain, ..self }
+    }
+}
