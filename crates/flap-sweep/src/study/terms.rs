@@ -1,7 +1,9 @@
 //! Effects of the terms that the papers leave out on the measures of a design.
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{PointRun, Row, Simulator, Status};
+use flap_core::simulate::{PointRun, Row, Status};
+
+use crate::plan::Plan;
 
 /// A term: a parameter with a typical size, for the models that have this size.
 struct Term {
@@ -63,13 +65,10 @@ impl Effect {
 
 /// Returns the effect of each term on the design of `run`, the term alone.
 ///
-/// A term that the design leaves out is switched on with a typical size, other terms are switched off. `fill` updates values that
-/// depend on the changed parameter.
-pub fn effects(
-    simulator: &dyn Simulator,
-    run: &PointRun<'_>,
-    fill: impl Fn(&mut [f64], usize),
-) -> Vec<Effect> {
+/// A term that the design leaves out is switched on with a typical size, other terms are switched off. Derived parameters of the
+/// plan are updated.
+pub fn effects(plan: &Plan, run: &PointRun<'_>) -> Vec<Effect> {
+    let simulator = plan.robot().model();
     let known = TERMS.iter().filter(|term| term.models.contains(&simulator.name()));
     let changes = known.filter_map(|term| {
         let parameter = Parameter::index(simulator.parameters(), term.parameter)?;
@@ -82,7 +81,7 @@ pub fn effects(
         .map(|(parameter, before, after)| {
             let mut values = run.values.to_vec();
             values[parameter] = after;
-            fill(&mut values, parameter);
+            plan.derived().fill(&mut values, &[parameter]);
             let row = simulator.run_point(&PointRun { values: &values, ..*run }, None);
             Effect { parameter, before, after, row }
         })

@@ -45,7 +45,7 @@ pub(super) fn run(args: &TermsArgs) -> Result<Exit, Failure> {
             Some((place, *column, *header))
         })
         .collect();
-    let found = effects(simulator, &run, |values, changed| plan.derived().fill(values, &[changed]));
+    let found = effects(plan, &run);
     if found.is_empty() {
         return Err(Failure::usage(format!("the model {} has no terms in flap's list", simulator.name()))
             .help("`flap test terms` knows the terms of bimorph, direct-drive and four-bar"));
