@@ -251,7 +251,7 @@ fn the_load_is_in_the_equations_of_motion_of_the_bimorph() {
     }
 }
 
-/// Nonlinear springs of the other models add their moments to those of linear springs.
+/// A hinge with half of its stiffness, and a stop of the other half that acts from zero pitch, equals the linear hinge.
 #[test]
 fn stiffening_adds_moments_to_stroke_and_hinge() {
     for (name, stroke, hinge) in [("ozaki2018-large", 1e-2, 2e-5), ("arabagi2013-75hz", 1e-4, 1e-5)] {

@@ -20,13 +20,6 @@ pub struct NormalLoad<R> {
 }
 
 impl<R: Real> NormalLoad<R> {
-    /// Returns no load. `number` is any number.
-    #[inline(always)]
-    pub fn none(number: R) -> NormalLoad<R> {
-        let zero = number.lit(0.0);
-        NormalLoad { force: zero, chord_moment: zero, span_moment: zero }
-    }
-
     /// Returns the sum of two loads.
     #[inline(always)]
     #[must_use]

@@ -150,14 +150,16 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
 
 /// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s.
 ///
-/// N is the load of the added mass. Nonlinear springs are added. A turning body adds the inertial moment of the hinge, see [`Shoulder::gyroscopic`].
+/// N is the load of the added mass. The dots stand for the stop of the hinge and the damping. A turning body adds the inertial
+/// moment −g φ̇ of the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + κ₃ ψ³ + … = M_s + N_s + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ − g φ̇
 /// ```
 ///
-/// (1) contains no reaction of the hinge, and no inertial moment either. N contains φ̈ and ψ̇, so both equations are solved together.
+/// (1) contains no reaction of the hinge, and no inertial moment either. N contains φ̈ and ψ̈, so both equations are solved
+/// together.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,

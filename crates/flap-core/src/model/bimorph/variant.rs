@@ -20,7 +20,8 @@ pub struct Bimorph {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
-    /// True without any of these terms in the equations of motion.
+    /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
+    /// many times.
     pub is_plain: bool,
 }
 
@@ -35,18 +36,16 @@ impl Bimorph {
         stiffens: false,
         is_plain: true,
     };
+
+    /// Returns the variant with the right `is_plain`.
+    pub(super) fn classified(self) -> Bimorph {
+        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        Bimorph { is_plain, ..self }
+    }
 }
 
 impl Default for Bimorph {
     fn default() -> Bimorph {
         Bimorph::SINE
-    }
-}
-
-impl Bimorph {
-    /// Returns the variant with the right `is_plain`.
-    pub(super) fn classified(self) -> Bimorph {
-        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
-        Bimorph { is_plain, ..self }
     }
 }

@@ -128,8 +128,7 @@ crate::parameters! {
         /// or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
         /// Cubic stiffness of the stroke: the actuator adds a moment of stroke_stiffening times the third power of the stroke,
-        /// against the stroke. Ozaki and Hamaguchi (2018)
-        /// do not use this parameter.
+        /// against the stroke. Ozaki and Hamaguchi (2018) do not use this parameter.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use this parameter.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,

@@ -5,7 +5,7 @@ use crate::body::BodyTerms;
 use crate::drive::Drive;
 
 /// Variant of the direct-drive model: the choices on which its equations branch.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DirectDrive {
     /// Drive voltage, or prescribed stroke.
     pub drive: Drive,
@@ -17,7 +17,8 @@ pub struct DirectDrive {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
-    /// True without any of these terms in the equations of motion.
+    /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
+    /// many times.
     pub is_plain: bool,
 }
 
@@ -31,12 +32,16 @@ impl DirectDrive {
         stiffens: false,
         is_plain: true,
     };
-}
 
-impl DirectDrive {
     /// Returns the variant with the right `is_plain`.
     pub(super) fn classified(self) -> DirectDrive {
         let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
         DirectDrive { is_plain, ..self }
+    }
+}
+
+impl Default for DirectDrive {
+    fn default() -> DirectDrive {
+        DirectDrive::SINE
     }
 }

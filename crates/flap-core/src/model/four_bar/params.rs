@@ -93,8 +93,7 @@ crate::parameters! {
         /// Moment of inertia of the output link about its centre. The value is assumed: the inertia of a uniform rod.
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
         /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of the stroke,
-        /// against the stroke. Arabagi et al. (2013)
-        /// do not use this parameter.
+        /// against the stroke. Arabagi et al. (2013) do not use this parameter.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke by the flexures of the transmission. The value is assumed: it gives modal
         /// damping ratios of 4 to 9 percent.

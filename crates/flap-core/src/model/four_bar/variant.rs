@@ -14,7 +14,8 @@ pub struct FourBar {
     pub has_sections: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
-    /// True without any of these terms in the equations of motion.
+    /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
+    /// many times.
     pub is_plain: bool,
 }
 
@@ -27,9 +28,7 @@ impl FourBar {
         stiffens: false,
         is_plain: true,
     };
-}
 
-impl FourBar {
     /// Returns the variant with the right `is_plain`.
     pub(super) fn classified(self) -> FourBar {
         let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
