@@ -74,6 +74,7 @@ impl<R: Real, const N: usize> Step<R, N> {
         if O::HAS_PLAIN && ode.is_plain() {
             self.stages::<O, true, D>(responses, ode, c, t, h, side);
         } else if O::HAS_PLAIN {
+            // Out of line, so that this code does not slow down the steps of plain variants.
             h.outlined(
                 #[inline(always)]
                 || self.stages::<O, false, D>(responses, ode, c, t, h, side),
