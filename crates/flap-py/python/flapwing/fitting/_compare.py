@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._types import Array, Mask
-from . import _report, _search
+from . import _assess, _report, _search
 from ._data import DataSet
 from ._noise import Noise
 from ._points import answers_at, cell, points_of
@@ -262,7 +262,7 @@ class Comparison:
             if first.name != best.name:
                 lines.append(f"{first.name} predicts the readings that were held out best")
         good = self._sides[0].fit.goodness
-        if good.p < _report.POOR or good.is_structured:
+        if good.p < _assess.POOR or good.is_structured:
             lines.append(f"{best.name} does not agree with the readings either: all fits lack an effect")
         return lines
 
@@ -519,7 +519,10 @@ def _decide(
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]
-    chosen, errors, expected, total = [], [], [], 0.0
+    chosen: list[int] = []
+    errors: list[float] = []
+    expected: list[float] = []
+    total = 0.0
     for _ in range(min(count, len(variance))):
         moved = [slope @ covariance for slope, covariance in zip(slopes, covariances)]
         spreads = [variance + np.einsum("ij,ij->i", one, slope) for one, slope in zip(moved, slopes)]

@@ -16,11 +16,11 @@ from .._types import Array, Design, Mask, Value
 from . import _data, _fit, _held, _intervals, _parameters, _report, _search
 from ._compare import criteria, log_likelihoods
 from ._data import DataSet
-from ._model import Answer, Model
+from ._model import FINE, Answer, Model
 from ._names import Names
 from ._parameters import Coordinate, FreeParameter, Space
 from ._result import Fit
-from ._search import FINE, Found, Target
+from ._search import Found, Target
 from ._solution import Effort
 
 #: Largest error of the cost of a fit, and largest number of rounds in which standard errors are updated.
