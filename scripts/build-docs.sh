@@ -38,8 +38,9 @@ if ! cmp -s "$requirements" "$work/made-from"; then
 fi
 export PATH="$work/env/bin:$PATH"
 
-# The command and the package whose help and docstrings become the reference.
-cargo build --quiet --locked -p flap-cli
+# The command and the package whose help and docstrings become the reference. Built with the package, it has the dependencies' features
+# of the wheel, so crates are not compiled twice.
+cargo build --quiet --locked -p flap-cli -p flap-py
 rm -rf -- "$work/wheels"
 python -m pip wheel --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps --no-build-isolation \
     --config-settings "build-args=--profile dev --locked" --wheel-dir "$work/wheels" ./crates/flap-py

@@ -60,8 +60,9 @@ export PATH="$work/bin:$PATH"
 ruff format --quiet --check .
 ruff check --quiet .
 
-# Rows are compared with those of the command.
-cargo build --quiet --profile "$profile" --locked -p flap-cli
+# Rows are compared with those of the command. Built with the package, it has the dependencies' features
+# of the wheel, so crates are not compiled twice.
+cargo build --quiet --profile "$profile" --locked -p flap-cli -p flap-py
 folder=$profile
 [[ $profile == dev ]] && folder=debug
 export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
@@ -75,13 +76,14 @@ export FLAPWING_WHEEL
 export FLAPWING_PACKAGES=$work/packages
 python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
 
-export PYTHONDONTWRITEBYTECODE=1
-python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
-# Pages of results and the live page, in chromium: skipped where that is not installed.
-python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/browser
 export MYPY_CACHE_DIR=$work/mypy-cache
 python -m mypy --config-file tests/python/mypy.ini crates/flap-py/python/flapwing
 python -m mypy --config-file tests/python/mypy.ini benches/peers/harness
 python -m mypy --config-file tests/python/mypy.ini benches/growth/scaling
 python -m mypy --config-file tests/python/mypy.ini tests/data/generate/reference
 python -m mypy.stubtest flapwing._flapwing --mypy-config-file tests/python/mypy.ini
+
+export PYTHONDONTWRITEBYTECODE=1
+python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/python "$@"
+# Pages of results and the live page, in chromium: skipped where that is not installed.
+python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/browser
