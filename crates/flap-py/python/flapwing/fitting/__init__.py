@@ -20,6 +20,7 @@
 
 from __future__ import annotations
 
+from ._candidates import candidates
 from ._compare import ComparedFit, Comparison, DecidingMeasurements, DecidingReading, compare
 from ._data import Readings
 from ._discrepancy import Discrepancy
@@ -28,7 +29,7 @@ from ._intervals import Profile
 from ._parameters import FreeParameter
 from ._plan import NextMeasurements
 from ._result import Fit, Prediction
-from ._select import Selection, SelectionStep, candidates, select
+from ._select import Selection, SelectionStep, select
 from ._solution import Effort, Estimate, Goodness, HeldOut, Outlier, Residuals, Unsettled
 from ._structure import Structure
 

@@ -5,20 +5,20 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, SupportsIndex, TypeGuard
+from typing import Any, SupportsIndex
 
 import numpy as np
 
-from .. import _arguments, _flapwing
-from .._flapwing import Grid
+from .. import _arguments
 from .._progress import Progress, shown
 from .._types import Array, Design, Mask, Value
 from . import _data, _fit, _held, _intervals, _parameters, _report, _search
+from ._candidates import is_number
 from ._compare import criteria, log_likelihoods
 from ._data import DataSet
 from ._model import FINE, Answer, Model
 from ._names import Names
-from ._parameters import Coordinate, FreeParameter, Space
+from ._parameters import Coordinate, Space
 from ._result import Fit
 from ._search import Found, Target
 from ._solution import Effort
@@ -31,122 +31,6 @@ _NEEDED = 10.0
 
 #: A candidate is fitted if its predicted gain is at least this share of the best gain of the step.
 _WORTH = 0.5
-
-#: Numbers that were fitted to one vehicle in the presets of `bimorph`, with the parameters of the other models that are
-#: uncertain in most robots.
-_UNCERTAIN = (
-    "hinge_stiffness",
-    "transmission_stiffness",
-    "wing_inertia_stroke",
-    "wing_inertia_hinge",
-    "wing_inertia_product",
-    "drag_coefficient_max",
-    "drag_coefficient_min",
-    "lift_coefficient_max",
-    "pressure_radius",
-    "pressure_min",
-    "pressure_max",
-    "rotation_pressure_width",
-    "force_factor",
-    "stiffness_factor",
-    "deflection_factor",
-)
-
-#: Terms that the papers leave out, and a number with wide bounds. The bounds are multiples of a typical size of the
-#: design; see `_sizes`.
-_BOUNDS = {
-    "drag_coefficient_min": (0.05, 2.0, "one"),
-    "stroke_damping": (0.0, 1.0, "stroke damping"),
-    "stroke_loss_factor": (0.0, 0.5, "one"),
-    "hinge_damping": (0.0, 0.5, "hinge damping"),
-    "hinge_loss_factor": (0.0, 0.5, "one"),
-    "transmission_growth": (-0.25, 0.5, "transmission"),
-    "stroke_stiffening": (-0.2, 1.0, "stroke stiffness"),
-    "hinge_stiffening": (-0.2, 1.0, "hinge stiffness"),
-    "hinge_stop_stiffness": (0.0, 10.0, "hinge stiffness"),
-    "modulus_decline": (0.0, 0.5, "per field"),
-    "circulation_factor": (0.0, 2.0, "one"),
-    "rotation_force_factor": (0.0, 2.0, "one"),
-    "added_mass_factor": (0.0, 2.0, "one"),
-    "plate_ratio": (0.5, 1.5, "one"),
-}
-
-
-def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
-
-    def of(name: str) -> float:
-        value = values.get(name)
-        return float(value) if isinstance(value, (int, float)) and value > 0 else np.nan
-
-    rate = 2.0 * np.pi * of("drive_frequency")
-    inertia = of("wing_inertia_stroke" if "wing_inertia_stroke" in values else "leading_edge_inertia")
-    return {
-        "one": 1.0,
-        "stroke damping": inertia * rate,
-        "stroke stiffness": inertia * rate**2,
-        "hinge damping": of("hinge_stiffness") / rate,
-        "hinge stiffness": of("hinge_stiffness"),
-        "transmission": of("transmission_ratio") ** 3,
-        "per field": 2.0 * of("piezo_thickness") / of("drive_voltage_pp"),
-    }
-
-
-def candidates(design: Design, /) -> dict[str, FreeParameter]:
-    """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
-
-    The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
-    design's value. The parameters in the next list have other bounds. In the list, ω is the angular drive frequency, J
-    the wing's inertia about the stroke axis, κ the `hinge_stiffness`, and T the `transmission_ratio`. E is half of the
-    drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
-
-    - `drag_coefficient_min`: 0.05 to 2
-    - `stroke_damping`: 0 to J ω
-    - `stroke_loss_factor`, `hinge_loss_factor`: 0 to 0.5
-    - `hinge_damping`: 0 to 0.5 κ/ω
-    - `transmission_growth`: -0.25 T³ to 0.5 T³
-    - `stroke_stiffening`: -0.2 J ω² to J ω²
-    - `hinge_stiffening`: -0.2 κ to κ
-    - `hinge_stop_stiffness`: 0 to 10 κ
-    - `modulus_decline`: 0 to 0.5 / E
-    - `circulation_factor`, `rotation_force_factor`, `added_mass_factor`: 0 to 2
-    - `plate_ratio`: 0.5 to 1.5
-
-    Parameters
-    ----------
-    design : str, path, dict or Grid
-        A preset, a device, or a grid without axes.
-
-    Returns
-    -------
-    dict of str to FreeParameter
-        The candidates with their bounds in SI units. Remove or add entries before you call `select`.
-
-    Raises
-    ------
-    ValueError
-        The design is unknown.
-
-    Examples
-    --------
-    >>> flapwing.candidates("jafferis2016")["hinge_loss_factor"].high
-    0.5
-    """
-    grid = Grid(design)
-    listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
-    sizes = _sizes(listed)
-    found = {name: FreeParameter() for name in _UNCERTAIN if _is_number(listed.get(name)) and listed[name] != 0}
-    for name, (low, high, size) in _BOUNDS.items():
-        value, low, high = listed.get(name), low * sizes[size], high * sizes[size]
-        if _is_number(value) and np.isfinite(high):
-            # A damping of a preset that is not zero has a value of its own.
-            is_own = low == 0.0 and value != 0.0
-            found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)
-    return found
-
-
-def _is_number(value: Any) -> TypeGuard[float]:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True)
@@ -670,7 +554,7 @@ def _listed(place: str, given: Any) -> dict[str, Any]:
 def _check_values(names: Names, more: Sequence[str]) -> None:
     for name in more:
         value = names.nominal.get(name)
-        if not _is_number(value) or not np.isfinite(value):
+        if not is_number(value) or not np.isfinite(value):
             raise ValueError(
                 f"`{name}` has no value in the design, so it has no value before it is freed\nset it in the design"
             )
@@ -679,7 +563,7 @@ def _check_values(names: Names, more: Sequence[str]) -> None:
 def _check(criterion: Any, significance: Any, tries: Any, budget: Any) -> None:
     if criterion not in ("AICc", "BIC"):
         raise ValueError(f'`criterion` is {criterion!r}\nit must be "AICc" or "BIC"')
-    if not _is_number(significance) or not 0 < significance <= 1:
+    if not is_number(significance) or not 0 < significance <= 1:
         raise ValueError(f"`significance` is {significance!r}\nit must be more than 0 and at most 1")
     for name, value in (("tries", tries), ("budget", 1 if budget is None else budget)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:

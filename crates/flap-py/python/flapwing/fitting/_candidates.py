@@ -1,0 +1,130 @@
+"""Candidates for the selection of free parameters: uncertain parameters, and terms that the papers leave out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeGuard
+
+import numpy as np
+
+from .. import _flapwing
+from .._flapwing import Grid
+from .._types import Design
+from ._parameters import FreeParameter
+
+#: Numbers that were fitted to one vehicle in the presets of `bimorph`, with the parameters of the other models that are
+#: uncertain in most robots.
+_UNCERTAIN = (
+    "hinge_stiffness",
+    "transmission_stiffness",
+    "wing_inertia_stroke",
+    "wing_inertia_hinge",
+    "wing_inertia_product",
+    "drag_coefficient_max",
+    "drag_coefficient_min",
+    "lift_coefficient_max",
+    "pressure_radius",
+    "pressure_min",
+    "pressure_max",
+    "rotation_pressure_width",
+    "force_factor",
+    "stiffness_factor",
+    "deflection_factor",
+)
+
+#: Terms that the papers leave out, and a number with wide bounds. The bounds are multiples of a typical size of the
+#: design; see `_sizes`.
+_BOUNDS = {
+    "drag_coefficient_min": (0.05, 2.0, "one"),
+    "stroke_damping": (0.0, 1.0, "stroke damping"),
+    "stroke_loss_factor": (0.0, 0.5, "one"),
+    "hinge_damping": (0.0, 0.5, "hinge damping"),
+    "hinge_loss_factor": (0.0, 0.5, "one"),
+    "transmission_growth": (-0.25, 0.5, "transmission"),
+    "stroke_stiffening": (-0.2, 1.0, "stroke stiffness"),
+    "hinge_stiffening": (-0.2, 1.0, "hinge stiffness"),
+    "hinge_stop_stiffness": (0.0, 10.0, "hinge stiffness"),
+    "modulus_decline": (0.0, 0.5, "per field"),
+    "circulation_factor": (0.0, 2.0, "one"),
+    "rotation_force_factor": (0.0, 2.0, "one"),
+    "added_mass_factor": (0.0, 2.0, "one"),
+    "plate_ratio": (0.5, 1.5, "one"),
+}
+
+
+def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
+
+    def of(name: str) -> float:
+        value = values.get(name)
+        return float(value) if isinstance(value, (int, float)) and value > 0 else np.nan
+
+    rate = 2.0 * np.pi * of("drive_frequency")
+    inertia = of("wing_inertia_stroke" if "wing_inertia_stroke" in values else "leading_edge_inertia")
+    return {
+        "one": 1.0,
+        "stroke damping": inertia * rate,
+        "stroke stiffness": inertia * rate**2,
+        "hinge damping": of("hinge_stiffness") / rate,
+        "hinge stiffness": of("hinge_stiffness"),
+        "transmission": of("transmission_ratio") ** 3,
+        "per field": 2.0 * of("piezo_thickness") / of("drive_voltage_pp"),
+    }
+
+
+def candidates(design: Design, /) -> dict[str, FreeParameter]:
+    """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
+
+    The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
+    design's value. The parameters in the next list have other bounds. In the list, ω is the angular drive frequency, J
+    the wing's inertia about the stroke axis, κ the `hinge_stiffness`, and T the `transmission_ratio`. E is half of the
+    drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
+
+    - `drag_coefficient_min`: 0.05 to 2
+    - `stroke_damping`: 0 to J ω
+    - `stroke_loss_factor`, `hinge_loss_factor`: 0 to 0.5
+    - `hinge_damping`: 0 to 0.5 κ/ω
+    - `transmission_growth`: -0.25 T³ to 0.5 T³
+    - `stroke_stiffening`: -0.2 J ω² to J ω²
+    - `hinge_stiffening`: -0.2 κ to κ
+    - `hinge_stop_stiffness`: 0 to 10 κ
+    - `modulus_decline`: 0 to 0.5 / E
+    - `circulation_factor`, `rotation_force_factor`, `added_mass_factor`: 0 to 2
+    - `plate_ratio`: 0.5 to 1.5
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, a device, or a grid without axes.
+
+    Returns
+    -------
+    dict of str to FreeParameter
+        The candidates with their bounds in SI units. Remove or add entries before you call `select`.
+
+    Raises
+    ------
+    ValueError
+        The design is unknown.
+
+    Examples
+    --------
+    >>> flapwing.candidates("jafferis2016")["hinge_loss_factor"].high
+    0.5
+    """
+    grid = Grid(design)
+    listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
+    sizes = _sizes(listed)
+    found = {name: FreeParameter() for name in _UNCERTAIN if is_number(listed.get(name)) and listed[name] != 0}
+    for name, (low, high, size) in _BOUNDS.items():
+        value, low, high = listed.get(name), low * sizes[size], high * sizes[size]
+        if is_number(value) and np.isfinite(high):
+            # A damping of a preset that is not zero has a value of its own.
+            is_own = low == 0.0 and value != 0.0
+            found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)
+    return found
+
+
+def is_number(value: Any) -> TypeGuard[float]:
+    """Return True for numbers, without True and False."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
