@@ -5,7 +5,7 @@ use core::hint::black_box;
 use std::time::Instant;
 
 use flap_core::num::{Backend, Kernel, Lanes, Real, Simd, Vector};
-use flap_core::ode::ensemble::{NewRun, Next, Queue, SpanEnd, Unobserved, run};
+use flap_core::ode::ensemble::{MOST_LANES, Next, Queue, SpanEnd, Unobserved, run};
 use flap_core::ode::{Start, Tolerances};
 
 use crate::Effort;
@@ -124,7 +124,8 @@ impl Kernel for March<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
         let March { periods, mark } = self;
-        let mut alike = Alike { left: Vector::<S>::LANES, periods, marks: 0, rhs_evals: 0, mark };
+        let mut alike =
+            Alike { left: Vector::<S>::LANES, periods: [periods; MOST_LANES], marks: 0, rhs_evals: 0, mark };
         run(simd, &Wing, &Unobserved, &TOLERANCES, &mut alike);
         alike.rhs_evals
     }
@@ -133,27 +134,26 @@ impl Kernel for March<'_> {
 /// The same run for every lane. They end together: what is marked ends with the first.
 struct Alike<'a> {
     left: usize,
-    periods: u64,
+    /// Periods left in each lane.
+    periods: [u64; MOST_LANES],
     marks: u32,
     rhs_evals: u64,
     mark: &'a mut dyn FnMut(),
 }
 
 impl Queue<Wing, Unobserved, 4> for Alike<'_> {
-    /// Periods left.
-    type Run = u64;
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<u64, Drive<f64>, 4>> {
+    fn next(&mut self, _lane: usize, _idle: bool) -> Option<Start<Drive<f64>, 4>> {
         self.left = self.left.checked_sub(1)?;
         if self.left == 0 {
             (self.mark)();
         }
-        Some((self.periods, Start::new(Drive::new(0.1, 120.0), [0.0; 4], 1.0 / 120.0, SCALE)))
+        Some(Start::new(Drive::new(0.1, 120.0), [0.0; 4], 1.0 / 120.0, SCALE))
     }
 
-    fn ended(&mut self, left: u64, end: SpanEnd<'_, (), 4>) -> Option<(u64, Next<4>)> {
-        if left > 1 {
-            return Some((left - 1, Next::Span));
+    fn ended(&mut self, lane: usize, end: SpanEnd<'_, (), 4>) -> Option<Next<4>> {
+        self.periods[lane] -= 1;
+        if self.periods[lane] > 0 {
+            return Some(Next::Span);
         }
         if self.marks == 0 {
             self.marks = 1;

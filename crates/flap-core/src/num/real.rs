@@ -64,9 +64,7 @@ pub trait Real:
     /// Returns the entries of a table at `self`, lane by lane. The entries are constants without derivatives.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
-    /// Calls `work` in a function that is compiled once, if that saves compile time without costing speed.
-    ///
-    /// This is the case for SIMD types, where many layers are inlined.
+    /// Calls `work`. Scalars and SIMD types call it out of line, so that it is compiled once.
     #[inline(always)]
     fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         work()

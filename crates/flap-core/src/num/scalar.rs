@@ -17,7 +17,11 @@ pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
     /// Returns the value.
     fn value(self) -> f64;
 
-    /// Calls `work` with the fastest instructions for this arithmetic enabled. Results do not depend on them.
+    /// Calls `work` with the instructions for this arithmetic enabled.
+    ///
+    /// # Panics
+    ///
+    /// The processor does not have them: `f64` needs AVX2 on x86-64. There, use [`Unfused`].
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
@@ -89,14 +93,14 @@ impl Scalar for f64 {
         self
     }
 
-    /// Enables the fused multiply-add instruction. Without it, `mul_add` calls the C library, which returns the same
-    /// bits.
     #[inline(always)]
     fn enter<T>(work: impl FnOnce() -> T) -> T {
         #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = fearless_simd::Level::new().as_avx2() {
-            return fearless_simd::Simd::vectorize(simd, work);
-        }
+        return fearless_simd::Simd::vectorize(
+            fearless_simd::Level::new().as_avx2().expect("fused multiply-add needs a processor with AVX2"),
+            work,
+        );
+        #[cfg(not(target_arch = "x86_64"))]
         work()
     }
 }
@@ -140,6 +144,16 @@ impl Real for f64 {
     fn select(mask: bool, yes: f64, no: f64) -> f64 {
         if mask { yes } else { no }
     }
+
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        // Without the instructions of `enter`, the C library computes the same bits.
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = fearless_simd::Level::new().as_avx2() {
+            return fearless_simd::Simd::vectorize(simd, work);
+        }
+        call(work)
+    }
 }
 
 impl Bits for f64 {
@@ -172,6 +186,12 @@ impl Bits for f64 {
     fn times_power_of_two(self, k: f64) -> f64 {
         f64::from_bits(self.to_bits().wrapping_add((k + ROUND).to_bits() << 52))
     }
+}
+
+/// Calls `work` out of line.
+#[inline(never)]
+fn call<T>(work: impl FnOnce() -> T) -> T {
+    work()
 }
 
 /// An `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
@@ -227,6 +247,11 @@ impl Real for Unfused {
     #[inline(always)]
     fn select(mask: bool, yes: Unfused, no: Unfused) -> Unfused {
         if mask { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
+        call(work)
     }
 }
 

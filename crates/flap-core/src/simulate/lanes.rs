@@ -26,7 +26,7 @@ use crate::measure::size::Size;
 use crate::model::{Model, SignalSet};
 use crate::num::{Kernel, Lanes, OneLane, Scalar, Simd, Vector};
 use crate::ode::ensemble::{
-    NewRun, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run, run_with_responses,
+    MOST_LANES, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run, run_with_responses,
 };
 use crate::ode::{Interrupt, Start};
 
@@ -268,7 +268,7 @@ where
     fn integrate(&mut self, kind: Kind) -> Occupancy {
         let (simd, model, tolerances) = (self.simd, self.model, self.solver.tolerances());
         let loads = self.solver.loads;
-        let mut periods = Periods { driver: self, kind };
+        let mut periods = Periods { driver: self, kind, runs: [const { None }; MOST_LANES] };
         match kind {
             Kind::States => run(simd, model, &Size, &tolerances, &mut periods),
             Kind::Responses => run_with_responses(simd, model, &Unobserved, &tolerances, &mut periods),
@@ -340,26 +340,11 @@ where
 }
 
 /// The periods of one kind, as the queue of an ensemble.
-struct Periods<'d, D> {
-    driver: &'d mut D,
+struct Periods<'a, 's, 'd, I, M: Model<N>, Q, T, const N: usize> {
+    driver: &'d mut Driver<'a, 's, I, M, Q, T, N>,
     kind: Kind,
-}
-
-impl<'a, I, M, Q, T, const N: usize> Periods<'_, Driver<'a, '_, I, M, Q, T, N>>
-where
-    I: Simd,
-    M: Model<N>,
-    Q: Source<'a, T, M, N>,
-{
-    /// Passes the end of a period to its search. Returns the search if it keeps its lane.
-    fn period_end(
-        &mut self,
-        run: Run<'a, T, M, N>,
-        end: PeriodEnd<SumsOf<M, N>, N>,
-    ) -> Option<(Run<'a, T, M, N>, Option<Restart<N>>)> {
-        run.exchange.finish(end);
-        self.driver.go_on(run, self.kind)
-    }
+    /// Search of the period in each lane.
+    runs: [Option<Run<'a, T, M, N>>; MOST_LANES],
 }
 
 /// Totals over a period that a search needs. Totals over the signals have the type `T`.
@@ -385,7 +370,7 @@ impl<S: SignalSet, const N: usize> PeriodTotals<Sums<S, f64>, N> for Sums<S, f64
     }
 }
 
-impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'_, Driver<'a, '_, I, M, Q, T, N>>
+impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'a, '_, '_, I, M, Q, T, N>
 where
     I: Simd,
     M: Model<N>,
@@ -393,22 +378,24 @@ where
     V::Totals<f64>: PeriodTotals<SumsOf<M, N>, N>,
     Q: Source<'a, T, M, N>,
 {
-    type Run = Run<'a, T, M, N>;
-
-    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, M::Constants<f64>, N>> {
+    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<M::Constants<f64>, N>> {
         let (run, begin) = self.driver.next(self.kind, idle)?;
         let start = begin.start(run.start.constants);
-        Some((run, start))
+        self.runs[lane] = Some(run);
+        Some(start)
     }
 
-    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)> {
+    fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {
+        let run = self.runs[lane].take()?;
         let mut period = PeriodEnd::new(*end.y, end.outcome);
         end.totals.add_to(&mut period, &run.exchange);
         if self.kind == Kind::Responses {
             period.monodromy = monodromy(end.responses, &run.start.scale);
         }
-        let (run, begin) = self.period_end(run, period)?;
-        Some((run, begin.map_or(Next::Span, Next::Restart)))
+        run.exchange.finish(period);
+        let (run, begin) = self.driver.go_on(run, self.kind)?;
+        self.runs[lane] = Some(run);
+        Some(begin.map_or(Next::Span, Next::Restart))
     }
 
     fn interrupted(&self) -> bool {

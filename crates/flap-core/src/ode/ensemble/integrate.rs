@@ -1,6 +1,6 @@
 //! Integration of many initial value problems at once.
 
-use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
+use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use super::schedule::run;
 use crate::num::{Backend, Kernel, Simd};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
@@ -75,7 +75,8 @@ impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Kernel for Integrate<'_, O, V
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Output {
         let Integrate { ode, observer, tolerances, starts, spans } = self;
-        let mut queue = List { starts, spans, begun: 0, ends: vec![None; starts.len()] };
+        let mut queue =
+            List { starts, spans, begun: 0, lanes: [(0, 0); MOST_LANES], ends: vec![None; starts.len()] };
         run(simd, ode, observer, tolerances, &mut queue);
         // Every run has ended, so no entry is `None`.
         queue.ends.into_iter().flatten().collect()
@@ -86,28 +87,26 @@ struct List<'a, C, T, const N: usize> {
     starts: &'a [Start<C, N>],
     spans: u32,
     begun: usize,
+    /// Position of the run in each lane, and number of spans left.
+    lanes: [(usize, u32); MOST_LANES],
     ends: Vec<Option<Integrated<T, N>>>,
 }
 
 impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
     for List<'_, O::Constants<f64>, V::Totals<f64>, N>
 {
-    /// Position of the run, and number of spans left.
-    type Run = (usize, u32);
-
-    fn next(&mut self, _idle: bool) -> Option<NewRun<(usize, u32), O::Constants<f64>, N>> {
+    fn next(&mut self, lane: usize, _idle: bool) -> Option<Start<O::Constants<f64>, N>> {
         let start = *self.starts.get(self.begun)?;
+        self.lanes[lane] = (self.begun, self.spans);
         self.begun += 1;
-        Some(((self.begun - 1, self.spans), start))
+        Some(start)
     }
 
-    fn ended(
-        &mut self,
-        (position, spans): (usize, u32),
-        end: SpanEnd<'_, V::Totals<f64>, N>,
-    ) -> Option<((usize, u32), Next<N>)> {
+    fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {
         let SpanEnd { y, totals, outcome, .. } = end;
-        self.ends[position] = Some(Integrated { y: *y, totals: *totals, outcome });
-        (outcome.ending == Ending::Stopped && spans > 1).then_some(((position, spans - 1), Next::Span))
+        let (position, spans) = &mut self.lanes[lane];
+        self.ends[*position] = Some(Integrated { y: *y, totals: *totals, outcome });
+        *spans -= 1;
+        (outcome.ending == Ending::Stopped && *spans > 0).then_some(Next::Span)
     }
 }

@@ -12,7 +12,7 @@ mod queue;
 mod schedule;
 
 pub use integrate::{Integrated, integrate};
-pub use queue::{NewRun, Next, Observer, Queue, Restart, SpanEnd, Unobserved};
+pub use queue::{MOST_LANES, Next, Observer, Queue, Restart, SpanEnd, Unobserved};
 pub use schedule::{Occupancy, run};
 
 pub(crate) use schedule::run_with_responses;

@@ -4,8 +4,8 @@ use crate::num::{Lanes, PerLane};
 use crate::ode::step::Attempt;
 use crate::ode::{Ode, Outcome, Start};
 
-/// A run to be started: the caller's label, and the start.
-pub type NewRun<Run, C, const N: usize> = (Run, Start<C, N>);
+/// Largest number of lanes of any backend: two registers of AVX-512.
+pub const MOST_LANES: usize = 16;
 
 /// A restart of a run in the same lane, with the same constants.
 #[derive(Clone, Copy, Debug)]
@@ -53,19 +53,16 @@ pub enum Next<const N: usize> {
     Restart(Restart<N>),
 }
 
-/// Source of runs and receiver of their results.
+/// Source of runs and receiver of their results. Lanes are numbered from zero, below [`MOST_LANES`].
 pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
-    /// The caller's label of a run while it is in a lane.
-    type Run;
-
-    /// Returns the next run, or `None` if there is none at present.
+    /// Returns the start of the next run, which goes into this free lane, or `None` if there is none at present.
     ///
     /// If `idle` is true, no lane is running: the call may wait, and `None` ends the ensemble.
-    fn next(&mut self, idle: bool) -> Option<NewRun<Self::Run, O::Constants<f64>, N>>;
+    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<O::Constants<f64>, N>>;
 
-    /// Receives a run at the end of a span, or at its failure. Returns the run and its next task to keep it in its
-    /// lane.
-    fn ended(&mut self, run: Self::Run, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<(Self::Run, Next<N>)>;
+    /// Receives the run of a lane at the end of a span, or at its failure. Returns its next task; with `None` the run
+    /// leaves the lane.
+    fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>>;
 
     /// Returns true to end at once. Runs in lanes are dropped; see [`Interrupt`](crate::ode::Interrupt).
     fn interrupted(&self) -> bool {

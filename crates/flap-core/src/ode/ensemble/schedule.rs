@@ -3,7 +3,7 @@
 use core::ops::AddAssign;
 
 use super::bank::{Bank, Events};
-use super::queue::{NewRun, Next, Observer, Queue, SpanEnd};
+use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
@@ -29,7 +29,7 @@ pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut impl Queue<O, V, N>,
+    queue: &mut dyn Queue<O, V, N>,
 ) -> Occupancy {
     run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
 }
@@ -40,38 +40,35 @@ pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N:
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut impl Queue<O, V, N>,
+    queue: &mut dyn Queue<O, V, N>,
 ) -> Occupancy {
     run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
 }
 
-/// [`run`] with responses to D changes.
+/// [`run`] with responses to D changes. The queue is not generic, so this is compiled once per observer.
 fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
     simd: S,
     ode: &O,
     observer: &V,
     tolerances: &Tolerances,
-    queue: &mut impl Queue<O, V, N>,
+    queue: &mut dyn Queue<O, V, N>,
 ) -> Occupancy {
-    let Some(first) = queue.next(true) else { return Occupancy::default() };
+    let Some(first) = queue.next(0, true) else { return Occupancy::default() };
     // The queue's callbacks may call this again, so it enters a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
-            Schedule::<Vector<S>, O, V, _, N, D>::new(simd, observer, tolerances, first)
+            Schedule::<Vector<S>, O, V, N, D>::new(simd, observer, tolerances, &first)
                 .drive(ode, observer, queue)
         },
     )
 }
 
-/// Largest number of lanes of any backend: two registers of AVX-512.
-const MOST_LANES: usize = 16;
-
-/// The lanes, and the run in each of them.
-struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize> {
+/// The lanes, and which of them have a run.
+struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     bank: Bank<R, O, V, N, D>,
-    /// Run in each lane; `None` if the lane waits for work.
-    runs: [Option<Running<Run>>; MOST_LANES],
+    /// Number of vector steps at the beginning of the run in each lane.
+    began: [u64; MOST_LANES],
     /// Number of vector steps.
     steps: u64,
     /// Number of steps of the runs that have ended.
@@ -82,52 +79,44 @@ struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, con
     fresh: u64,
 }
 
-struct Running<Run> {
-    run: Run,
-    /// Number of vector steps at its start.
-    began: u64,
-}
-
-impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize>
-    Schedule<R, O, V, Run, N, D>
-{
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Schedule<R, O, V, N, D> {
     /// Returns a schedule with one run, in lane 0.
     #[inline(always)]
     fn new(
         token: R::Token,
         observer: &V,
         tolerances: &Tolerances,
-        (run, start): NewRun<Run, O::Constants<f64>, N>,
+        first: &Start<O::Constants<f64>, N>,
     ) -> Self {
         const { assert!(R::LANES <= MOST_LANES) };
         let mut schedule = Schedule {
-            bank: Bank::new(token, observer, tolerances, &start),
-            runs: [const { None }; MOST_LANES],
+            bank: Bank::new(token, observer, tolerances, first),
+            began: [0; MOST_LANES],
             steps: 0,
             used: 0,
             active: 0,
             fresh: 0,
         };
-        schedule.load(0, run, &start, observer);
+        schedule.load(0, first, observer);
         schedule
     }
 
     /// Loads a run into a lane.
-    fn load(&mut self, lane: usize, run: Run, start: &Start<O::Constants<f64>, N>, observer: &V) {
+    fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.bank.load(lane, start, observer);
-        self.begin(lane, run);
+        self.begin(lane);
     }
 
-    /// Starts a loaded run.
-    fn begin(&mut self, lane: usize, run: Run) {
-        self.runs[lane] = Some(Running { run, began: self.steps });
+    /// Starts the loaded run of a lane.
+    fn begin(&mut self, lane: usize) {
+        self.began[lane] = self.steps;
         self.active |= 1 << lane;
         self.fresh |= 1 << lane;
     }
 
     /// Integrates until the queue is empty.
     #[inline(always)]
-    fn drive(mut self, ode: &O, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) -> Occupancy {
+    fn drive(mut self, ode: &O, observer: &V, queue: &mut dyn Queue<O, V, N>) -> Occupancy {
         loop {
             self.refill(observer, queue);
             if self.active == 0 || queue.interrupted() {
@@ -150,41 +139,37 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, Run, const N: usize, const D: usize
     }
 
     /// Fills waiting lanes, as long as the queue has runs.
-    fn refill(&mut self, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
+    fn refill(&mut self, observer: &V, queue: &mut dyn Queue<O, V, N>) {
         for lane in 0..R::LANES {
             if self.active & (1 << lane) != 0 {
                 continue;
             }
-            match queue.next(self.active == 0) {
-                Some((run, start)) => self.load(lane, run, &start, observer),
+            match queue.next(lane, self.active == 0) {
+                Some(start) => self.load(lane, &start, observer),
                 None => return,
             }
         }
     }
 
     /// Passes runs at the ends of their spans and failed runs to the queue.
-    fn settle(&mut self, events: &Events, observer: &V, queue: &mut impl Queue<O, V, N, Run = Run>) {
+    fn settle(&mut self, events: &Events, observer: &V, queue: &mut dyn Queue<O, V, N>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
             if (events.landed | events.failed) & bit == 0 {
                 continue;
             }
-            let Some(Running { run, began }) = self.runs[lane].take() else { continue };
             let failed = events.failed & bit != 0;
             let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
-            let steps = self.steps - began;
+            let steps = self.steps - self.began[lane];
             let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
             let responses = &self.bank.responses(lane);
             let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
-            match queue.ended(run, SpanEnd { y, totals, responses, outcome }) {
-                Some((run, Next::Span)) if !failed => {
-                    self.runs[lane] = Some(Running { run, began });
-                    self.bank.begin_span(lane);
-                }
-                Some((run, Next::Restart(next))) => {
+            match queue.ended(lane, SpanEnd { y, totals, responses, outcome }) {
+                Some(Next::Span) if !failed => self.bank.begin_span(lane),
+                Some(Next::Restart(next)) => {
                     self.used += steps;
                     self.bank.restart(lane, &next, observer);
-                    self.begin(lane, run);
+                    self.begin(lane);
                 }
                 _ => {
                     self.used += steps;
