@@ -30,6 +30,10 @@ test-benches:
 test-aarch64:
     ./scripts/test-aarch64.sh
 
+# The command for Windows, under Wine: see the script for what it needs.
+test-windows:
+    ./scripts/test-windows.sh
+
 # Wheels and the command for Linux, into dist/ (docs/contributing/releasing.md): `just wheels x86_64 aarch64`.
 [positional-arguments]
 wheels *ARGS:
