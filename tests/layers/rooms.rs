@@ -31,6 +31,7 @@ const CRATES: &[(&str, &[&str])] = &[
     (
         "flap-sweep",
         &[
+            "system",
             "notation",
             "input",
             "resonance",
@@ -53,7 +54,7 @@ const CRATES: &[(&str, &[&str])] = &[
         "flap-cli",
         &[
             "args", "models", "statuses", "complete", "console", "table", "duration", "progress", "failure",
-            "print", "signals", "job", "data", "cmd", "plot", "lib", "main",
+            "print", "system", "job", "data", "cmd", "plot", "lib", "main",
         ],
     ),
 ];

@@ -23,8 +23,8 @@ mod models;
 mod plot;
 mod print;
 mod progress;
-mod signals;
 mod statuses;
+mod system;
 mod table;
 
 use std::env;
@@ -53,7 +53,7 @@ pub fn run_line(line: Vec<OsString>, models: Vec<&'static dyn Simulator>) -> u8 
     if args.quiet {
         console::be_quiet();
     }
-    signals::refuse_large_files();
+    system::refuse_large_files();
     run_command(&args.command).unwrap_or_else(Failure::report) as u8
 }
 

@@ -1,10 +1,11 @@
 //! Text of input files, with a limit on their size.
 
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
 use crate::notation::text::position;
+use crate::system::is_pipe_of_shell;
 
 /// Largest number of bytes of a file written by a person or an instrument: grids, devices, outlines, waveforms,
 /// motions, image points.
@@ -120,17 +121,6 @@ pub fn of_bytes(bytes: Vec<u8>, most: u64) -> Result<String, InputError> {
 
 fn within(bytes: Vec<u8>, most: u64) -> Result<Vec<u8>, InputError> {
     if bytes.len() as u64 > most { Err(InputError::TooLarge(most)) } else { Ok(bytes) }
-}
-
-#[cfg(unix)]
-fn is_pipe_of_shell(path: &Path, metadata: &Metadata) -> bool {
-    use std::os::unix::fs::FileTypeExt as _;
-    metadata.file_type().is_fifo() && (path.starts_with("/dev") || path.starts_with("/proc"))
-}
-
-#[cfg(not(unix))]
-fn is_pipe_of_shell(_: &Path, _: &Metadata) -> bool {
-    false
 }
 
 #[cfg(test)]

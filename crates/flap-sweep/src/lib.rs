@@ -4,6 +4,7 @@
 //!
 //! Each module uses only modules above it:
 //!
+//! - `system`: operations that differ between operating systems
 //! - [`notation`]: numbers, units, times and formulas as text
 //! - [`input`]: text of input files, with a limit on their size
 //! - [`resonance`]: rows of designs, each at its own resonance
@@ -26,4 +27,5 @@ pub mod refine;
 pub mod resonance;
 pub mod run;
 pub mod study;
+mod system;
 pub mod table;

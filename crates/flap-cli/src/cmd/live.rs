@@ -11,7 +11,7 @@ use super::point;
 use crate::args::LiveArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::{models, signals};
+use crate::{models, system};
 
 /// Time between two checks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     let default = RunOptions::default();
     let run = RunOptions { threads: args.threads.unwrap_or(default.threads), ..default };
     // Before the server starts: an early signal must stop it too.
-    let stop = signals::stop();
+    let stop = system::stop();
     let started = Server::start(plan, models::all(), &LiveOptions { port: args.port, run });
     let mut server = started.map_err(|error| match error {
         StartError::Design(mistakes) => Failure::Grid(mistakes),

@@ -11,15 +11,6 @@ use flap_sweep::files::sidecar::Sidecar;
 use crate::console;
 use crate::failure::Failure;
 
-/// Returns stdout as a file.
-pub(crate) fn stdout() -> io::Result<File> {
-    #[cfg(unix)]
-    let owned = std::os::fd::AsFd::as_fd(&io::stdout()).try_clone_to_owned();
-    #[cfg(windows)]
-    let owned = std::os::windows::io::AsHandle::as_handle(&io::stdout()).try_clone_to_owned();
-    owned.map(File::from)
-}
-
 /// Writes a file all or nothing. An earlier file remains until the new one is complete.
 ///
 /// `write` returns the sidecar of results. The inner result comes from `write`.

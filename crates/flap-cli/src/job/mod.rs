@@ -8,7 +8,7 @@ mod run;
 mod verdicts;
 
 pub(crate) use flap_sweep::files::job::{Begin, to_resume};
-pub(crate) use make::{make, stdout};
+pub(crate) use make::make;
 pub(crate) use open::{
     open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, require_own_sidecar, tell,
     tell_missed, with_refinement,

@@ -22,7 +22,7 @@ use crate::console;
 use crate::failure::{Exit, Failure, still_kept};
 use crate::print;
 use crate::progress::Bar;
-use crate::signals;
+use crate::system;
 
 /// Runs `plan`, writes its rows to `out`, and prints a report. For a rerun, `origin` gives the earlier results of its points.
 pub(crate) fn run(
@@ -128,7 +128,7 @@ pub(crate) fn work(
     sink: &mut dyn Sink,
     verdicts: Option<&mut Verdicts<'_>>,
 ) -> Result<Summary, RunError> {
-    let stop = signals::stop();
+    let stop = system::stop();
     let mut output = RowWriter::begin(plan, before, sink)?;
     let (ended, bar) = match Responses::of(plan) {
         None => {

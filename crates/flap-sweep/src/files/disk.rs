@@ -1,10 +1,12 @@
 //! Operations on files: make them durable, replace them as a whole, compare and remove them.
 
-use std::fs::{self, File, Metadata};
+use std::fs::{self, File};
 use std::io::{self, Stdout, Write};
 use std::path::{Path, PathBuf};
 
 use atomic_write_file::AtomicWriteFile;
+
+use crate::system;
 
 /// A target for writing that can be made durable.
 pub trait Durable: Write {
@@ -153,40 +155,35 @@ fn folder_of(path: &Path) -> &Path {
 /// [`io::ErrorKind::Other`] if there is no file at `path`, or a different one. Otherwise the error of the operating
 /// system.
 pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
-    let gone = || io::Error::other(format!("{} was removed or replaced while it was open", path.display()));
-    let there = fs::metadata(path).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => gone(),
-        _ => error,
-    })?;
-    // On other systems than Unix, an open file cannot be removed or replaced.
-    if !cfg!(unix) || is_same((path, &file.metadata()?), (path, &there)) { Ok(()) } else { Err(gone()) }
+    if is_in_place(file, path)? {
+        Ok(())
+    } else {
+        Err(io::Error::other(format!("{} was removed or replaced while it was open", path.display())))
+    }
+}
+
+/// Returns true if `file` is still the file at `path`.
+///
+/// # Errors
+/// The error of the operating system.
+pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
+    match system::id_at(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        there => Ok(there? == system::id_of(file)?),
+    }
 }
 
 /// Returns true if both names belong to the same file. Devices and pipes never count as the same, because they store
 /// nothing.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
-    match (fs::metadata(a), fs::metadata(b)) {
-        (Ok(of_a), Ok(of_b)) => of_a.is_file() && of_b.is_file() && is_same((a, &of_a), (b, &of_b)),
-        _ => false,
-    }
+    let is_file = |path| fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
+    is_file(a) && is_file(b) && matches!((system::id_at(a), system::id_at(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Returns true if writing to both names would write to the same file. The files need not exist.
 pub fn is_same_target(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
     a == b || is_same_file(a, b) || place(a).is_some_and(|a| Some(a) == place(b))
-}
-
-/// Returns true if two files are the same, by device and inode if the system provides them, otherwise by full path.
-#[cfg(unix)]
-fn is_same((_, a): (&Path, &Metadata), (_, b): (&Path, &Metadata)) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    (a.dev(), a.ino()) == (b.dev(), b.ino())
-}
-
-#[cfg(not(unix))]
-fn is_same((a, _): (&Path, &Metadata), (b, _): (&Path, &Metadata)) -> bool {
-    matches!((fs::canonicalize(a), fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! incomplete line at the end, whose checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
@@ -143,8 +143,10 @@ impl Journal {
     /// # Errors
     /// The error of the operating system if the file cannot be opened or truncated.
     pub fn after(path: &Path, bytes: u64) -> io::Result<Journal> {
-        let file = OpenOptions::new().append(true).open(path)?;
+        // Not opened for appending: Windows cannot truncate such a file.
+        let mut file = OpenOptions::new().write(true).open(path)?;
         file.set_len(bytes)?;
+        file.seek(SeekFrom::End(0))?;
         Ok(Journal(file))
     }
 

@@ -11,7 +11,7 @@ use flap_sweep::study::optimum::{Optimum, ProblemError, Settings, Which};
 use crate::args::OptimiseArgs;
 use crate::failure::{Exit, Failure};
 use crate::progress::Bar;
-use crate::{console, signals};
+use crate::{console, system};
 
 /// Returns the failure of a problem with a mistake in its goal, or in --minimise or --maximise.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
@@ -46,7 +46,7 @@ pub(super) fn watched<T, E>(
 where
     Failure: From<E>,
 {
-    let stop = signals::stop();
+    let stop = system::stop();
     let bar = RefCell::new(Bar::new(units));
     let found = work(&|finished, points| {
         let is_stopped = stop.load(Ordering::Relaxed);

@@ -14,7 +14,7 @@ use crate::args::ConvertArgs;
 use crate::cmd::outputs::is_stdout;
 use crate::console;
 use crate::failure::{Exit, Failure, IGNORE_HELP};
-use crate::job;
+use crate::{job, system};
 
 pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let to_stdout = is_stdout(&args.to);
@@ -27,7 +27,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     let provenance = Provenance::of(&plan, &sidecar.identity);
     let check = RowCheck::new(&plan, sidecar.rows());
     if to_stdout {
-        convert(&mut source.reader, (job::stdout()?, to), &provenance, check)
+        convert(&mut source.reader, (system::stdout()?, to), &provenance, check)
             .map_err(|error| failure(args, &error))?;
         job::tell_missed(&args.from, &source.reader);
         return Ok(Exit::Done);

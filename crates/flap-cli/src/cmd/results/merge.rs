@@ -14,7 +14,7 @@ use crate::args::MergeArgs;
 use crate::cmd::outputs::is_stdout;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job;
+use crate::{job, system};
 
 pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let to_stdout = is_stdout(&args.out);
@@ -46,7 +46,7 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
         readers.push(opened.reader);
     }
     if to_stdout {
-        merge::merge(&parts, &mut readers, &plan, &whole, (job::stdout()?, format))?;
+        merge::merge(&parts, &mut readers, &plan, &whole, (system::stdout()?, format))?;
         tell_missed(&parts, &readers);
         return Ok(Exit::Done);
     }

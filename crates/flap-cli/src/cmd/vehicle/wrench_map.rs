@@ -17,7 +17,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::progress::Bar;
-use crate::signals;
+use crate::system;
 use crate::table::{Table, six_digits};
 
 /// Units of the components.
@@ -33,7 +33,7 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
     }
     let options = RunOptions::default();
     let options = RunOptions { threads: args.threads.unwrap_or(options.threads), ..options };
-    let stop = signals::stop();
+    let stop = system::stop();
     let mut bar = Bar::new("rows");
     let map = WrenchMap::of(&chosen.plan, &chosen.values, inputs, args.samples, &options, |progress| {
         let is_stopped = stop.load(Ordering::Relaxed);

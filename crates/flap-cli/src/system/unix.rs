@@ -1,9 +1,12 @@
-//! Signals that stop a sweep.
+//! Linux, macOS and other Unix systems.
 
+use std::fs::File;
+use std::io;
+use std::os::fd::AsFd as _;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::flag;
 
 use crate::failure::Exit;
@@ -26,15 +29,6 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
     stop
 }
 
-/// Turns a write beyond the file size limit of the process (`ulimit -f`) into an error, which can be reported.
-///
-/// By default, a signal ends the process.
-pub(crate) fn refuse_large_files() {
-    #[cfg(unix)]
-    let _ = flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
-}
-
-#[cfg(unix)]
 #[expect(unsafe_code, reason = "the standard library cannot query a signal")]
 fn is_ignored(signal: i32) -> bool {
     // SAFETY: a `sigaction` is integers and pointers, for which zeros are valid. The call only writes to it.
@@ -45,7 +39,17 @@ fn is_ignored(signal: i32) -> bool {
     }
 }
 
-#[cfg(not(unix))]
-fn is_ignored(_signal: i32) -> bool {
-    false
+/// Turns a write beyond the file size limit of the process (`ulimit -f`) into an error, which can be reported.
+///
+/// By default, a signal ends the process.
+pub(crate) fn refuse_large_files() {
+    let _ = flag::register(SIGXFSZ, Arc::default());
+}
+
+/// Returns stdout as a file.
+///
+/// # Errors
+/// The error of the operating system.
+pub(crate) fn stdout() -> io::Result<File> {
+    io::stdout().as_fd().try_clone_to_owned().map(File::from)
 }

@@ -1,0 +1,11 @@
+//! Operations that differ between operating systems. Each system has a file with the same functions.
+
+#[cfg(unix)]
+mod unix;
+#[cfg(windows)]
+mod windows;
+
+#[cfg(unix)]
+pub(crate) use unix::{id_at, id_of, is_pipe_of_shell};
+#[cfg(windows)]
+pub(crate) use windows::{id_at, id_of, is_pipe_of_shell};

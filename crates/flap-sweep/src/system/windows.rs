@@ -1,0 +1,34 @@
+//! Windows.
+
+use std::fs::{File, Metadata};
+use std::io;
+use std::path::Path;
+
+use winapi_util::file::{Information, information};
+use winapi_util::{Handle, HandleRef};
+
+/// Returns the identity of an open file: volume and file index. Hard links to a file have the identity of the file.
+///
+/// # Errors
+/// The error of the operating system.
+pub(crate) fn id_of(file: &File) -> io::Result<(u64, u64)> {
+    information(HandleRef::from_file(file)).map(|found| id(&found))
+}
+
+/// Returns the identity of the file at `path`, as [`id_of`] does. Links are followed.
+///
+/// # Errors
+/// The error of the operating system. A file that is removed while it is open may give
+/// [`io::ErrorKind::PermissionDenied`] until it is closed.
+pub(crate) fn id_at(path: &Path) -> io::Result<(u64, u64)> {
+    information(Handle::from_path_any(path)?).map(|found| id(&found))
+}
+
+fn id(found: &Information) -> (u64, u64) {
+    (found.volume_serial_number(), found.file_index())
+}
+
+/// Returns false: shells of Windows do not pass pipes as paths.
+pub(crate) fn is_pipe_of_shell(_: &Path, _: &Metadata) -> bool {
+    false
+}
