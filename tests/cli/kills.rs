@@ -157,7 +157,10 @@ fn a_forced_sweep_over_unfinished_rows() {
     let into = "sweep grid.toml --out rows.csv --threads 1";
     let is_written = |call: &Call| call.name == "sync" && call.files == ["rows.csv"];
     trace(&folder, into, |_, call| if is_written(call) { Fate::Killed } else { Fate::Goes });
-    assert_eq!(folder.names(), ["grid.toml", "rows.csv", "rows.csv.journal", "rows.csv.meta.toml"]);
+    assert_eq!(
+        folder.names(),
+        ["grid.toml", "rows.csv", "rows.csv.journal", "rows.csv.lock", "rows.csv.meta.toml"]
+    );
     fs::write(folder.path("grid.toml"), quick(2)).unwrap();
     let begin = files(&folder);
     kill_everywhere(&begin, &format!("{into} --force"), |left, place| {

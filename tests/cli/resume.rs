@@ -67,7 +67,7 @@ fn assert_same(folder: &Folder, ending: &str) {
         comparable(folder, &format!("rows.{ending}")),
         "{ending}"
     );
-    for left in ["journal", "part", "meta.toml.tmp"] {
+    for left in ["journal", "lock", "part", "meta.toml.tmp"] {
         assert!(!folder.path(&format!("rows.{ending}.{left}")).exists(), "{left}");
     }
 }

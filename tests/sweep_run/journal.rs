@@ -96,7 +96,7 @@ fn a_session_goes_on_where_the_last_one_ended() {
                 let at_least = if name == "rows.csv" { stop_at.min(200) } else { stop_at / 256 * 256 };
                 let mut session = resumed.session;
                 assert_eq!(run_to(&mut session, &plan, resumed.before, stop_at), None);
-                drop(session);
+                drop((session, resumed.lock));
                 let resumed = Session::resume(&path, &plan, &often()).unwrap();
                 assert!(resumed.before.done() >= at_least, "{} of {stop_at}", resumed.before.done());
                 assert_eq!(resumed.lost, 0);
@@ -105,7 +105,7 @@ fn a_session_goes_on_where_the_last_one_ended() {
             let resumed = Session::resume(&path, &plan, &often()).unwrap();
             let mut session = resumed.session;
             assert_eq!(run_to(&mut session, &plan, resumed.before, u64::MAX), Some(summary.clone()));
-            drop(session);
+            drop((session, resumed.lock));
             let bytes = fs::read(&path).unwrap();
             let rows = if name == "rows.csv" { bytes } else { zstd::decode_all(&bytes[..]).unwrap() };
             assert!(String::from_utf8(rows).unwrap() == text, "{name}");

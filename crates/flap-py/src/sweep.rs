@@ -114,7 +114,7 @@ fn into_file<'py>(
             Begun::Writing(writing) => writing,
             Begun::Complete { .. } => return Ok(None),
         };
-        unlocked = writing.unlocked.take();
+        unlocked = writing.unlocked().map(ToString::to_string);
         let before = writing.before.clone();
         let ended = work(job.plan, &job.options.run, before, writing.sink(), &mut watch, chunks);
         writing.finish(ended).map(Some)

@@ -20,19 +20,21 @@ pub(crate) fn make<E: From<io::Error>>(
     write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,
 ) -> Result<Result<(), E>, Failure> {
     // Reserves the name while the rows are written beside it.
-    let LockedFile { file: locked, unlocked } = output::create(results, overwrite)?;
-    // A device or a pipe is written directly.
-    if !locked.metadata().is_ok_and(|metadata| metadata.is_file()) {
-        return Ok(write(locked).map(drop));
-    }
-    if let Some(error) = &unlocked {
+    let LockedFile { file, lock } = output::create(results, overwrite)?;
+    let Some(lock) = lock else {
+        // A device or a pipe is written directly.
+        return Ok(write(file).map(drop));
+    };
+    if let Some(error) = lock.unlocked() {
         warn_unlocked(results, error);
     }
+    // On Windows, an open file cannot be replaced on every file system.
+    drop(file);
     let written = output::replace(results, write);
     if written.is_err() && disk::is_empty(results) {
         let _ = fs::remove_file(disk::target(results));
     }
-    drop(locked);
+    drop(lock);
     Ok(written)
 }
 

@@ -69,7 +69,7 @@ pub(crate) fn run_and_summarize(
             return Ok(exit(all_periodic, work));
         }
     };
-    if let Some(error) = &writing.unlocked {
+    if let Some(error) = writing.unlocked() {
         warn_unlocked(&job.out, error);
     }
     let before = writing.before.clone();

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::disk;
 use crate::table::format::Format;
 
 /// Returns the path of the sidecar: `<results>.meta.toml`.
@@ -19,14 +20,19 @@ pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }
 
+/// Returns the path of the lock file: `<results>.lock`, beside the target if `results` is a link.
+pub fn lock_of(results: &Path) -> PathBuf {
+    with_ending(&disk::target(results), ".lock")
+}
+
 /// Returns the path of the rows before the results are complete. For a Parquet file this is [`part_of`].
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }
 
-/// Returns the paths of sidecar, journal and waiting rows.
-pub(crate) fn all_of(results: &Path) -> [PathBuf; 3] {
-    [sidecar_of(results), journal_of(results), part_of(results)]
+/// Returns the paths of sidecar, journal, waiting rows and lock file.
+pub(crate) fn all_of(results: &Path) -> [PathBuf; 4] {
+    [sidecar_of(results), journal_of(results), part_of(results), lock_of(results)]
 }
 
 /// Returns the path of unfinished results that will replace `results`, such as `rows.new.csv` for `rows.csv`.

@@ -115,7 +115,8 @@ mod tests {
     fn what_is_written_beside_results_is_looked_at_too() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
-        let written = [".csv.meta.toml", ".csv.journal", ".csv.part", ".new.csv", ".new.csv.meta.toml"];
+        let written =
+            [".csv.meta.toml", ".csv.journal", ".csv.part", ".csv.lock", ".new.csv", ".new.csv.meta.toml"];
         for (number, ending) in written.iter().enumerate() {
             let (results, input) = (format!("{number}.csv"), path(&format!("{number}{ending}")));
             fs::write(&input, "text").unwrap();

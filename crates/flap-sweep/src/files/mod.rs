@@ -1,8 +1,8 @@
 //! Result files: formats, and the files beside them that record their origin and the progress of a run.
 //!
 //! `beside` names the files, `disk` writes them, and [`results`] reads and writes rows. [`journal`] and [`sidecar`]
-//! are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a result file, a
-//! [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
+//! are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a result file and
+//! locks it, a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
 
 pub mod beside;
 pub mod csv_sink;
@@ -12,6 +12,7 @@ pub mod integrity;
 pub mod job;
 pub mod journal;
 pub mod linear_model;
+mod lock;
 pub mod matlab;
 pub mod merge;
 pub mod outline;

@@ -1,10 +1,11 @@
 //! Opens and locks result files, or replaces them as a whole. Files are never overwritten unless requested.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::beside::{journal_of, rows_of, sidecar_of};
+use super::beside::{journal_of, lock_of, rows_of, sidecar_of};
+pub use super::lock::Lock;
 use super::results::Format;
 use super::sidecar::{Sidecar, State};
 use super::{disk, replacement};
@@ -52,51 +53,43 @@ impl CreateError {
 /// An open result file.
 #[derive(Debug)]
 pub struct LockedFile {
-    /// File, locked while it is open.
+    /// The file.
     pub file: File,
-    /// Reason for a failed lock: the file system does not support locks. Without a lock, another run that writes to
-    /// the file is not detected.
-    pub unlocked: Option<io::Error>,
+    /// Lock against other runs that write to the file; `None` for a device or a pipe.
+    pub lock: Option<Lock>,
 }
 
 /// Opens a result file for writing from its beginning.
 ///
-/// A file with contents is an error. If `overwrite` is true, it is opened and its contents stay. The file is locked
-/// while it is open, so a second run cannot write to it. Devices and pipes are neither rejected nor locked.
+/// A file with contents is an error. If `overwrite` is true, it is opened and its contents stay. The lock of the file
+/// keeps a second run from writing to it. Devices and pipes are neither rejected nor locked.
 ///
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents
 /// - [`CreateError::Unfinished`] if it or its replacement has a journal
 /// - [`CreateError::InTheWay`] if there is a sidecar without rows; if `overwrite` is true, if a file other than a
-///   sidecar has its name
+///   sidecar has its name; if a file of another program has the name of the lock file
 /// - [`CreateError::Busy`] if another run has locked it
 /// - [`CreateError::Io`] if it cannot be opened
 pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     let refused = CreateError::io(path);
-    let is_new = !path.exists();
-    let opened = OpenOptions::new().write(true).create(true).truncate(false).open(path);
-    let file = opened.map_err(&refused)?;
-    let metadata = file.metadata().map_err(&refused)?;
-    if !metadata.is_file() {
-        return Ok(LockedFile { file, unlocked: None });
+    let open = || OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(&refused);
+    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Ok(LockedFile { file: open()?, lock: None });
     }
-    let unlocked = lock(&file, path)?;
-    let allowed = if overwrite {
-        check_sidecar(path, replacement::has_sidecar(path))
+    let lock = lock(path)?;
+    if overwrite {
+        check_sidecar(path, replacement::has_sidecar(path))?;
     } else if replacement::has_journal(path).map_err(&refused)? || replacement::unfinished(path).is_some() {
-        Err(CreateError::Unfinished(path.to_owned()))
-    } else if metadata.len() > 0 {
-        Err(CreateError::Exists(path.to_owned()))
+        return Err(CreateError::Unfinished(path.to_owned()));
+    } else if !disk::is_empty(path) {
+        return Err(CreateError::Exists(path.to_owned()));
     } else {
         // A run that was killed before its first row leaves an empty file and a sidecar in this state.
-        let is_begun = |sidecar: Sidecar| !is_new && sidecar.state == State::Running;
-        check_sidecar(path, Sidecar::read(&sidecar_of(path)).is_ok_and(is_begun))
-    };
-    if allowed.is_err() && is_new {
-        // The first error is the one to report.
-        let _ = fs::remove_file(disk::target(path));
+        let is_begun = |sidecar: Sidecar| path.exists() && sidecar.state == State::Running;
+        check_sidecar(path, Sidecar::read(&sidecar_of(path)).is_ok_and(is_begun))?;
     }
-    allowed.map(|()| LockedFile { file, unlocked })
+    Ok(LockedFile { file: open()?, lock: Some(lock) })
 }
 
 /// Checks that there is no sidecar, or that it `may` be replaced.
@@ -125,33 +118,38 @@ pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateE
 /// If the file was removed, it is created again.
 ///
 /// # Errors
-/// - [`CreateError::Busy`] if another run has locked the file
-/// - [`CreateError::Io`] if it cannot be opened
-pub fn reopen(path: &Path) -> Result<LockedFile, CreateError> {
+/// The errors of [`lock`], and [`CreateError::Io`] if the file cannot be opened.
+pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
+    let lock = lock(path)?;
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-    let file = opened.map_err(CreateError::io(path))?;
-    let unlocked = lock(&file, path)?;
-    Ok(LockedFile { file, unlocked })
+    Ok((opened.map_err(CreateError::io(path))?, lock))
 }
 
-/// Locks a result file as [`create`] does, if there is one.
+/// Locks the results at `path` for this process. They need not exist.
 ///
 /// # Errors
-/// The errors of [`reopen`].
-pub(crate) fn hold(path: &Path) -> Result<Option<LockedFile>, CreateError> {
-    if path.exists() { reopen(path).map(Some) } else { Ok(None) }
+/// - [`CreateError::Busy`] if another run has locked the results
+/// - [`CreateError::InTheWay`] if a file of another program has the name of the lock file
+/// - [`CreateError::Io`] if the lock file cannot be created
+pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
+    let lock = lock_of(path);
+    match Lock::take(&lock) {
+        Ok(taken) => taken.ok_or_else(|| CreateError::Busy(path.to_owned())),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            Err(CreateError::in_the_way(lock, path))
+        }
+        Err(error) => Err(CreateError::io(path)(error)),
+    }
 }
 
-/// Locks a file for this process. Returns the reason if the file system does not support locks.
-fn lock(file: &File, path: &Path) -> Result<Option<io::Error>, CreateError> {
-    let unlocked = match file.try_lock() {
-        Err(TryLockError::WouldBlock) => return Err(CreateError::Busy(path.to_owned())),
-        Err(TryLockError::Error(error)) => Some(error),
-        Ok(()) => None,
-    };
-    // Another run may have replaced the file between opening and locking it.
-    disk::check_in_place(file, path).map_err(CreateError::io(path))?;
-    Ok(unlocked)
+/// Removes the lock files that a killed run has left beside the results at `path` and beside their replacement.
+pub(crate) fn remove_unused_locks(path: &Path) {
+    for results in [path, &replacement::of(path)] {
+        if lock_of(results).exists() {
+            // A lock file that another run uses stays.
+            let _ = lock(results);
+        }
+    }
 }
 
 /// Writes the file at `results`, which [`create`] opened, as a whole. An earlier file remains until the new one is
@@ -171,6 +169,7 @@ pub fn replace<E: From<io::Error>>(
     let sidecar = sidecar.map(|sidecar| sidecar.prepare(&sidecar_of(results))).transpose()?;
     rows.file().sync_all()?;
     replacement::discard(results)?;
+    remove_unused_locks(results);
     replacement::remove_companions(results)?;
     rows.commit()?;
     Ok(sidecar.map_or(Ok(()), disk::Whole::commit)?)

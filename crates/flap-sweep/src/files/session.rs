@@ -18,7 +18,7 @@ use csv::StringRecord;
 use crate::files::beside::{journal_of, rows_of};
 use crate::files::disk;
 use crate::files::journal::{self, Checkpoint, Header, IntactRows, Journal, last_intact};
-use crate::files::output::{self, CreateError, LockedFile};
+use crate::files::output::{self, CreateError, Lock};
 use crate::files::results::{
     Checksums, FileSum, Format, FormatError, Provenance, Reader, TextRows, Writer, text_sum,
 };
@@ -41,7 +41,6 @@ pub struct SessionOptions {
 pub struct Session {
     path: PathBuf,
     format: Format,
-    /// Locked during the session.
     results: File,
     rows: TextRows,
     provenance: Provenance,
@@ -66,8 +65,8 @@ pub struct Resumed {
     pub started: String,
     /// Number of rows that had been written but are missing in the file.
     pub lost: u64,
-    /// Reason for a failed lock.
-    pub unlocked: Option<io::Error>,
+    /// Lock of the results.
+    pub lock: Lock,
 }
 
 /// Error of a run that cannot be resumed.
@@ -137,7 +136,7 @@ impl Session {
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
         let format = Format::of(path)?;
-        let LockedFile { file: results, unlocked } = output::reopen(path)?;
+        let (results, lock) = output::reopen(path)?;
         let journal_path = journal_of(path);
         let past = journal::read(&journal_path).map_err(refused)?;
         let past = past.ok_or_else(|| ResumeError::NoJournal(path.to_owned()))?;
@@ -167,7 +166,7 @@ impl Session {
         let mut session = Session::new(results, (path, format), rows, plan, options, journal);
         session.add_seconds(checkpoint.seconds);
         session.earlier = Some((rows_path, session.text_format(), bytes));
-        Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, unlocked })
+        Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, lock })
     }
 
     /// Returns a session that writes `rows` for the results at `path`, and their checkpoints to `journal`.

@@ -5,7 +5,6 @@ use std::path::Path;
 use super::{Begun, Job, JobError, Target, Writing, write_sidecar};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
-use crate::files::output::LockedFile;
 use crate::files::results::Format;
 use crate::files::session::{ResumeError, Resumed, Session};
 use crate::files::sidecar::{Sidecar, SidecarError, State};
@@ -21,22 +20,22 @@ impl<'a> Job<'a> {
         let Some(new) = replacement::unfinished(&self.out) else {
             return self.resume_at(&self.out);
         };
-        let held = output::hold(&self.out)?;
+        let lock = output::lock(&self.out)?;
         if replacement::is_over(&new, format) {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
-            drop(held);
+            drop(lock);
             return self.resume_at(&self.out);
         }
         if !has_checkpoint(&new)
             && let Some(sidecar) = self.without_refinement()
         {
             replacement::discard(&self.out).map_err(|error| JobError::write(&self.out, error, false))?;
-            drop(held);
+            drop(lock);
             return self.continue_merged(&sidecar);
         }
         let mut begun = self.resume_at(&new)?;
         if let Begun::Writing(writing) = &mut begun {
-            writing.held = held.map(|output| output.file);
+            writing.locks.push(lock);
         }
         Ok(begun)
     }
@@ -69,11 +68,12 @@ impl<'a> Job<'a> {
         }
         let resumed = Session::resume(place, self.plan, &self.options)
             .map_err(|error| self.cannot_resume(place, error))?;
-        let Resumed { session, before, started, lost, unlocked } = resumed;
+        let Resumed { session, before, started, lost, lock } = resumed;
         let sidecar = self.sidecar(started);
         write_sidecar(place, &sidecar, false)?;
         let target = Target::Session(Box::new(session), Box::new(sidecar));
-        Ok(Writing { lost: Some(lost), unlocked, ..self.writing(target, before) }.into())
+        let locks = vec![lock];
+        Ok(Writing { lost: Some(lost), locks, ..self.writing(target, before) }.into())
     }
 
     /// Ends the job if the sidecar of the results at `place` has the state complete.
@@ -89,10 +89,10 @@ impl<'a> Job<'a> {
         // The rows of a replacement may already have their final name.
         let rows = if place.exists() { place } else { &self.out };
         if !has_journal {
+            output::remove_unused_locks(&self.out);
             return self.compared(rows, sidecar);
         }
-        // The earlier results of a replacement are already locked.
-        let _held = if place == self.out { output::hold(place)? } else { None };
+        let _lock = output::lock(place)?;
         let outcome = self.compared(rows, sidecar)?;
         self.complete(place)?;
         Ok(outcome)
@@ -130,14 +130,14 @@ impl<'a> Job<'a> {
     fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
         self.compared(&self.out, sidecar)?;
         let format = Format::of(&self.out)?;
-        let LockedFile { file, unlocked } = output::create(&self.out, true)?;
-        let mut target = self.start_beside(format)?;
+        let mut locks = vec![output::lock(&self.out)?];
+        let mut target = self.start_beside(format, &mut locks)?;
         let before = sidecar.summary.clone().unwrap_or_default();
         if let Target::Session(session, _) = &mut target {
             let taken = session.take_over(&self.out, &before, sidecar.seconds.unwrap_or_default());
             taken.map_err(|error| JobError::write(session.path(), error, true))?;
         }
-        Ok(Writing { lost: Some(0), unlocked, held: Some(file), ..self.writing(target, before) }.into())
+        Ok(Writing { lost: Some(0), locks, ..self.writing(target, before) }.into())
     }
 
     /// Returns true if this build on this machine can continue the sweep of the unfinished results at `place` from

@@ -12,7 +12,7 @@ use super::beside::sidecar_of;
 use super::csv_sink::CsvSink;
 use super::inputs::{Inputs, Overlap};
 use super::integrity::OpenError;
-use super::output::{self, CreateError, LockedFile};
+use super::output::{self, CreateError, Lock, LockedFile};
 pub use super::replacement::{to_resume, unfinished};
 use super::results::{Format, FormatError};
 use super::session::{ResumeError, Session, SessionOptions};
@@ -69,10 +69,8 @@ pub struct Writing<'a> {
     /// Number of rows that earlier runs had written but that are missing in the file, if the job continues a run.
     /// They are computed again.
     pub lost: Option<u64>,
-    /// Reason for a failed lock. Without a lock, another run that writes to the results is not detected.
-    pub unlocked: Option<io::Error>,
-    /// Earlier results of a replacement, locked until the end of the job.
-    held: Option<File>,
+    /// Locks of the results and of their replacement, until the end of the job.
+    locks: Vec<Lock>,
     begun: Instant,
 }
 
@@ -120,11 +118,12 @@ impl<'a> Job<'a> {
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let overwrite = self.begin == Begin::Restart;
-        let LockedFile { file, unlocked } = output::create(&self.out, overwrite)?;
-        if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        let LockedFile { file, lock } = output::create(&self.out, overwrite)?;
+        let Some(lock) = lock else {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
             return Ok(self.writing(Target::Stream(sink), Summary::default()).into());
-        }
+        };
+        let mut locks = vec![lock];
         let refused = |error| JobError::write(&self.out, error, false);
         if overwrite {
             replacement::discard(&self.out).map_err(refused)?;
@@ -132,15 +131,16 @@ impl<'a> Job<'a> {
         let has_rows = !disk::is_empty(&self.out) || replacement::has_journal(&self.out).map_err(refused)?;
         if !overwrite || !has_rows {
             let target = self.start_at((&self.out, format), file, false)?;
-            return Ok(Writing { unlocked, ..self.writing(target, Summary::default()) }.into());
+            return Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into());
         }
-        let target = self.start_beside(format)?;
-        let held = Some(file);
-        Ok(Writing { unlocked, held, ..self.writing(target, Summary::default()) }.into())
+        // The earlier results are closed: on Windows, an open file cannot be replaced on every file system.
+        drop(file);
+        let target = self.start_beside(format, &mut locks)?;
+        Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into())
     }
 
-    /// Begins with an empty file beside the earlier results, which gets their name in the end.
-    fn start_beside(&self, format: Format) -> Result<Target, JobError> {
+    /// Begins with an empty file beside the earlier results, which gets their name in the end. Adds its lock to `locks`.
+    fn start_beside(&self, format: Format, locks: &mut Vec<Lock>) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
         let created = output::create(&new, false).map_err(|error| match error {
             CreateError::Exists(path) | CreateError::Unfinished(path) => {
@@ -148,6 +148,7 @@ impl<'a> Job<'a> {
             }
             error => error,
         })?;
+        locks.extend(created.lock);
         self.start_at((&new, format), created.file, true)
     }
 
@@ -179,7 +180,7 @@ impl<'a> Job<'a> {
 
     /// Returns the job after the rows that `before` counts.
     fn writing(&'a self, target: Target, before: Summary) -> Writing<'a> {
-        Writing { job: self, target, before, lost: None, unlocked: None, held: None, begun: Instant::now() }
+        Writing { job: self, target, before, lost: None, locks: Vec::new(), begun: Instant::now() }
     }
 
     /// Gives the complete results at `place` their final name, and removes the files that they do not need.
@@ -200,6 +201,11 @@ impl<'a> From<Writing<'a>> for Begun<'a> {
 }
 
 impl Writing<'_> {
+    /// Returns the reason for a failed lock. Without a lock, another run that writes to the results is not detected.
+    pub fn unlocked(&self) -> Option<&io::Error> {
+        self.locks.iter().find_map(Lock::unlocked)
+    }
+
     /// Returns the sink for the rows after the rows of earlier runs.
     pub fn sink(&mut self) -> &mut dyn Sink {
         match &mut self.target {
@@ -239,12 +245,15 @@ impl Writing<'_> {
         let is_complete = !summary.is_interrupted();
         sidecar.finish(&summary, time::now(), session.seconds());
         sidecar.checksums = is_complete.then(|| session.checksums());
-        write_sidecar(session.path(), &sidecar, true)?;
-        if is_complete {
-            self.job.complete(session.path())?;
-        }
+        let path = session.path().to_owned();
         let place = if is_complete { self.job.out.clone() } else { session.rows_path() };
-        drop(self.held);
+        write_sidecar(&path, &sidecar, true)?;
+        // The files are closed before they are renamed or removed.
+        drop(session);
+        if is_complete {
+            self.job.complete(&path)?;
+        }
+        drop(self.locks);
         Ok(Done { summary, rows_before, seconds: self.begun.elapsed().as_secs_f64(), place: Some(place) })
     }
 }

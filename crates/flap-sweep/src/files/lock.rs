@@ -1,0 +1,112 @@
+//! Lock of results, so that only one process writes to them.
+//!
+//! The lock is a lock of the operating system on an empty file beside the results. The operating system releases the
+//! lock when the process ends. If a process is killed, its lock file remains, but locks nothing.
+//!
+//! The results themselves are not locked: on Windows, a lock also keeps other handles from reading and writing the
+//! file, and an open file cannot be replaced on every file system.
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::disk;
+
+/// A lock of this process. The lock file is removed when the lock is dropped.
+#[derive(Debug)]
+pub struct Lock {
+    file: File,
+    path: PathBuf,
+    unlocked: Option<io::Error>,
+}
+
+impl Lock {
+    /// Locks the file at `path`, which is created if it is missing. Returns `None` if another process holds the lock.
+    ///
+    /// # Errors
+    /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](disk::is_free)
+    /// - the error of the operating system if the file cannot be created
+    pub(crate) fn take(path: &Path) -> io::Result<Option<Lock>> {
+        loop {
+            if disk::is_taken(path) && !disk::is_free(path) {
+                return Err(io::ErrorKind::AlreadyExists.into());
+            }
+            let file = File::options().read(true).write(true).create(true).truncate(false).open(path)?;
+            let unlocked = match file.try_lock() {
+                Err(TryLockError::WouldBlock) => return Ok(None),
+                Err(TryLockError::Error(error)) => Some(error),
+                Ok(()) => None,
+            };
+            // The earlier holder may have removed the file after this process opened it.
+            if disk::is_in_place(&file, path).unwrap_or(false) {
+                return Ok(Some(Lock { file, path: path.to_owned(), unlocked }));
+            }
+        }
+    }
+
+    /// Returns the reason for a failed lock: the file system does not support locks. Without locks, another run that
+    /// writes to the results is not detected.
+    pub fn unlocked(&self) -> Option<&io::Error> {
+        self.unlocked.as_ref()
+    }
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // The file is removed while it is locked, so a process that opens it later creates a new file.
+        if disk::is_in_place(&self.file, &self.path).unwrap_or(false) {
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_is_held_by_one_and_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv.lock");
+        // A process that was killed leaves an empty file.
+        fs::write(&path, "").unwrap();
+        for _ in 0..2 {
+            let held = Lock::take(&path).unwrap().expect("nobody holds it");
+            assert!(held.unlocked().is_none());
+            assert!(Lock::take(&path).unwrap().is_none());
+            drop(held);
+            assert!(!path.exists());
+        }
+    }
+
+    #[test]
+    fn many_processes_hold_it_one_after_the_other() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, held) = (folder.path().join("lock"), folder.path().join("held"));
+        let hold_often = || {
+            let mut count = 0;
+            while count < 100 {
+                let Some(lock) = Lock::take(&path).unwrap() else { continue };
+                File::create_new(&held).expect("no other thread has the lock");
+                fs::remove_file(&held).unwrap();
+                drop(lock);
+                count += 1;
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(hold_often);
+            }
+        });
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn files_of_others_are_neither_locked_nor_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rows.csv.lock");
+        fs::write(&path, "precious").unwrap();
+        assert_eq!(Lock::take(&path).unwrap_err().kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "precious");
+    }
+}
