@@ -34,7 +34,7 @@ test-aarch64:
 test-windows:
     ./scripts/test-windows.sh
 
-# Wheels and the command for Linux, into dist/ (docs/contributing/releasing.md): `just wheels x86_64 aarch64`.
+# Wheels and archives of the command, into dist/ (docs/contributing/releasing.md): `just wheels aarch64-unknown-linux-gnu`.
 [positional-arguments]
 wheels *ARGS:
     ./scripts/build-wheels.sh "$@"
@@ -42,6 +42,14 @@ wheels *ARGS:
 # The workflow files and the scripts, by actionlint and shellcheck.
 lint-workflows:
     ./scripts/lint-workflows.sh
+
+# The files in packaging/ and the metadata of packages.
+lint-packaging:
+    ./scripts/lint-packaging.sh
+
+# The packages for crates.io: their files, and that they compile.
+check-packages:
+    ./scripts/check-packages.sh
 
 # Formats all code; ruff is in the environment that `just test-python` makes.
 format:

@@ -7,7 +7,7 @@ cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 if command -v actionlint >/dev/null; then
     actionlint .github/workflows/*.yml
 else
-    go run github.com/rhysd/actionlint/cmd/actionlint@v1.7.7 .github/workflows/*.yml
+    go run github.com/rhysd/actionlint/cmd/actionlint@v1.7.12 .github/workflows/*.yml
 fi
 if command -v shellcheck >/dev/null; then
     shellcheck scripts/*.sh .ci/run

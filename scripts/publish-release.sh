@@ -1,11 +1,16 @@
 #!/usr/bin/env bash
-# Makes the release of a tag, with the section of CHANGELOG.md of its version as the text and the files of dist/:
-# `scripts/publish-release.sh v0.1.0`. Needs the command `gh` and its token in GH_TOKEN.
+# Makes the release of a tag, with the section of CHANGELOG.md of its version as the text, and uploads the files of dist/ and their
+# checksums: `scripts/publish-release.sh v0.1.0`. If the release exists, its files are replaced. Needs the command `gh` and its token
+# in GH_TOKEN.
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
 [[ ${1-} == v* ]] || { echo "usage: scripts/publish-release.sh vVERSION" >&2; exit 2; }
 version=${1#v}
 notes=$(awk -v head="## $version" 'index($0, head) == 1 { inside = 1; next } /^## / { inside = 0 } inside' CHANGELOG.md)
-(cd dist && sha256sum ./*.whl ./*.tar.gz >SHA256SUMS)
-gh release create "$1" --title "flap $version" --notes "$notes" dist/*
+(cd dist && rm -f SHA256SUMS && sha256sum -- * >../SHA256SUMS && mv ../SHA256SUMS .)
+if gh release view "$1" >/dev/null 2>&1; then
+    gh release upload "$1" --clobber dist/*
+else
+    gh release create "$1" --title "flap $version" --notes "$notes" dist/*
+fi

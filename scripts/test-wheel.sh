@@ -3,6 +3,9 @@
 # the command.
 #
 #   scripts/test-wheel.sh dist/flapwing-….whl [argument of pip]...
+#   scripts/test-wheel.sh dist/flapwing-VERSION.tar.gz
+#
+# The second line tests the source distribution: pip builds the package, which needs cargo and a C compiler.
 #
 # PYTHON names the interpreter [default: python3]. pip fetches numpy, unless its arguments say otherwise, such as `--no-index
 # --find-links FOLDER`.
@@ -18,11 +21,14 @@ wheel=$(cd -- "$(dirname -- "$1")" && pwd)/$(basename -- "$1")
 shift
 room=$(mktemp -d)
 trap 'rm -rf -- "$room"' EXIT
-"${PYTHON:-python3}" -m venv "$room/env"
-"$room/env/bin/python" -m pip install --quiet --disable-pip-version-check "$@" "$wheel"
+python=${PYTHON:-$(command -v python3 || command -v python)}
+"$python" -m venv "$room/env"
+folder=$room/env/bin
+[[ -d $folder ]] || folder=$room/env/Scripts # on Windows
+"$folder/python" -m pip install --quiet --disable-pip-version-check "$@" "$wheel"
 
 # Nothing but the environment is on the path: neither cargo nor a C compiler, nor an older flap.
-clean() { (cd "$room" && env -i HOME="$room" PATH="$room/env/bin" "$@"); }
+clean() { (cd "$room" && env -i HOME="$room" ${SYSTEMROOT:+SYSTEMROOT="$SYSTEMROOT"} PATH="$folder" "$folder/$1" "${@:2}"); }
 
 clean python - <<'PYTHON' || die "the package does not work"
 import shutil

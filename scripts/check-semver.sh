@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Compares the public items of the crates with the last version on crates.io (cargo-semver-checks), and fails if the version number
+# does not announce a break. The first version has nothing to compare with.
+set -euo pipefail
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+
+if ! (cd / && cargo info --quiet --registry crates-io flap-cli) >/dev/null 2>&1; then
+    echo "crates.io has no version of flap-cli: there is nothing to compare with."
+    exit 0
+fi
+command -v cargo-semver-checks >/dev/null || cargo install --locked cargo-semver-checks@0.51.0
+cargo semver-checks --package flap-core --package flap-experiments --package flap-sweep --package flap-live --package flap-cli
