@@ -28,6 +28,6 @@ export FLAP=$folder/env/bin/flap PYTHONDONTWRITEBYTECODE=1
 # Warnings of old libraries are not errors. The first deselected test compares the palette of a picture. The second test reads
 # dates, whose unit is another with old versions of pandas.
 "$folder/env/bin/python" -m pytest --quiet -p no:cacheprovider -o filterwarnings= --disable-warnings \
-    --deselect "$tests/plot/test_wing_path.py::test_wing_path_is_saved_as_gif" \
-    --deselect "$tests/test_table.py::test_columns_of_other_kinds_are_named" \
+    --deselect "plot/test_wing_path.py::test_wing_path_is_saved_as_gif" \
+    --deselect "test_table.py::test_columns_of_other_kinds_are_named" \
     "$tests"/test_{table,fit_results,live,cluster}.py "$tests"/plot/test_{heatmap,pareto,slices,hysteresis,trajectory,wing_path}.py
