@@ -3,8 +3,8 @@
 //! The lock is a lock of the operating system on an empty file beside the results. The operating system releases the
 //! lock when the process ends. If a process is killed, its lock file remains, but locks nothing.
 //!
-//! The results themselves are not locked: on Windows, a lock also keeps other handles from reading and writing the
-//! file, and an open file cannot be replaced on every file system.
+//! The results themselves are not locked. On Windows, a lock also keeps other handles from reading and writing the
+//! file. Some file systems there cannot replace an open file.
 
 use std::fs::{self, File, TryLockError};
 use std::io;

@@ -67,8 +67,8 @@ pub struct LockedFile {
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents
 /// - [`CreateError::Unfinished`] if it or its replacement has a journal
-/// - [`CreateError::InTheWay`] if there is a sidecar without rows; if `overwrite` is true, if a file other than a
-///   sidecar has its name; if a file of another program has the name of the lock file
+/// - [`CreateError::InTheWay`] if there is a sidecar without rows, or a file of another program with the name of the
+///   lock file. If `overwrite` is true, a sidecar is allowed, and a file of another program with its name is not
 /// - [`CreateError::Busy`] if another run has locked it
 /// - [`CreateError::Io`] if it cannot be opened
 pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
