@@ -25,9 +25,7 @@ install --no-deps "$1"
 
 tests=tests/python
 export FLAP=$folder/env/bin/flap PYTHONDONTWRITEBYTECODE=1
-# Warnings of old libraries are not errors. The first deselected test compares the palette of a picture. The second test reads
-# dates, whose unit is another with old versions of pandas.
+# Warnings of old libraries are not errors. The deselected test compares the palette of a picture.
 "$folder/env/bin/python" -m pytest --quiet -p no:cacheprovider -o filterwarnings= --disable-warnings \
     --deselect "plot/test_wing_path.py::test_wing_path_is_saved_as_gif" \
-    --deselect "test_table.py::test_columns_of_other_kinds_are_named" \
     "$tests"/test_{table,fit_results,live,cluster}.py "$tests"/plot/test_{heatmap,pareto,slices,hysteresis,trajectory,wing_path}.py

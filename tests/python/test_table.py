@@ -208,8 +208,10 @@ def test_other_compressions_are_named(table, tmp_path, compression):
         flapwing.read(path)
 
 
-def test_columns_of_other_kinds_are_named(tmp_path):
-    pandas.DataFrame({"when": pandas.to_datetime(["2020-01-01"])}).to_parquet(tmp_path / "when.parquet")
+@pytest.mark.parametrize("unit", ["ms", "us", "ns"])
+def test_columns_of_other_kinds_are_named(tmp_path, unit):
+    when = pandas.to_datetime(["2020-01-01"]).as_unit(unit)
+    pandas.DataFrame({"when": when}).to_parquet(tmp_path / "when.parquet")
     with pytest.raises(ValueError, match="column when cannot be read: cells are whole numbers"):
         flapwing.read(tmp_path / "when.parquet")
 

@@ -8,12 +8,13 @@ use std::sync::Once;
 
 use bytes::Bytes;
 use csv::StringRecord;
-use parquet::basic::Compression;
+use parquet::basic::{Compression, LogicalType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
 use parquet::record::Field;
 use parquet::record::reader::RowIter;
+use parquet::schema::types::Type;
 
 use super::io_error;
 use crate::files::results::checksum::TextDigest;
@@ -35,6 +36,7 @@ impl ParquetReader {
         let reader = guarded(|| SerializedFileReader::new(Limited(file)).map_err(io_error))?;
         refuse_compression(reader.metadata())?;
         let about = reader.metadata().file_metadata();
+        refuse_times(about.schema())?;
         let names = about.schema().get_fields().iter().map(|column| column.name().to_owned()).collect();
         let entries = about.key_value_metadata().into_iter().flatten();
         let entries = entries.filter_map(|entry| Some((entry.key.clone(), entry.value.clone()?))).collect();
@@ -57,17 +59,31 @@ impl ParquetReader {
                 Field::Float(value) => row.push_field(&text::float(f64::from(*value))),
                 Field::Bool(value) => row.push_field(&value.to_string()),
                 Field::Str(value) => row.push_field(value),
-                _ => {
-                    let message = format!(
-                        "column {name} cannot be read: cells are whole numbers and floating-point ones of 32 or 64 bits, \
-                         flags, and text"
-                    );
-                    return Err(io::Error::new(io::ErrorKind::InvalidData, message));
-                }
+                _ => return Err(other_kind(name)),
             }
         }
         Ok(true)
     }
+}
+
+/// Rejects columns with times, because the library reads nanoseconds as whole numbers.
+fn refuse_times(schema: &Type) -> io::Result<()> {
+    let is_time = |column: &Type| {
+        matches!(
+            column.get_basic_info().logical_type_ref(),
+            Some(LogicalType::Time(_) | LogicalType::Timestamp(_))
+        )
+    };
+    let time = schema.get_fields().iter().find(|column| is_time(column));
+    time.map_or(Ok(()), |column| Err(other_kind(column.name())))
+}
+
+/// Returns the error of a column whose cells flap does not read.
+fn other_kind(column: &str) -> io::Error {
+    let message = format!(
+        "column {column} cannot be read: cells are whole numbers and floating-point ones of 32 or 64 bits, flags, and text"
+    );
+    io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
 /// Rejects files whose decompression library is not part of flap.
