@@ -17,7 +17,7 @@ REPOSITORY = Path(__file__).parents[2]
 WORKFLOWS = sorted((REPOSITORY / ".github" / "workflows").glob("*.yml"))
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="wheels of releases are for Linux")
+@pytest.mark.skipif(sys.platform != "linux", reason="the script is tested on Linux")
 def test_the_wheel_works_without_a_toolchain():
     script = REPOSITORY / "scripts" / "test-wheel.sh"
     offline = ["--no-index", "--find-links", os.environ["FLAPWING_PACKAGES"]]
@@ -30,7 +30,7 @@ def test_the_wheel_works_without_a_toolchain():
     assert re.search(r"^flap \d+\.\d+\.\d+", told.stdout, re.MULTILINE)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="archives of releases are for Linux")
+@pytest.mark.skipif(sys.platform != "linux", reason="the script is tested on Linux")
 def test_the_archive_of_the_command_works_without_anything_else(tmp_path):
     package = tmp_path / "flap-0.0.0-x86_64-unknown-linux-gnu"
     package.mkdir()

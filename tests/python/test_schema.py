@@ -148,7 +148,7 @@ def test_mistakes_do_not_satisfy_the_schema(validator, flap, tmp_path):
 
 
 def test_a_preset_chooses_the_model_of_a_device(validator):
-    """The schema of all models does not know the model of a device; that of one model does."""
+    """Only a schema for one preset checks the parameters of a grid with a device."""
     grid = 'device = "mybee.toml"\n[params]\nwing_lenght = 1\n'
     assert mistakes(validator(), grid) == []
     (own,) = mistakes(validator("--preset", "jafferis2016"), grid)
