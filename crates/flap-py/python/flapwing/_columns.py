@@ -65,7 +65,7 @@ Meta = dict[str, Any]
 
 
 def to_pandas(columns: Columns, meta: Meta) -> pandas.DataFrame:
-    """See `Table.to_pandas`."""
+    """Return a table as a pandas DataFrame (see `Table.to_pandas`)."""
     import pandas
 
     def series(column: Column) -> Any:
@@ -81,7 +81,7 @@ def to_pandas(columns: Columns, meta: Meta) -> pandas.DataFrame:
 
 
 def to_arrow(columns: Columns, meta: Meta) -> pyarrow.Table:
-    """See `Table.to_arrow`."""
+    """Return a table as an Arrow table (see `Table.to_arrow`)."""
     import pyarrow
 
     arrays, fields = [], []
@@ -117,7 +117,7 @@ def _plain(value: Any) -> Any:
 
 
 def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
-    """See `Table.to_xarray`."""
+    """Return a table as an xarray Dataset (see `Table.to_xarray`)."""
     import xarray
 
     names, shape, places = _layout(columns, axes)
@@ -185,7 +185,7 @@ def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -
 
 
 def _places(columns: Columns, axes: Axes) -> list[str]:
-    """For a table without axes, return the columns that locate a row: on its curve, or in time."""
+    """For a table without axes, return the columns that identify a row: the place on a curve, or the time."""
     if axes:
         return []
     names = list(columns)

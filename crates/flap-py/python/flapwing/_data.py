@@ -140,7 +140,7 @@ class Data:
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
         """Return one row for each combination of values in the columns `names`. Other axes are fixed at their middle
-        values, as by `flap plot`, with a warning that ends with `remedy`.
+        values, as `flap plot` does. A warning ends with the text `remedy`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
@@ -170,8 +170,8 @@ class Data:
         return data
 
     def axes(self) -> list[str]:
-        """Return one parameter for each axis with more than one value. Parameters that follow other parameters are left
-        out.
+        """Return one parameter for each axis with more than one value. The result leaves out parameters that vary
+        together with an earlier parameter.
         """
         if self.grid_axes:
             firsts = [next((name for name in axis if name in self.columns), "") for axis in self.grid_axes]
@@ -201,12 +201,12 @@ class Data:
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
         """Return the distinct values of a parameter. For a parameter of an axis, the result has all values in `whole`,
-        also if none of the selected rows has this value.
+        including values that no selected row has.
         """
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
     def on_a_grid(self, name: str) -> bool:
-        """Return True if a parameter has an axis; parameters of a ``[sample]`` have none."""
+        """Return True if a parameter has an axis. Parameters of a ``[sample]`` have no axis."""
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def on_axis(self, name: str) -> np.ndarray:

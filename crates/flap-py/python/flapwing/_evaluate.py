@@ -37,9 +37,9 @@ def evaluate(
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
-    Use this function in optimisers, samplers and fits. Points are given as arrays, and their measures are returned as
-    arrays in the same order. All points run at the same time, on all cores. The row of a point does not depend on the
-    other points.
+    Use this function in optimisers, samplers and fits. You give the parameters of all points as arrays. The function
+    returns the measures of the points as arrays in the same order. All points run at the same time, on all cores. The
+    row of a point does not depend on other points of the batch.
 
     Parameters
     ----------
@@ -48,52 +48,55 @@ def evaluate(
         model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of a grid apply to
         every point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
-        Parameters by name, each with n values: an array, a Series or a range of numbers in SI units. A list of texts
-        with units, or of options, is accepted too. A single value applies to all points. A masked array must have no
-        masked values. If `columns` is a `Table`, only its parameters are used, not its measures.
+        The parameters of n points, by name. The values of a parameter are an array, a Series or a range of n numbers in
+        SI units. A list of n texts with units, or of n options, is accepted too. A single value applies to all points.
+        A masked array must have no masked values. If `columns` is a `Table`, only its parameters are used, not its
+        measures.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
-        of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
+        core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
-        points in all.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
+        that are done, and all points.
     client : executor, optional
         Run the points on the workers of an executor, as for `sweep`. The rows are the same as without `client`.
     points_per_task : int, optional
         Number of points in a task of `client`, as for `sweep`.
     measures : list of str, optional
-        The measures of the rows. Default: the grid's ``[output]``, else all measures.
+        The measures of the rows. Default: the measures that ``[output]`` of the grid chooses, or all measures if the
+        grid has no ``[output]``.
     gradient : list of str, optional
         Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
         derivatives, with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's
         column per SI unit of the parameter. The derivatives with respect to `gradient` replace the derivatives of
-        ``[gradient]`` in a grid. The derivatives with respect to each parameter take about the work of three drive
-        periods.
+        ``[gradient]`` in a grid. The derivatives with respect to one parameter take about as long as three drive
+        periods of the simulation.
     initial_state : Table, dict or DataFrame, optional
-        The state in which each motion begins, at the start of a drive period. Columns are the components (see
-        `states`), in the units of their names, with one row per point. A row with nan begins at rest. If a design has
-        several orbits, the state determines the orbit that is found. Default: rest.
+        The state in which each motion begins, at the start of a drive period. The columns are the components of the
+        state (see `states`), with one row per point. The end of a column's name is its unit. A row with nan begins at
+        rest. If a design has several orbits, the state determines the orbit that is found. Default: rest.
     return_states : bool, optional
         Add columns of the state of the motion at the beginning of a drive period, for `initial_state`.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. A name must not be both a keyword and a column.
+        Parameters of all points and solver settings, as for `run`. A parameter must not be both a keyword and a column
+        of `columns`.
 
     Returns
     -------
     Table
-        n rows in the order of `columns`. A grid with axes gives n times as many rows as the axes have points; the axes
-        vary faster than the rows of `columns`. `Table.axes` then begins with the axis `row`. Points that ``[where]``
-        excludes have no row, but count in the column `point`. A row has the status ``"invalid"`` if a value is out of
-        range, infinite or not a number, or if the parameters are impossible together. ``table.meta["invalid"]`` has the
-        reasons for the first few points. With `gradient`, a missing derivative is nan, and the column ``gradient_gap``
-        has the reason.
+        n rows in the order of `columns`. A grid with axes gives n times as many rows as the axes have points. In the
+        order of the rows, the axes vary faster than the rows of `columns`. `Table.axes` then begins with the axis
+        `row`. Points that ``[where]`` excludes have no row, but count in the column `point`. A row has the status
+        ``"invalid"`` if a value is out of range, infinite or not a number. A row is also invalid if the combination of
+        parameter values is impossible. ``table.meta["invalid"]`` has the reasons for the first few points. With
+        `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the reason.
 
     Raises
     ------
     ValueError
         Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter that
-        is a column and a keyword; a missing parameter of a model; derivatives with respect to a choice, a whole number
-        or a derived parameter. A grid with mistakes raises GridError.
+        is both a column and a keyword; a missing parameter of a model; derivatives with respect to a choice, a whole
+        number or a derived parameter. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 
@@ -157,7 +160,8 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
 
 
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
-    """Return the columns of a table that are parameters of its model, of any model, or of its vehicle."""
+    """Return the columns of a table that are parameters of the table's model, of any model, or of the table's
+    vehicle."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
     known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}

@@ -31,11 +31,11 @@ def chirp(
     start : float or str, optional
         Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. Default 1.
     stop : float or str, optional
-        Drive frequency at which the chirp ends, after a whole number of cycles (Hz, or text with a unit): more than 0.
-        Default: twice the design's drive frequency.
+        Drive frequency at the end of the chirp (Hz, or text with a unit): more than 0. The chirp ends after a whole
+        number of cycles. Default: twice the design's drive frequency.
     rate : float or str, optional
-        Rate of change of the drive frequency (Hz/s, or text with a unit). A negative rate is a falling chirp. Default
-        15.
+        Rate of change of the drive frequency (Hz/s, or text with a unit). With a negative rate, the drive frequency
+        falls. Default 15.
     samples : int, optional
         Return the motion with this number of samples per cycle, instead of the measures of each cycle.
     **keywords : float or str
@@ -45,12 +45,13 @@ def chirp(
     -------
     Table
         One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the measures of the signals. If
-        `samples` is given, the table is the motion, with the columns of `trajectory`.
+        `samples` is given, the table has the samples of the motion, with the columns of `trajectory`.
 
     Raises
     ------
     ValueError
-        The same errors as for `run`. The chirp cannot reach `stop` from `start` at this `rate`, or the motion diverges.
+        The same errors as for `run`. The drive frequency cannot reach `stop` from `start` at this `rate`, or the motion
+        diverges.
     TypeError
         An argument has the wrong type.
 
@@ -75,22 +76,21 @@ def impulse(
     samples: SupportsIndex = 200,
     **keywords: Value,
 ) -> Table:
-    """Simulate the free motion of one design point after an impulse on the resting stroke.
+    """Simulate the free motion of one design point after an impulse on the stroke of the wing at rest.
 
-    During the motion, the drive voltage is constant. Its value is the voltage at which a wing at rest has zero stroke
-    and pitch.
+    During the motion, the drive voltage has a constant value, at which a wing at rest has zero stroke and pitch.
 
     Parameters
     ----------
     design, point
         As for `run`.
     amplitude : float or str, optional
-        Size of the impulse: the amplitude (rad, or text with a unit) that the stroke would reach in the first mode
-        alone, without damping. The amplitude is not zero and at most half a turn. Default ``"20 deg"``.
+        Size of the impulse (rad, or text with a unit). The size is the stroke amplitude that the impulse causes in the
+        first mode alone, without damping. The size is not zero and at most half a turn. Default ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
-        Smallest number of samples of the motion per period of the first mode. Default 200.
+        Smallest number of samples that the table has per period of the first mode. Default 200.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -143,9 +143,11 @@ def forces_along(
         `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
         `trajectory` have these columns. The motion has at least four samples at rising times.
     periodic : bool, optional
-        True if the given motion is one period, so that its last sample is also the first sample of the next period.
+        True if the given motion is one period. The last sample of the given motion is then also the first sample of the
+        next period.
     samples : int, optional
-        Number of equal intervals of the given motion; forces are computed at the ends of the intervals. Default 2000.
+        Number of equal time intervals into which the given motion is divided. Forces are computed at the ends of the
+        intervals. Default 2000.
     **keywords : float or str
         Parameters of the model, as for `run`.
 
@@ -159,7 +161,7 @@ def forces_along(
     ------
     ValueError
         The same errors as for `run`. A column is missing or has values that are not finite numbers, or the times do not
-        rise.
+        increase.
     OSError
         The file cannot be read.
     TypeError
@@ -184,11 +186,11 @@ def forces_along(
 
 
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
-    """Compute stroke and pitch of a filmed wing from points that were tracked in its images.
+    """Compute stroke and pitch of a filmed wing from points that were tracked in the images of the film.
 
-    The stroke is the angle from the x-axis to the leading edge. The pitch follows from the length of the projected
-    chord. The centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018, eqs.
-    42 and 43).
+    The stroke is the angle from the x-axis to the leading edge. The pitch is computed from the length of the chord in
+    the image. The centre of the stroke's rotation is the point nearest to all leading edges (Ozaki and Hamaguchi 2018,
+    eqs. 42 and 43).
 
     Parameters
     ----------
@@ -198,7 +200,7 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
         `time_ms`). The pitch also requires `edge_x` and `edge_y`, a point on the lower edge.
     chord : float, optional
         Length of the chord from the leading edge to the point on the lower edge, in the unit of the points: more than
-        0. If `chord` is given, the result has the pitch.
+        0. The table has the column `pitch_deg` only if `chord` is given.
 
     Returns
     -------
@@ -209,8 +211,8 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     Raises
     ------
     ValueError
-        A column is missing or has values that are not finite numbers; all leading edges are parallel; the lower edge
-        appears farther from the leading edge than the chord.
+        A column is missing or has values that are not finite numbers; all leading edges are parallel; in an image, the
+        distance between lower edge and leading edge is larger than the chord.
     OSError
         The file cannot be read.
     TypeError

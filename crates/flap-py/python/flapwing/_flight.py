@@ -35,15 +35,16 @@ def fly(
 ) -> Table:
     """Simulate the flight of a vehicle: the coupled motion of its wings and its body, with or without a controller.
 
-    The flight begins with settled wings. The wings respond to velocity and rates of the body, but not to its
-    acceleration. The body does not feel the inertia of the wings, which are light. The point `about` must be the centre
-    of mass. The flight requires `total_mass` and the parameters `body_inertia_roll`, `body_inertia_pitch` and
-    `body_inertia_yaw`.
+    The flight begins with settled wings. The wings respond to velocity and rates of the body, but not to the
+    acceleration of the body. The inertial forces of the wings do not act on the body, because the wings are light. The
+    argument `about` of `Vehicle` must be the centre of mass. The flight requires `total_mass` and the parameters
+    `body_inertia_roll`, `body_inertia_pitch` and `body_inertia_yaw`.
 
-    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The nine states x are means of
-    velocities, rates and angles over the last beat.
+    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The vector x has nine states:
+    the means of velocities, rates and angles over the last wing beat.
 
-    A flight that cannot go on ends early with a UserWarning, for example if an input leaves its range.
+    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. An example is an input
+    that leaves its range.
 
     Parameters
     ----------
@@ -53,33 +54,34 @@ def fly(
         Duration: a number in seconds, or text with a unit. The flight ends at the end of a wing beat.
     disturbance : dict of str to float or str, optional
         States of the body at the beginning, such as ``{"rate_pitch": 2.0}``, by the names of `LinearModel.states`.
-        Values are numbers in SI units, or text with units. They do not contain the vibration within each beat.
-        Default: rest.
+        Values are numbers in SI units, or text with units. The states do not contain the vibration of the body within
+        each wing beat. Default: rest.
     gains : array_like of shape (inputs, 9), optional
         Gains of the controller in SI units, such as the result K of ``control.lqr``. Default: no controller.
     inputs : sequence of str, optional
         Names of the inputs: parameters, or words as for `Vehicle.linear`. With `gains`, `inputs` are required. The
-        values of the inputs are columns.
+        table has a column with the values of each input.
     averaged : bool, optional
-        True to follow the linear model about hover, with exact steps. The default is the coupled motion.
+        True to simulate the linear model about hover, with exact steps. By default, the coupled motion of wings and
+        body is simulated.
     samples : int, optional
         Number of samples in each wing beat. By default, each row contains the means over a beat.
     point : int, optional
         The index of a point, if the vehicle is a grid with several points.
     progress : bool or function, optional
-        As for `sweep`; the flight is one step.
+        Progress, as for `sweep`. A flight is one step of the progress.
     client : executor, optional
-        Simulate on a worker of an executor, as for `sweep`.
+        An executor, such as a process pool, on whose worker the flight is simulated (see `sweep`).
     **keywords : float or str
         Parameters of the vehicle and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        One row for each wing beat, with the time at its middle. The columns are `time_s`, the states with the position,
-        the inputs in SI units, and force and torque of the air. Velocities and rates are in body axes, and the position
-        is in fixed axes. Rotations by the yaw angle, then pitch, then roll lead to the attitude. `meta` also has the
-        `disturbance`.
+        One row for each wing beat, with the time at the middle of the wing beat. The columns are `time_s`, the states
+        with the position, the inputs in SI units, and force and torque of the air. Velocities and rates are in body
+        axes, and the position is in fixed axes. The attitude results from rotations by the yaw angle, then by the pitch
+        angle, then by the roll angle. The attribute `meta` of the table also has the `disturbance`.
 
     Raises
     ------

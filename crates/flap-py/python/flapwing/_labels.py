@@ -27,8 +27,8 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def readable(values: object, unit: str) -> tuple[float, str]:
-    """Return the factor from `unit` to a unit in which values are easy to read, and the name of the readable unit for
-    printing.
+    """Return the factor from `unit` to a unit in which values are easy to read, and the printed name of the readable
+    unit.
     """
     sizes = np.abs(np.asarray(values, dtype=float))
     return scale(unit, float(np.max(sizes, initial=0.0, where=np.isfinite(sizes))))
@@ -47,7 +47,7 @@ def label(name: str, unit: str | None = None) -> str:
     Returns
     -------
     str
-        The name in words. If the column has a unit, the unit follows in parentheses.
+        The name of the column in words. If the column has a unit, the unit follows in parentheses.
 
     Examples
     --------
@@ -80,7 +80,7 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """Yield a title with its own line breaks, then the title in one more line, and so on."""
+    """Yield a title with the line breaks that the title has, then the title broken into one more line, and so on."""
     told = [title]
     yield title
     for width in range(max(map(len, title.split("\n"))) - 1, 7, -1):

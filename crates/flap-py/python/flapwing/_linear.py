@@ -18,27 +18,29 @@ Complexes = np.ndarray[Any, np.dtype[np.complex128]]
 class LinearModel:
     """The linear model ``x' = A x + B s`` of small deviations `x` from hover, with changes `s` of the inputs.
 
-    `Vehicle.linear` returns this model. All numbers are in SI units. The outputs are the states. The body axes are
-    x forward, y to the left, and z up.
+    `Vehicle.linear` returns a `LinearModel`. All numbers are in SI units. The outputs of the model are the states. The
+    body axes are x forward, y to the left, and z up.
 
     Attributes
     ----------
     A, B, C, D : arrays
         The matrices of the state space. `C` is the identity and `D` is zero.
     damping : array, 6 × 6
-        The derivatives of mean force (N) and torque (N m) with respect to velocity (m/s) and rates (rad/s).
+        The derivatives of mean force (N) and mean torque (N m) with respect to the velocity (m/s) and the rates (rad/s)
+        of the body.
     control_matrix : array, 6 × inputs
         The derivatives of mean force and torque with respect to the inputs.
     W0 : array
         The mean force (N) and torque (N m) at the operating point.
     residual : array
-        `W0` without the weight. It is zero if the vehicle hovers.
+        The mean force (N) and torque (N m) including the weight of the vehicle. All components are zero if the vehicle
+        hovers.
     eigenvalues : complex array
-        The eigenvalues of `A` (1/s), those with the largest real part first.
+        The eigenvalues of `A` (1/s), in falling order of the real part.
     modes : list of str
         The motion that belongs to each eigenvalue, such as ``"pitch and forward velocity (longitudinal oscillation)"``.
     states, state_units : list of str
-        Names and units of the states: velocities, rates, angles, and positions on request.
+        Names and units of the states: velocities, rates and angles, and with ``positions=True`` the position.
     inputs, input_units : list of str
         Names and units of the inputs.
     input_values : array
@@ -48,7 +50,7 @@ class LinearModel:
     drive_frequency : float
         The drive frequency (Hz).
     floquet_max : float
-        The largest magnitude of the Floquet multipliers of the wings.
+        The largest magnitude of the Floquet multipliers of the motions of the wings.
     warnings : list of str
         Reasons to doubt the model.
     """

@@ -21,8 +21,8 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Returns
     -------
     dict of str to Parameter
-        Parameters by name, in the order of the model's table. For a `Vehicle`, parameters of the vehicle follow the
-        model's parameters.
+        Parameters by name, in the order of the parameter table of the model. For a `Vehicle`, parameters of the vehicle
+        follow the model's parameters.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
 
 
 def measures(design: Design, /) -> dict[str, Measure]:
-    """Return the measures that the rows of a design or a model have.
+    """Return the measures in the rows of a design or a model.
 
     Parameters
     ----------

@@ -44,8 +44,8 @@ class Live:
     """A running server of the live page, which `live` starts. The server stops at a call of `stop`, at the end of a
     `with` block, and at the end of Python.
 
-    The server runs in the process that started the server. In a forked child process, `stop` and the end of a `with`
-    block have no effect.
+    The server runs in the process that called `live`. In a forked child process, `stop` and the end of a `with` block
+    have no effect on the server.
 
     Attributes
     ----------
@@ -69,14 +69,14 @@ class Live:
         self.stop()
 
     def _repr_html_(self) -> str:
-        """Return the page as HTML for a cell of a notebook."""
+        """Return the live page as HTML for a cell of a notebook."""
         return (
             f'<iframe title="flap live" src="{html.escape(self.address)}" height="800" '
             'style="width: 100%; border: 0"></iframe>'
         )
 
     def widget(self, height: SupportsIndex = 800) -> Any:
-        """Return the page as a widget of a notebook, which you can use alone or within other widgets.
+        """Return the live page as a widget of a notebook. You can use the widget alone or within other widgets.
 
         The widget works in Jupyter, Visual Studio Code and marimo.
 
@@ -115,7 +115,8 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """Stop the server of the live page. After this, an open live page shows that the server does not answer."""
+        """Stop the server of the live page. A live page that is still open then shows that the server does not
+        answer."""
         self._server.stop()
 
 
@@ -128,8 +129,8 @@ def live(
     threads: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Live:
-    """Start the live page of a design. On this page you move sliders for the parameters, and curves change with the
-    sliders.
+    """Start the live page of a design. On the live page you move sliders for the parameters, and the curves of the page
+    change with the sliders.
 
     The command ``flap live`` opens the same page. In a notebook, the returned object shows the page in the cell. The
     server answers only requests from this machine, and neither reads nor writes files.
@@ -144,7 +145,7 @@ def live(
     open_browser : bool, optional
         Open the page in a browser. Default False.
     threads : int, optional
-        Number of worker threads: at least 1. Default: one per core.
+        Number of worker threads: at least 1. Default: one thread per core.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 

@@ -31,7 +31,7 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return the first few of several names as one text."""
+    """Return a text with the first few names of a list."""
     every = list(names)
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
     return (

@@ -21,7 +21,7 @@ class NativeColumn(TypedDict):
 
 
 class NativeSummary(TypedDict, total=False):
-    """Counts of the rows and points of a run; the dictionary is empty if all rows already existed."""
+    """Counts of the rows and points of a run. The dictionary is empty if all rows already existed."""
 
     rows: int
     counts: dict[str, int]

@@ -30,41 +30,41 @@ def optimise(
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
-    flap first computes the points of the grid. flap then improves the best points step by step, with the derivatives of
-    the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole
-    numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in
-    a sweep.
+    The search first computes the points of the grid. The search then improves the best points step by step, with the
+    derivatives of the measures. The search may choose any value between the smallest and the largest value of an axis.
+    Options, whole numbers and parameters that change together can have only the values of the grid. Every motion begins
+    at rest, as in a sweep.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A grid (see `Grid`), whose axes are the bounds of the search.
+        A grid (see `Grid`). The ends of the axes of the grid are the bounds of the search.
     maximise, minimise : str, optional
-        The goal, which is made as large or as small as possible: a measure, or an expression of measures and
-        parameters. Give either `maximise` or `minimise`.
+        The quantity that the search makes as large (`maximise`) or as small (`minimise`) as possible: a measure, or an
+        expression of measures and parameters. Give one of the two arguments.
     where : str or sequence of str, optional
         Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
         ``>=``. You can join comparisons with ``and``. A number may have a unit: ``"stroke_pp_deg < 100 deg"``.
     starts : int, optional
         Largest number of searches. Each search begins at one of the best points of the grid. Default 8.
     sample : int, optional
-        Largest number of grid points to compute. If the grid has more points, this number of points is spread over the
-        grid. Default 4096.
+        Largest number of grid points to compute. If the grid has more points, the search computes only this number of
+        points, spread over the grid. Default 4096.
     threads : int, optional
-        Number of threads, 1 or more. Default: one per core. The number of threads does not change the result.
+        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the result.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points and starts done
-        and in all. With `client`, the whole search is one step.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
+        and starts that are done, and all points and starts. With `client`, the whole search is one step.
     client : executor, optional
-        Search on a worker of an executor, as for `sweep`.
+        An executor, such as a process pool, on whose worker the search runs (see `sweep`).
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
     Returns
     -------
     Optimum
-        The best design, the bounds and conditions that limit it, and all optima that were found. If no design satisfies
-        all conditions, the status is ``"infeasible"``.
+        The best design, the bounds and conditions that limit the best design, and all optima that the search found. If
+        no design satisfies all conditions, the status is ``"infeasible"``.
 
     Raises
     ------

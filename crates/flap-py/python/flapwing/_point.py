@@ -1,4 +1,4 @@
-"""Single design points: their rows, motions and resonances."""
+"""Rows, motions and resonances of single design points."""
 
 from __future__ import annotations
 
@@ -37,12 +37,13 @@ def run(
 ) -> Row:
     """Run one design point until the motion repeats every drive period, and compute the measures of one drive period.
 
-    Keyword arguments replace parameters of the design::
+    Keyword arguments replace the values of parameters of the design::
 
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
 
-    The same call always returns the same bits. Other Python threads continue to run during the call.
+    The same call always returns the same numbers, equal to the last bit. Other Python threads continue to run during
+    the call.
 
     Parameters
     ----------
@@ -55,47 +56,51 @@ def run(
         The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
         ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
         also give a row that has the states among its columns, such as ``trajectory(…)[-1:]``. Such a row is a Table, a
-        DataFrame, a dictionary or a row of a DataFrame. If a state in the row is nan, the motion begins at rest. If the
-        design has several orbits, the state determines the orbit that is found. Default: rest.
+        DataFrame, a dictionary or a row of a DataFrame. If a state in such a row is nan, the motion begins at rest. If
+        the design has several orbits, the state determines the orbit that is found. Default: rest.
     waveform : path, tuple or columns, optional
-        One period of the drive, which replaces `drive_shape`. A CSV file or columns (a dictionary, Table or DataFrame)
-        have `time_s` (or `time_ms`) and `wave`. A pair of arrays is (times in s, wave). The duration of the waveform is
-        the drive period, unless `drive_frequency` is given as a keyword. The drive voltage is the bias plus the
-        amplitude times `wave`.
+        One period of the drive waveform, which replaces the parameter `drive_shape`. A CSV file or columns (a
+        dictionary, Table or DataFrame) have `time_s` (or `time_ms`) and `wave`. You can also give a pair of arrays: the
+        times in s, and `wave`. The drive period is the duration of the waveform, unless the keyword `drive_frequency`
+        is given. The drive voltage is the bias plus the amplitude times `wave`.
     stroke : path, tuple or columns, optional
-        One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`), or a
-        pair of arrays (s, rad). The model must have the parameter `stroke_mode`.
+        One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`). You
+        can also give a pair of arrays: the times in s, and the stroke in rad. The model must have the parameter
+        `stroke_mode`.
     progress : bool or function, optional
-        As for `sweep`; the single point is one step.
+        Progress, as for `sweep`. A single point is one step of the progress.
     client : executor, optional
-        Run the point on a worker of an executor, as for `sweep`. The result is the same as without `client`.
+        An executor, such as a process pool, on whose worker the point runs (see `sweep`). The result is the same as
+        without `client`.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
         Default 1e-6.
     atol : float, optional
-        Absolute tolerance of the integrator, in units of each state's typical size: more than 0.
-        Default rtol / 100.
+        Absolute tolerance of the integrator, as a multiple of the typical size of each state: more than 0. Default rtol
+        / 100.
     settle_tol : float, optional
-        A motion has settled when the state changes by less than `settle_tol` from one drive period to the next: more
-        than 0. The unit is the typical size of each state, or the size of the motion if the motion is smaller. Default
-        1e-6.
+        A motion has settled when the state changes by less than `settle_tol` from one drive period to the next. The
+        change is relative to the typical size of each state, or to the size of the motion if the motion is smaller.
+        More than 0. Default 1e-6.
     max_cycles : int, optional
-        Number of drive periods after which a motion that has not settled counts as unsettled: 1 or more. Default 1000.
+        Largest number of drive periods before the motion settles: 1 or more. A motion that needs more periods has the
+        status ``"unsettled"``. Default 1000.
     max_steps : int, optional
         Largest number of integration steps in one drive period: 1 or more.
         Default 20000.
     accuracy : float, optional
-        Largest error_estimate and energy audit of a row: more than 0. If a row exceeds `accuracy`, the point is
-        integrated again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if 1000 rtol is larger.
+        Largest value of `error_estimate` and of the energy audit of a row: more than 0. If a row exceeds `accuracy`,
+        the point is integrated again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if 1000 rtol is
+        larger.
     newton : bool, optional
-        If True, the orbit that the motion approaches is found by Newton's iteration. If False, the motion is integrated
-        until the motion settles on this orbit, which takes more periods. Default True.
+        If True, Newton's iteration finds the orbit that the motion approaches. If False, the motion is integrated until
+        the motion settles on the same orbit, which takes more periods. Default True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol: the search finds the same orbit with about twice the work. Default True.
+        rtol: the search then finds the same orbit with about twice the work. Default True.
     symmetry : bool, optional
-        If True, only half of a period is integrated if the second half of the orbit mirrors the first half. If False,
-        whole periods are integrated: the orbit is the same, with more work. Default True.
+        If True, and if the second half of an orbit mirrors the first half, only half of each period is integrated. If
+        False, whole periods are integrated: the orbit is the same, with more work. Default True.
     **parameters : float or str
         Parameters of the model by name. A value is a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option of a choice.
@@ -162,17 +167,17 @@ def trajectory(
     cycles : int, optional
         Number of drive periods. Default 2.
     samples : int, optional
-        Number of samples of the motion per drive period. One more sample is at the end of the last period. Default 200.
-        `cycles` times `samples` is at most 5,000,000.
+        Number of samples of the motion per drive period. The table has one more sample at the end of the last period.
+        Default 200. `cycles` times `samples` is at most 5,000,000.
     from_rest : bool, optional
         If True, the table begins with the motion from rest. By default, the table begins after the motion has settled.
     initial_state : dict, Table or DataFrame, optional
         The state in which the motion begins, at the start of a drive period; see `run`.
     waveform, stroke : path, tuple or columns, optional
-        A waveform of the drive or a prescribed stroke, see `run`.
+        A waveform of the drive or a prescribed stroke (see `run`).
     once : bool, optional
-        If True, the waveform or the stroke is followed only once, from rest or from `initial_state`. The first and the
-        last value of the record may differ, and `cycles` has no effect.
+        If True, the motion contains the waveform or the prescribed stroke only once, and begins at rest or in
+        `initial_state`. The first and the last value of the record may differ, and `cycles` has no effect.
     progress, client
         As for `run`.
     **keywords : float or str
@@ -188,7 +193,7 @@ def trajectory(
     Raises
     ------
     ValueError
-        The same errors as for `run`. The parameters are impossible together, or the motion does not settle.
+        The same errors as for `run`. The combination of parameter values is impossible, or the motion does not settle.
     TypeError
         An argument has the wrong type.
 
@@ -231,7 +236,7 @@ def resonance(
     client: Executor | None = None,
     **keywords: Value,
 ) -> Resonances:
-    """Compute the resonances of one design point: of small motions, of the free motion after an impulse, and of the
+    """Compute the resonances of one design point in small motions, in the free motion after an impulse, and in the
     driven motion.
 
     Parameters
@@ -244,8 +249,8 @@ def resonance(
     tolerance : float or str, optional
         Largest error of the frequencies of the peaks (Hz, or text with a unit). Default 0.05.
     impulse : float or str, optional
-        Impulse on the resting stroke: the amplitude (rad, or text with a unit) that the stroke would reach in the first
-        mode alone, without damping. The amplitude is not zero and at most half a turn. Default ``"20 deg"``.
+        Size of the impulse (rad, or text with a unit). The size is the stroke amplitude that the impulse causes in the
+        first mode alone, without damping. The size is not zero and at most half a turn. Default ``"20 deg"``.
     fit_cycles : int, optional
         Length of the free motion to which a damped sine is fitted, in periods of the first mode. Default 4.
     spectrum_window : float or str, optional
@@ -258,12 +263,12 @@ def resonance(
     Returns
     -------
     Resonances
-        The resonances of small motions, of the free motion, and of the driven motion.
+        The resonances in small motions, in the free motion after an impulse, and in the driven motion.
 
     Raises
     ------
     ValueError
-        The same errors as for `run`. The parameters are impossible together.
+        The same errors as for `run`. The combination of parameter values is impossible.
     TypeError
         An argument has the wrong type.
 

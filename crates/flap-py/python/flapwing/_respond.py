@@ -31,16 +31,16 @@ def respond(
 ) -> Table:
     """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
 
-    The first point of each branch starts at rest. All later points start from the settled motion of the point before.
-    If the branches up and down settle to different motions, the design is bistable. A step is halved if a bistable band
-    ends in this step. A step in which the motion changes by more than a tenth is also halved, because such a step may
-    hide a narrow bistable band.
+    The first point of each branch (rising or falling parameter) starts at rest. Each later point starts from the
+    settled motion of the point before. If the motions of the rising and of the falling branch differ, the design is
+    bistable. A step is halved if a bistable band ends in this step. A step in which the motion changes by more than a
+    tenth is also halved, because such a step may hide a narrow bistable band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). The axis of the followed parameter is left out. Each remaining point of the
-        grid is a design with its own curve.
+        A preset or a grid (see `Grid`). The grid may have an axis for the followed parameter. Each combination of the
+        values of all other axes is a design with its own curve.
     parameter : str, optional
         The parameter that rises and falls. Default ``"drive_frequency"``.
     start, stop, step : float or str, optional
@@ -55,24 +55,25 @@ def respond(
     return_states : bool, optional
         Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
-        of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
+        core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of designs done and of
-        designs in all.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the designs
+        that are done, and all designs.
     client : executor, optional
-        Follow the designs on the workers of an executor, as for `sweep`; a task is one design. The rows are the same as
-        without `client`.
+        An executor, such as a process pool, on whose workers the designs are followed (see `sweep`). A task is one
+        design. The rows are the same as without `client`.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        One row per motion. The columns are `curve` (number of the design), its parameters, `branch` (``"up"``,
-        ``"down"`` or ``"unstable"``), the followed parameter, and `status`. Then follow `bistable` (true if the
-        branches up and down have different motions) and the other columns of a sweep. `Table.verdicts` has the verdict
-        on each design, and ``meta["parameter"]`` is the name of the followed parameter.
+        One row per motion. The columns are `curve` (number of the design), the parameters of the design, `branch`
+        (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. The next columns are `bistable`
+        (true if the rising and the falling branch have different motions) and the other columns of a sweep.
+        `Table.verdicts` has the verdict on each design, and ``meta["parameter"]`` is the name of the followed
+        parameter.
 
     Raises
     ------
@@ -134,28 +135,29 @@ def edges(
 ) -> Table:
     """Follow the ends of bistable bands in the plane of two parameters.
 
-    The response of each design along the first parameter is followed as by `respond`. Each end of its bands is then
-    continued through the plane of both parameters. A cusp is a point at which hysteresis begins.
+    The response of each design along the first parameter is followed as by `respond`. Each end of a bistable band is
+    then continued through the plane of both parameters. A cusp is a point at which hysteresis begins.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         A preset or a grid (see `Grid`). Each point of the grid, without the followed axis, is a design with its own
-        edges. Its value of the second parameter must lie between `edge_start` and `edge_stop`.
+        edges. The value of the second parameter in each design must be between `edge_start` and `edge_stop`.
     first, second : str, optional
         The two parameters. Defaults ``"drive_frequency"`` and ``"drive_voltage_pp"``.
     edge_start, edge_stop : float or str
         Smallest and largest value of the second parameter: numbers in SI units, or text with units.
     edge_step : float or str, optional
-        Return points at multiples of this step from `edge_start`, at cusps, turns and ends alone. Default: all computed
-        points.
+        Step of the second parameter. The table then has only cusps, turns, ends of edges, and points at multiples of
+        this step from `edge_start`. By default, the table has all computed points.
     start, stop, step : float or str, optional
-        First value, last value, and step between values of the first parameter, as for `respond`. Default: the values
-        of the grid's axis.
+        First value, last value and step of the first parameter, as for `respond`. Default: the values of the grid's
+        axis.
     tolerance : float or str, optional
         Longest step of the response at the ends of bistable bands, as for `respond`.
     threads : int, optional
-        Number of threads for the responses, 1 or more. Default: one per core. Rows do not depend on it.
+        Number of threads for the responses, 1 or more. Default: one thread per core. The number of threads does not
+        change the rows.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -163,15 +165,15 @@ def edges(
     -------
     Table
         One row per point, in the order of the edge. The columns are the parameters of the design, `edge` (number of the
-        edge), `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``), `mark` (``"cusp"``, ``"turn"`` or empty), both
-        parameters, `floquet_max`, and the measures. ``meta["edges"]`` has a summary of each edge in one line. A design
-        without hysteresis has no rows.
+        edge), `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``), `mark` (``"cusp"``, ``"turn"`` or empty), the
+        two followed parameters, `floquet_max`, and the measures. ``meta["edges"]`` has a summary of each edge in one
+        line. A design without hysteresis has no rows.
 
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; no steps; the value of the design is outside of the range. GridError
-        if there are mistakes in a grid.
+        A preset, parameter, option or unit is unknown. The range has no steps, or the design's value of the second
+        parameter is outside of the range. A grid with mistakes raises GridError.
     TypeError
         A value of the wrong type.
 

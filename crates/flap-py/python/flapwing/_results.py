@@ -1,4 +1,5 @@
-"""Results other than tables: rows, optima, resonances, and parameters, measures and states of a design."""
+"""Classes of results other than tables: rows, optima, resonances, and the parameters, measures and states of a
+design."""
 
 from __future__ import annotations
 
@@ -33,7 +34,7 @@ def _same(one: Any, other: Any) -> bool:
 
 
 class _Result:
-    """The base class of results. Two results are equal if all their attributes are equal, where two unknown values
+    """The base class of results. Two results are equal if all attributes of both results are equal. Two unknown values
     count as equal.
     """
 
@@ -47,36 +48,38 @@ class _Result:
 class Row(Mapping[str, Any]):
     """The results of one design point.
 
-    ``row["lift_mean_mn"]`` is the value of a column: a measure, or one of the attributes below. ``dict(row)`` has all
-    columns. The order of the columns is the same for every point of a model.
+    ``row["lift_mean_mn"]`` is the value of a column. A column is a measure, or one of the attributes in the list below.
+    ``dict(row)`` has all columns. The order of the columns is the same for every point of a model.
 
     Attributes
     ----------
     status : str
-        ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"`` (max_cycles reached);
-        ``"diverged"``; ``"step_limit"`` (max_steps reached, or steps too small to advance time); ``"invalid"`` (each
-        parameter is in range, but together they are impossible).
+        ``"periodic"``; ``"subharmonic"`` (repeats every 2 to 8 drive periods); ``"unsettled"`` (not settled after
+        `max_cycles` drive periods); ``"diverged"``; ``"step_limit"`` (`max_steps` steps in one drive period, or steps
+        too small to advance time); ``"invalid"`` (each parameter is in range, but the combination of parameter values
+        is impossible).
     measures : dict of str to float
-        The measures, named by quantity, kind of measure and unit: ``stroke_pp_deg``, ``lift_mean_mn``,
-        ``power_mean_mw``. The measures of ``[measure]`` in the grid follow the model's measures; conditions are bool.
-        All measures are nan unless the point is periodic. A ratio of zero to zero, such as the efficiency without
-        power, is nan.
+        The measures by name. A name consists of quantity, kind of measure and unit, such as ``stroke_pp_deg`` or
+        ``lift_mean_mn``. The measures that ``[measure]`` of the grid defines follow the measures of the model. A
+        condition has the type bool. If the status is not ``"periodic"``, all measures are nan. A ratio of zero to zero,
+        such as the efficiency at zero power, is nan.
     cycles : int
-        Number of integrated drive periods, including the measured periods.
+        Number of drive periods that were integrated, including the periods of the measurement.
     residual : float
         Change of the state over the last period of the motion, relative to the typical size of each state. The residual
         is nan if no period was completed.
     period : int
-        Number of drive periods after which the motion repeats: 1 if periodic, more if subharmonic, otherwise 0.
+        Number of drive periods after which the motion repeats: 1 for a periodic motion, 2 to 8 for a subharmonic
+        motion, otherwise 0.
     floquet_max : float
-        Largest magnitude of a Floquet multiplier: the factor by which a small change of the motion grows or decays per
-        orbit after a long time. The multiplier is nan if no orbit was found, and for a wing at rest.
+        Largest magnitude of a Floquet multiplier. After many periods, a small disturbance of the motion grows or decays
+        by this factor in each period of the orbit. The multiplier is nan if no orbit was found, and for a wing at rest.
     stable : bool or float
-        True if floquet_max is below 1: after a small change, the motion returns to the orbit. A wing at rest is stable.
-        The value is nan if no orbit was found.
+        True if `floquet_max` is below 1. After a small disturbance, the motion then returns to the orbit. A wing at
+        rest is stable. The value is nan if no orbit was found.
     error_estimate : float
-        Estimate of the largest relative error of the integration in stroke, pitch, mean lift and mean power; infinite
-        if no estimate is possible. The estimate is nan unless the point is periodic.
+        Estimate of the relative error of the integration: the largest error of stroke, pitch, mean lift and mean power.
+        Without a periodic motion, the value is nan. If no estimate is possible, the value is infinite.
     rhs_evals : int
         Number of evaluations of the equations of motion.
     reason : str
@@ -152,8 +155,8 @@ class Parameter(_Result):
     name : str
         Name of the parameter in grids, on the command line and as a keyword.
     value : float or str
-        Value of the parameter in the design, in SI units, or the name of an option. The value is nan if the parameter
-        is not set and follows other parameters, or if a grid varies the parameter.
+        Value of the parameter in the design, in SI units, or the name of an option. The value is nan if the grid varies
+        the parameter, or if the parameter is not set and is computed from other parameters.
     unit : str
         SI unit of the parameter; ``""`` for pure numbers and options.
     symbol : str
@@ -163,7 +166,7 @@ class Parameter(_Result):
     allowed : str
         The allowed values of the parameter, as text.
     options : tuple of str
-        Names of the options if the parameter is a choice; empty for other parameters.
+        Names of the options of a parameter with a choice of options. The list is empty for other parameters.
     """
 
     name: str
@@ -176,7 +179,7 @@ class Parameter(_Result):
 
     @property
     def is_number(self) -> bool:
-        """True if the parameter has a number as its value, and this value is set."""
+        """True if the value of the parameter is a number and is set."""
         return isinstance(self.value, float) and not math.isnan(self.value)
 
 
@@ -208,7 +211,7 @@ class State:
     name : str
         Name of the state, such as ``"pitch_rate"``, for `initial_state`.
     unit : str
-        SI unit.
+        SI unit of the state.
     column : str
         Name of the state's column in tables, with the unit: ``"pitch_rate_rad_s"``.
     """
@@ -246,7 +249,7 @@ class DrivenPeak:
     frequency_hz : float
         Drive frequency of the peak (Hz).
     stroke_pp_deg, pitch_pp_deg : float
-        Peak-to-peak stroke and pitch at the frequency of the peak (deg).
+        Peak-to-peak stroke and peak-to-peak pitch at the frequency of the peak (deg).
     """
 
     frequency_hz: float
@@ -280,14 +283,14 @@ class Resonances(_Result):
     linear_hz : dict of str to float
         Natural frequencies (Hz) of small undamped motions, by the name of the mode.
     impulse_fit : DampedSine or None
-        The damped sine that was fitted to the stroke after the impulse. None if no damped sine fits.
+        The damped sine that was fitted to the stroke after the impulse, or None if no damped sine fits the stroke.
     stroke_spectrum_hz, pitch_spectrum_hz : list of float
         Frequencies of the highest peaks in the spectra of stroke and pitch after the impulse (Hz).
     driven : list of DrivenPeak
         Peaks of the settled stroke as a function of the drive frequency, with the highest peak first.
     larger_at_hz : float
-        The end of the frequency range (Hz) at which the stroke is larger than at all peaks; nan if the stroke is
-        largest at a peak.
+        The end of the frequency range (Hz), if the stroke at this end is larger than at all peaks. The value is nan if
+        the stroke is largest at a peak.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """
@@ -312,7 +315,7 @@ class ActiveBound(_Result):
     name : str
         The condition that limits the optimum, or the parameter of the limiting axis.
     limit : float
-        The number in the condition, or the end of the axis in SI units.
+        The number in the condition, or the value at the end of the axis in SI units.
     multiplier : float
         Change of the optimal value per unit of the limit (Lagrange multiplier).
     percent : float
@@ -341,9 +344,10 @@ class ConditionValue(_Result):
     text : str
         The comparison of the condition, or the name of a condition in the grid.
     smaller, larger : float
-        The values of both sides of the comparison: the side that must be smaller, and the side that must be larger.
+        The values of both sides of the comparison: first the side that must be smaller, then the side that must be
+        larger.
     excess : float
-        Violation of the condition, as a share of the limit; 0 if the condition holds.
+        Violation of the condition, as a fraction of the limit. The violation is 0 if the condition holds.
     """
 
     text: str
@@ -354,7 +358,7 @@ class ConditionValue(_Result):
 
 @dataclass(frozen=True, eq=False)
 class LocalOptimum(_Result):
-    """An optimum that a search found from some of its starts.
+    """An optimum at which one or more searches ended.
 
     Attributes
     ----------
@@ -365,7 +369,7 @@ class LocalOptimum(_Result):
     is_feasible : bool
         True if all conditions hold at this optimum.
     starts : int
-        Number of starts whose search ends at this optimum.
+        Number of searches that end at this optimum. Each search begins at a different point.
     """
 
     value: float
@@ -393,20 +397,20 @@ class Optimum(_Result):
     row : Row
         The row of the best design.
     active : list of ActiveBound
-        The bounds and conditions that limit the best design, with their multipliers.
+        The bounds and conditions that limit the best design, each with its Lagrange multiplier.
     conditions : list of ConditionValue
-        All conditions, with their values for the best design.
+        All conditions, with the values of both sides for the best design.
     optima : list of LocalOptimum
         The distinct optima that were found, with the best optimum first.
     at_end : dict of str to tuple of float
-        Parameters that are at an end of their axis, with the smallest and the largest value of the axis. A wider axis
-        may have a better design.
+        Parameters whose best value is at an end of the axis, with the smallest and the largest value of the axis. A
+        grid with a wider axis may contain a better design.
     starts : int
         Number of points at which searches started.
     points, points_computed : int
-        Number of points of the grid, and number of these points that were computed.
+        Number of all points of the grid, and number of the grid points that were computed.
     rows, rows_with_derivatives : int
-        Number of all rows that were computed, and number of these rows that have derivatives.
+        Number of all rows that were computed, and number of computed rows that have derivatives.
     is_polished : bool
         True if a pattern search followed the search with derivatives, because derivatives were missing or misled the
         search.
@@ -435,15 +439,15 @@ class Optimum(_Result):
 
 @dataclass(frozen=True, eq=False)
 class BistableBand(_Result):
-    """A band of a parameter in which the branches up and down have different motions.
+    """A band of a parameter in which the motion of the rising branch differs from the motion of the falling branch.
 
     Attributes
     ----------
     start, stop : float
         The smallest and the largest value of the parameter in the band, in SI units.
     stroke_difference_deg : float
-        Largest difference between the peak-to-peak strokes of the two branches (deg); nan if the motions of both
-        branches are nowhere periodic.
+        Largest difference between the peak-to-peak strokes of the rising and the falling branch (deg). The difference
+        is nan if no point of the band has a periodic motion on both branches.
     """
 
     start: float
@@ -460,7 +464,7 @@ class Verdict:
     text : str
         The text of the verdict in one line.
     bands : list of BistableBand
-        The bands with hysteresis, in rising order of the parameter; empty if the design has no hysteresis.
+        The bands with hysteresis, in rising order of the parameter. The list is empty if the design has no hysteresis.
     """
 
     text: str

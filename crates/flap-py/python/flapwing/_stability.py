@@ -33,27 +33,28 @@ def hover_eigenvalues(
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
     """Return the eigenvalues of hover for each row of a sweep of vehicles with ``damping = true``.
 
-    The states are velocities, rates, roll angle and pitch angle, about the reference point of the torques, which must
-    be the centre of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate
-    for rows near hover. `Vehicle.linear` trims one design and describes its modes.
+    The states are velocities, rates, roll angle and pitch angle. The reference point of the torques must be the centre
+    of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate for rows near
+    hover. `Vehicle.linear` trims one design and describes its modes.
 
     Parameters
     ----------
     rows : Table or mapping
-        The rows, with the columns of the damping matrix.
+        The rows of the sweep, which must have the columns of the damping matrix.
     total_mass : float or array
         The mass of the vehicle (kg), for all rows or for each row.
     body_inertia : three floats or arrays
         The moments of inertia for roll, pitch and yaw (kg m^2).
     body_inertia_product : float or array
-        The product of inertia, the integral of x z dm (kg m^2).
+        The product of inertia (kg m^2): the integral of x z over the mass of the vehicle.
     gravity : float
         The gravitational acceleration (m/s^2).
 
     Returns
     -------
     complex array, rows × 8
-        The eigenvalues (1/s), those with the largest real part first. NaN for a row without a damping matrix.
+        The eigenvalues (1/s) in falling order of the real part. The eigenvalues of a row without a damping matrix are
+        NaN.
 
     Raises
     ------

@@ -35,32 +35,33 @@ def sweep(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The design space (see `Grid`); a preset has a single point. The table ``[output]`` of the grid chooses the
-        columns, but its `path` is not used.
+        The design space (see `Grid`). A preset is a design space with one point. The table ``[output]`` of the grid
+        chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
         File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed. The
-        file has the same bytes as a file of ``flap sweep --out``. A sidecar in the same folder records the origin of
-        the rows. If `out` has unfinished rows of the same grid, the sweep continues them. If `out` has all rows, no
-        point is run. Any other file that is not empty is an error. By default, rows are kept in memory: about half a
-        kilobyte for each row.
+        file has the same bytes as a file of ``flap sweep --out``. A second file in the same folder, the sidecar,
+        records the origin of the rows. If `out` has unfinished rows of the same grid, the sweep continues them. If
+        `out` has all rows, no point is run. If `out` contains anything else, the sweep raises an error. By default,
+        rows are kept in memory, with about half a kilobyte for each row.
     restart : bool, optional
-        If True, the sweep starts over, and replaces the results in `out` when the new results are complete.
+        If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
-        Number of threads, 1 or more; with `client`, for each task. Default: one per core; with `client`, 1. The number
-        of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
+        core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of points done and of
-        points in all.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
+        that are done, and all points.
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
         with the method `result`. Examples are the executors of `concurrent.futures`, submitit and mpi4py, and the
         client of a Dask cluster. The workers must have the same build of flapwing. The rows have the same order and the
-        same bytes as without `client`. If a worker dies, other workers of a Dask cluster run its points again; with
-        other executors, an error is raised. A worker whose processor has another arithmetic is an error, because its
-        rows could differ. The process of the caller runs the points of ``[refine]``.
+        same bytes as without `client`. If a worker of a Dask cluster dies, other workers run the points of the lost
+        worker again. With other executors, an error is raised. A worker is also an error if its processor rounds
+        numbers differently, because its rows could differ in the last bits. The process of the caller runs the points
+        of ``[refine]``.
     points_per_task : int, optional
-        Number of points in a task of `client`, 1 or more. Default: at most 2,048 for each thread of a task, some
-        seconds of work. If each task is a job of a queue, set a larger number.
+        Number of points in a task of `client`, 1 or more. Default: at most 2,048 points for each thread of a task,
+        which take some seconds. If each task is a job of a queue, set a larger number.
     measures : list of str, optional
         The measures of the rows. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
@@ -73,8 +74,8 @@ def sweep(
         One row per point in the order of the grid, without points that ``[where]`` excludes. Columns: `point`, the
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
         `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among the columns
-        after `status`. A point that fails has a row with its status. If `out` is given, rows are read from the file at
-        their first use.
+        after `status`. A point without a periodic motion has a row with its status and without measures. If `out` is
+        given, the table reads a column from the file when the column is used for the first time.
 
     Raises
     ------
@@ -82,12 +83,12 @@ def sweep(
         The grid has mistakes. The error message lists each mistake with its line, the allowed values and the nearest
         name. GridError is a ValueError.
     FileExistsError
-        `out` has complete rows of another grid, or is not a result file, and `restart` is not given.
+        `restart` is not given, and `out` has complete rows of another grid or is not a result file.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be continued, because its unfinished rows belong to another grid or were changed. A preset,
-        parameter, option, unit or measure is unknown; the grid varies or derives a parameter that is also a keyword.
+        `out` cannot be continued, because the unfinished rows in `out` belong to another grid or were changed. A
+        preset, parameter, option, unit or measure is unknown; a keyword is a parameter that the grid varies or derives.
     TypeError
         An argument has the wrong type.
     KeyboardInterrupt
@@ -144,16 +145,16 @@ def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequ
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
-    """Read results of flap and compare them with their checksums.
+    """Read results of flap and compare the results with the checksums that flap stored.
 
     Parameters
     ----------
     path : path
         Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of another command, such
-        as ``flap run --trajectory``. A Parquet table of another program (Zstandard, Snappy or no compression) works
-        too. Units, meanings and axes are read from the sidecar beside the results, or from the metadata of flap's
-        Parquet files. Without a sidecar or metadata, units are taken from the names of the columns. If results are
-        unfinished, the rows up to the last checkpoint are read, with a warning.
+        as ``flap run --trajectory``. Parquet tables of other programs (Zstandard, Snappy or no compression) can be read
+        too. Units, meanings and axes are read from the sidecar of the results, or from the metadata of flap's Parquet
+        files. Without a sidecar or metadata, units are taken from the names of the columns. If results are unfinished,
+        flap reads the rows up to the last checkpoint and gives a warning.
     ignore_damage : bool, optional
         If True, damaged results raise a warning instead of an error, and only readable rows are returned. By default,
         damage is an error.
@@ -161,16 +162,17 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Returns
     -------
     Table
-        The rows of the file. Numbers have the same bits as the numbers that were written. ``meta["verified"]`` is True
-        if the checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results without
-        checksums.
+        The rows of the file. Numbers are equal, to the last bit, to the numbers that were written. ``meta["verified"]``
+        is True if the checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results
+        without checksums.
 
     Raises
     ------
     OSError
         The file cannot be read.
     ValueError
-        The file is not a table of results, or is damaged. The error message gives the place of the damage.
+        The file is not a table of results, or the file is damaged. For a damaged file, the error message gives the
+        place of the damage.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise _mistakes.refused("path", path, "it must be the path of a file of results")

@@ -1,4 +1,4 @@
-"""Results as columns."""
+"""Tables of results, with one array for each column."""
 
 from __future__ import annotations
 
@@ -44,7 +44,8 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
 
 
 def _fixed(values: Any) -> np.ndarray[Any, Any]:
-    """Return values as a read-only array. A table and its tables with some of the rows share the read-only array."""
+    """Return values as a read-only array. A table shares the read-only array with all tables that have some of its
+    rows."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -55,25 +56,26 @@ class Table:
 
     ``table["lift_mean_mn"]`` is a column. ``table[["drive_frequency", "lift_mean_mn"]]`` is a table of some of the
     columns. ``table[rows]`` is a table of some of the rows, where `rows` is a slice, a mask or indices. ``len(table)``
-    is the number of rows. Iterating yields the names of the columns, as for a DataFrame. Columns are read-only; to
-    change values, use a copy such as ``table["lift_mean_mn"].copy()``.
+    is the number of rows. A loop over a table yields the names of the columns, as for a DataFrame. Columns are
+    read-only. To change values, use a copy such as ``table["lift_mean_mn"].copy()``.
 
     Numbers are float64, with nan for unknown values such as the measures of a point that is not periodic. Counts are
-    uint64, flags are bool, options and words are text. If the flag of some row is unknown, the column is float64: 1 for
-    True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects stable rows in both cases. `units` has
-    the units of the columns, and `docs` their meanings.
+    uint64, flags are bool, options and words are text. If the flag of any row is unknown, the column of the flag is
+    float64: 1 for True, 0 for False, nan for unknown. ``table[table["stable"] == 1]`` selects stable rows in a bool
+    column and in a float64 column. `units` has the units of the columns, and `docs` has the meanings of the columns.
 
     Attributes
     ----------
     axes : list of dict
-        The axes of the grid; the last varies fastest. Each dictionary has the parameters that vary together along the
-        axis, with their values. The values are read-only. The list is empty if the rows have no grid with axes.
+        The axes of the grid. Along the rows, the last axis varies fastest. The dictionary of an axis has the parameters
+        that vary together along the axis, with the values of these parameters. The values are read-only. The list is
+        empty if the rows have no grid with axes.
     meta : dict
         The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
-        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). The call adds
+        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). Further entries are
         `counts` (number of rows by status), `excluded` (number of points without a row) and `invalid` (the first few
         invalid points with their reasons). `keywords` has the keywords of the call, which replace values of the grid. A
-        table with some of the rows or columns has copies of these entries, but new values of `rows` and `counts`.
+        table with some of the rows or columns has copies of all entries, but new values of `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -211,9 +213,9 @@ class Table:
         """Derivatives of the measures, with the shape rows x measures x parameters.
 
         ``meta["gradient"]`` has the names of the measures, of the parameters and of the columns, in order. The unit of
-        a derivative is the unit of the measure's column per SI unit of the parameter. Derivatives of a grid's
-        ``[gradient]`` are per 1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap`` has
-        the reason.
+        a derivative is the unit of the measure's column per SI unit of the parameter. Derivatives that ``[gradient]``
+        of a grid requests are per 1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap``
+        has the reason.
         """
         told = self.meta.get("gradient")
         if told is None:
@@ -230,14 +232,14 @@ class Table:
 
     @property
     def periodic(self) -> Table:
-        """Return a table with the rows that have a periodic motion, and therefore measures."""
+        """Return a table with the rows that have a periodic motion. Only these rows have measures."""
         return self[self["status"] == "periodic"]
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the table as a pandas DataFrame. Numbers are not copied if pandas allows shared memory.
 
         Flags have the type ``boolean``, and text is categorical. ``frame.attrs`` has `units`, and the entries of `meta`
-        as text, or as JSON if an entry is not text. Columns that are not copied are read-only; to change values, use
+        as text, or as JSON if an entry is not text. Columns that are not copied are read-only. To change values, use
         ``frame.copy()``.
         """
         return _columns.to_pandas(self._columns, self.meta)
@@ -253,9 +255,9 @@ class Table:
     def to_arrow(self) -> pyarrow.Table:
         """Return the table as an Arrow table. Numbers share memory with the table, and unknown values are null.
 
-        Units and meanings are in the metadata of the fields. The entries of `meta` are in the metadata of the schema,
-        as ``flapwing.build``, ``flapwing.grid`` and so on; entries that are not text are JSON. Parquet files keep the
-        metadata of the fields and of the schema.
+        The metadata of the fields have the units and meanings of the columns. The metadata of the schema have the
+        entries of `meta`, as ``flapwing.build``, ``flapwing.grid`` and so on. Entries that are not text become JSON.
+        Parquet files keep the metadata of the fields and of the schema.
         """
         return _columns.to_arrow(self._columns, self.meta)
 
@@ -268,13 +270,13 @@ class Table:
         order.
 
         A dimension has the name of the first parameter of its axis. Other parameters of the axis are coordinates along
-        this dimension. A motion has the dimension ``time_s``. All other tables without axes have the dimension ``row``.
-        For a response, the columns with the place of a row on its curve are coordinates along ``row``: `curve`, the
-        design's parameters, `branch`, and the followed parameter. Columns are variables with the attributes `units`,
-        `long_name` and `description`. Points that the grid excludes have no row: their cells are nan, 0 or empty text,
-        and flags become float64. The column `point`, or the parameters of the axes, locate the rows. If a table has
-        neither `point` nor these parameters, ValueError is raised. The attributes of the Dataset are the entries of
-        `meta`, as JSON if an entry is not text.
+        this dimension. A table with a motion over time has the dimension ``time_s``. All other tables without axes have
+        the dimension ``row``. For a response, the columns that locate a row on its curve are coordinates along ``row``:
+        `curve`, the design's parameters, `branch`, and the followed parameter. Columns are variables with the
+        attributes `units`, `long_name` and `description`. Points that the grid excludes have no row. The cells of an
+        excluded point are nan, 0 or empty text, and columns of flags become float64. The column `point`, or the
+        parameters of the axes, locate the rows. If a table has neither `point` nor these parameters, ValueError is
+        raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

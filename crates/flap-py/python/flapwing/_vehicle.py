@@ -42,12 +42,13 @@ class Wing(_Entries):
         The name of the wing, which is the prefix of its parameters and columns, as in ``left_drive_voltage_pp`` and
         ``left_stroke_pp_deg``.
     position : sequence of three numbers or texts, optional
-        The position of the shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text with
-        units such as ``"4 mm"``. Default: zero.
+        The position of the wing's shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text
+        with units such as ``"4 mm"``. Default: zero.
     plane : dict, optional
         The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
     mirrored : bool, optional
-        True for a wing on the right: the mirror image, in the plane of x and z, of a wing at `position`.
+        True for a wing on the right. The wing is then the mirror image of a wing at `position`, and the mirror is the
+        plane of x and z.
     preset, device : str, path, optional
         The design of the wing, if it differs from the vehicle's design: the name of a preset, or the path of a device
         file.
@@ -106,7 +107,7 @@ class Wing(_Entries):
 
 
 class Vehicle(_Entries):
-    """A vehicle with one or more wings of one model. The mean forces and torques of the vehicle are sums over the
+    """A vehicle with one or more wings of one model. Each mean force or torque of the vehicle is the sum over all
     wings.
 
     You can use a vehicle as the design in any call::
@@ -116,11 +117,12 @@ class Vehicle(_Entries):
         evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
         sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
 
-    A vehicle is a mapping with the entries of a grid file with a table ``[vehicle]``. If you add other tables, such as
-    ``axes``, the mapping is a grid. A parameter NAME of the model applies to all wings. ``left_NAME`` applies only to
-    the wing `left`. ``difference_NAME`` is the value of left wings minus the value of right wings. Half of this
-    difference is added for wings that are not mirrored, and half is subtracted for mirrored wings. The model leaves out
-    interaction between wings. The body axes are x forward, y to the left, and z up.
+    A vehicle is a mapping with the entries of a grid file that has the table ``[vehicle]``. If you add other tables,
+    such as ``axes``, the mapping is a grid. A parameter NAME of the model applies to all wings. The parameter
+    ``left_NAME`` applies only to the wing with the name `left`. ``difference_NAME`` is the value for left wings minus
+    the value for right wings. Half of the difference is added to NAME for wings that are not mirrored. For mirrored
+    wings, half of the difference is subtracted. The model leaves out aerodynamic interaction between wings. The body
+    axes are x forward, y to the left, and z up.
 
     Parameters
     ----------
@@ -190,19 +192,20 @@ class Vehicle(_Entries):
     ) -> LinearModel:
         """Compute the linear model of small motions about hover, with its eigenvalues.
 
-        The wings respond to the motion of the body, unless you give ``body_response="frozen"``. The point `about` must
-        be the centre of mass. The model requires `total_mass` and the parameters `body_inertia_roll`,
+        The wings respond to the motion of the body, unless you give ``body_response="frozen"``. The argument `about` of
+        `Vehicle` must be the centre of mass. The model requires `total_mass` and the parameters `body_inertia_roll`,
         `body_inertia_pitch` and `body_inertia_yaw`.
 
         Parameters
         ----------
         inputs : sequence of str, optional
             The inputs: parameters, or words such as ``"amplitude_difference"``. ``flap vehicle --help`` lists the
-            words. Default: amplitude and bias, and their left-right differences.
+            words. Default: amplitude, bias, and the left-right differences of amplitude and bias.
         point : int, optional
             The index of a point, if the vehicle is a grid with several points.
         trim : bool
-            True to change the inputs first, so that the lift equals the weight and all torques are zero.
+            True to trim the vehicle first: the inputs are changed until the lift equals the weight and all torques are
+            zero.
         positions : bool
             True to add the position to the states.
         **params
@@ -216,7 +219,7 @@ class Vehicle(_Entries):
         ------
         ValueError
             A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
-            With `trim`: no values of the inputs near the point give hover.
+            With `trim`, the vehicle does not hover at any values of the inputs near the point.
 
         Examples
         --------

@@ -41,11 +41,11 @@ def _number_of_workers(client: Any) -> int:
 def _results(
     client: Executor, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]
 ) -> Generator[Any, None, None]:
-    """Yield the results of a function for several tasks, in the order of the tasks. A task consists of the arguments of
-    the function.
+    """Yield the results of a function for several tasks, in the order of the tasks. A task is a set of arguments of the
+    function.
 
-    A bounded number of tasks is submitted ahead. If the iterator is closed or an exception is raised, tasks that
-    have not started are cancelled.
+    The number of tasks that are submitted before their results are needed is bounded. If the iterator is closed or an
+    exception is raised, tasks that have not started are cancelled.
     """
     ahead = _TASKS_PER_WORKER * _number_of_workers(client)
     # A Dask client makes an executor, with tasks that are not cached.
@@ -139,7 +139,7 @@ def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsInde
 
 
 class Chunks:
-    """Ranges of a grid's points, computed by workers; their rows are returned in the order of the points."""
+    """The points of a grid in ranges that workers compute. The rows are returned in the order of the points."""
 
     def __init__(
         self, grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None

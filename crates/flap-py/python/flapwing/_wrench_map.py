@@ -1,4 +1,4 @@
-"""Quadratic maps of the mean force and torque of a vehicle over its inputs, for model-predictive controllers."""
+"""Quadratic maps from the inputs of a vehicle to its mean force and mean torque, for model-predictive controllers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ["WrenchMap", "wrench_map"]
 
 @dataclass(frozen=True, eq=False)
 class WrenchMap:
-    """A quadratic map of the mean force and torque of a vehicle over its inputs; see `wrench_map`.
+    """A quadratic map from the inputs of a vehicle to its mean force and mean torque. `wrench_map` returns this class.
 
     With m inputs, each component has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. Terms of two inputs
     have the order ``1, s1, s2, s1*s1, s1*s2, s2*s2``, where s is an input scaled from -1 to 1 over its range.
@@ -37,21 +37,22 @@ class WrenchMap:
     components : list of str
         Columns of force and torque: ``"force_forward_mn"`` to ``"torque_yaw_unm"``, in mN and µN·m.
     powers : array of int of shape (terms, inputs)
-        Power of each input in each term.
+        Exponent of each input in each term of the map.
     scaled : array of shape (6, terms)
-        Coefficients for scaled inputs, in mN and µN·m.
+        Coefficients of the map for inputs scaled from -1 to 1, in mN and µN·m.
     physical : array of shape (6, terms)
-        Coefficients for inputs in SI units.
+        Coefficients of the map for inputs in SI units.
     r_squared : array of shape (6,)
-        Coefficient of determination of each component on the rows that were left out of the fit; nan if the component
-        is constant.
+        Coefficient of determination (R²) of each component on the rows that were left out of the fit. The coefficient
+        is nan if the component is constant.
     largest_error : array of shape (6,)
         Largest error of each component on the rows that were left out of the fit, in mN and µN·m.
     rows : dict of str to int
         Number of rows in the fit (``"fitted"``), number of rows left out of the fit (``"left_out"``), and numbers of
         rows without a periodic motion by status.
     floquet_max : float
-        Largest Floquet multiplier of all rows. If it is more than 0.7, the map is near a steep flank of the response.
+        Largest Floquet multiplier of all rows. If the multiplier is more than 0.7, the ranges of the inputs are near a
+        steep part of the response.
     """
 
     inputs: list[str]
@@ -74,8 +75,8 @@ class WrenchMap:
         Parameters
         ----------
         inputs : array_like of shape (..., inputs)
-            Values of the inputs in SI units, in the order of `inputs`. Beyond `start` and `stop`, the result is an
-            extrapolation.
+            Values of the inputs in SI units, in the order of `inputs`. For values outside of the ranges from `start` to
+            `stop`, the result is an extrapolation.
 
         Returns
         -------
@@ -116,12 +117,13 @@ def wrench_map(
     client: Executor | None = None,
     **keywords: Value,
 ) -> WrenchMap:
-    """Fit a quadratic map of the mean force and torque of a vehicle over ranges of its inputs.
+    """Fit a quadratic map from the inputs of a vehicle to its mean force and mean torque, over ranges of the inputs.
 
-    Model-predictive controllers use such maps. The map is the least-squares fit to rows of the vehicle that are spread
-    over the ranges. Every fifth row is left out of the fit and tests the map.
+    Model-predictive controllers use such maps. The map is a least-squares fit to rows of the vehicle. The rows are
+    spread over the ranges of the inputs. Every fifth row is left out of the fit and tests the map.
 
-    A poor map, rows without a periodic motion, a steep response, or an input without effect is a UserWarning.
+    A UserWarning reports a map with large errors, rows without a periodic motion, a steep response, or an input without
+    effect.
 
     Parameters
     ----------
@@ -130,20 +132,20 @@ def wrench_map(
     ranges : dict of str to pair of float or str
         Smallest and largest value of each input: numbers in SI units, or text with units. The inputs are parameters of
         the vehicle, or the words ``"amplitude"``, ``"bias"``, ``"frequency"``, ``"second_harmonic"``,
-        ``"second_phase"`` and ``"third_harmonic"``. A word alone changes all wings. With ``_difference`` appended, a
-        word is the value of left wings minus the value of right wings. After the name of a wing, as in
-        ``"left_bias"``, a word changes this wing.
+        ``"second_phase"`` and ``"third_harmonic"``. A word alone, such as ``"bias"``, changes all wings.
+        ``"bias_difference"`` is the bias of left wings minus the bias of right wings. ``"left_bias"`` changes only the
+        wing with the name `left`.
     samples : int, optional
         Number of rows. Default 400.
     point : int, optional
-        The point of a grid with axes, counted from 0. Default: a grid of one point.
+        The index of a point, counted from 0, if the grid has several points.
     threads : int, optional
-        Number of threads, 1 or more. Default: one per core. The number of threads does not change the map.
+        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the map.
     progress : bool or function, optional
-        Show a bar (with tqdm, in consoles and notebooks), or call a function with the numbers of rows done and in all.
-        With `client`, the whole map is one step.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the rows
+        that are done, and all rows. With `client`, the whole map is one step.
     client : executor, optional
-        Compute the map on a worker of an executor, as for `sweep`.
+        An executor, such as a process pool, on whose worker the map is computed (see `sweep`).
     **keywords : float or str
         Parameters of the vehicle and solver settings, as for `run`.
 
@@ -155,8 +157,9 @@ def wrench_map(
     Raises
     ------
     ValueError
-        The design is no vehicle; an input or a unit is unknown; a range is empty or upside down; there are fewer
-        samples or periodic rows than the coefficients need. A grid with mistakes raises GridError.
+        The design is no vehicle; an input or a unit is unknown; a range is empty, or its smallest value is above its
+        largest value; the number of samples or of periodic rows is too small for the number of coefficients. A grid
+        with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 

@@ -1,4 +1,5 @@
-"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws them.
+"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of these
+numbers.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
@@ -53,7 +54,8 @@ class Sensitivity:
     base : float
         The value of the measure for the unchanged design, in the unit of the measure.
     low, high : float
-        The values of the measure at the lower and at the upper value of the parameter; nan without a periodic motion.
+        The values of the measure at the lower and at the upper value of the parameter. A value is nan if the motion is
+        not periodic.
     unit, measure_unit : str
         The units of the parameter and of the measure.
     """
@@ -71,8 +73,8 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger absolute value of the two changes of the measure, at the lower and at the upper value of the
-        parameter; infinite if both changes are unknown.
+        """The larger absolute change of the measure, of the changes at the lower and at the upper value of the
+        parameter. The result is infinite if both changes are unknown.
         """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
@@ -89,18 +91,20 @@ def sensitivities(
     """Decrease and increase each parameter of a design slightly, and compute the changes of a measure.
 
     Two points are run for each parameter, and one point for the unchanged design. All other parameters keep their
-    values, except parameters that follow the changed parameter, as the bias follows the voltage.
+    values, except parameters that are computed from the changed parameter. For example, the bias of a preset may depend
+    on the drive voltage.
 
     Parameters
     ----------
     design : str
         A preset.
     measure : str
-        A measure of its model.
+        A measure of the preset's model.
     parameters : mapping or iterable of str, optional
         The parameters to change. A mapping gives each parameter its own relative change, or the two values to compute
-        (in SI units). Default: all parameters with a number that is not zero. Parameters that follow other parameters,
-        and parameters that cannot have the changed values, such as whole numbers, are left out.
+        (in SI units). Default: all parameters with a number that is not zero. Parameters that are computed from other
+        parameters are left out. Parameters that cannot have the changed values, such as whole numbers, are left out
+        too.
     change : float
         The relative change of parameters for which `parameters` gives no change.
     **fixed
@@ -218,7 +222,7 @@ def rank_correlations(
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
     Equal values get the mean of their ranks. A parameter is left out if all designs have the same value. A parameter is
-    also left out if it gives the designs the same or the reverse order as an earlier parameter.
+    also left out if an earlier parameter sorts the designs in the same or in the reverse order.
 
     Parameters
     ----------
@@ -239,7 +243,7 @@ def rank_correlations(
     Raises
     ------
     ValueError
-        A column or value is unknown; no design has the measure; no parameter varies.
+        A column or value is unknown; no design has a value of the measure; no parameter varies.
 
     Examples
     --------
@@ -287,7 +291,7 @@ class Statistics:
     mean : float
         The mean of the measure.
     standard_deviation : float
-        The standard deviation of a sample (divisor ``designs - 1``); nan for one design.
+        The sample standard deviation (divisor ``designs - 1``). The value is nan for one design.
     standard_error : float
         The standard error of the mean, for designs that are drawn independently of each other: the standard deviation
         divided by the square root of `designs`. For a Latin hypercube or a Sobol' sequence, this standard error is an
@@ -316,7 +320,7 @@ class Statistics:
 
 
 def percentages(given: Any) -> list[float]:
-    """Return percentages in rising order; raise ValueError if a percentage is not from 0 to 100."""
+    """Return percentages in rising order. Raise ValueError if a percentage is not from 0 to 100."""
     with reading("percentiles", given, "it must be a list of percentages, such as [5, 50, 95]"):
         chosen = sorted(dict.fromkeys(given))
         outside = [percent for percent in chosen if not 0 <= percent <= 100]
@@ -326,7 +330,7 @@ def percentages(given: Any) -> list[float]:
 
 
 def statistics(measure: str, unit: str, values: Array, percentiles: Sequence[float]) -> Statistics:
-    """Return the statistics of finite values of a measure, of which there is at least one."""
+    """Return the statistics of the values of a measure. The values are finite, and there is at least one value."""
     deviation = float(values.std(ddof=1)) if len(values) > 1 else math.nan
     return Statistics(
         measure=measure,
@@ -351,7 +355,7 @@ def describe(
 ) -> dict[str, Statistics]:
     """Compute mean, standard deviation, standard error and percentiles of measures over designs.
 
-    Designs without a periodic motion are left out, and so are values that are not finite.
+    The statistics leave out designs without a periodic motion and values that are not finite.
 
     Parameters
     ----------
@@ -360,7 +364,8 @@ def describe(
     measures : str or iterable of str, optional
         Columns of numbers. Default: all measures of the table.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100. Between two designs, a percentile is interpolated linearly, as by ``flap describe``.
+        Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, as in ``flap
+        describe``.
     where, **slices
         The selection of rows, as for `flapwing.plot.histogram`.
 
@@ -373,7 +378,7 @@ def describe(
     Raises
     ------
     ValueError
-        An unknown column or value; no design with one of the measures; a percentage outside of 0 to 100.
+        A column or value is unknown; no design has a value of one of the measures; a percentage is not from 0 to 100.
 
     Examples
     --------
@@ -399,20 +404,22 @@ def describe(
 
 
 def non_dominated(costs: Any) -> Mask:
-    """Return a mask of the points that no other point dominates. In every column, smaller values are better.
+    """Return a mask of the points that no other point dominates (the Pareto front). Smaller costs are better in every
+    column.
 
-    One point dominates another point if no column is larger and at least one column is smaller. Equal points do not
-    dominate each other.
+    One point dominates another point if none of its costs is larger and at least one of its costs is smaller. Equal
+    points do not dominate each other.
 
     Parameters
     ----------
     costs : array_like, shape (n, k)
-        One row per point and one column per objective, k >= 1. Change the sign of objectives that should be large.
+        One row per point and one column per objective, k >= 1. If a larger value of an objective is better, change the
+        sign of the objective.
 
     Returns
     -------
     ndarray of bool, shape (n,)
-        True for the points of the front; False if a cost is NaN.
+        True for the points of the Pareto front. A point with a cost of NaN is not on the front.
 
     Raises
     ------

@@ -77,7 +77,7 @@ def fit(
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster.
     threads : int, optional
-        Number of threads, 1 or more. Default: one per core. The number of threads does not change the results.
+        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the results.
     progress : bool or function, optional
         If True, the number of computed points is shown. A function is called with the number of computed points as both
         arguments.

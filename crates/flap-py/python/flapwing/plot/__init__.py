@@ -3,7 +3,7 @@
 Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. Every
 function returns matplotlib Axes, a Figure if the picture has several Axes, or an animation. `flapwing.analysis`
 computes sensitivities, rank correlations and Pareto fronts. `style` sets the size of figures and letters. The functions
-that draw do not change the settings of matplotlib.
+that draw pictures do not change the settings of matplotlib.
 
     >>> import numpy as np
     >>> from flapwing import plot
@@ -11,7 +11,7 @@ that draw do not change the settings of matplotlib.
     >>> plot.response(table, "lift_mean_mn").get_ylabel()
     'Lift, mean (mN)'
 
-Install matplotlib with the extra `plot`: ``pip install "flapwing[plot]"``.
+You can install matplotlib with the extra `plot` of flapwing: ``pip install "flapwing[plot]"``.
 """
 
 from __future__ import annotations

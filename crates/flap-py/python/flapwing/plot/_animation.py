@@ -22,7 +22,7 @@ class Scene(Protocol):
 
 
 class Animation(FuncAnimation):
-    """An animation that notebooks display with buttons."""
+    """An animation that notebooks display with buttons to play and stop."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -36,8 +36,8 @@ class Animation(FuncAnimation):
         Parameters
         ----------
         filename : path
-            A name that ends in ``.gif``, in ``.html`` (a page with buttons), or in another format of matplotlib's
-            writer (by default ffmpeg).
+            The path of the file. The name ends in ``.gif``, in ``.html`` (a page with buttons), or in the ending of
+            another format that matplotlib's writer (by default ffmpeg) can write.
         writer, **options
             As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
         """

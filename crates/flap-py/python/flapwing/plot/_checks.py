@@ -1,4 +1,4 @@
-"""Checks of the types of arguments, before anything is drawn."""
+"""Checks of the types of arguments before a picture is drawn."""
 
 from __future__ import annotations
 

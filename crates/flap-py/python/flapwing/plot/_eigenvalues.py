@@ -18,17 +18,19 @@ _MARKERS = "oxs^Dv+P"
 
 @checked
 def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = None) -> _style.Drawn:
-    """Draw the eigenvalues of linear models in the complex plane. Modes to the right of the vertical line grow.
+    """Draw the eigenvalues of linear models in the complex plane. Modes to the right of the vertical line (positive
+    real part) grow over time.
 
     Parameters
     ----------
     models : LinearModel, or mapping of names to LinearModel
-        One model, or several models that are compared. An array of eigenvalues (1/s) can replace a model.
+        One linear model, or several models to compare. An array of eigenvalues (1/s) can replace a model.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. One model without a name has no
-        legend. By default, the legend is beside new axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. A picture of one
+        model without a name has no legend. By default, the legend is beside the axes of a new figure, and inside axes
+        that you give.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Default: axes of a new figure.
 
     Returns
     -------

@@ -36,13 +36,13 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     result : Fit
         The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
-        One of the three pictures to draw. Default: all three pictures.
+        The picture to draw, if you want only one of the three pictures. Default: all three pictures.
 
     Returns
     -------
     matplotlib Figure
-        The 95 % bands are for the value of the model, without the noise of a reading. If a profile does not reach the
-        dashed line on one side, the data do not bound the parameter on that side.
+        The 95 % bands are for the value of the model and do not contain the noise of a reading. If a profile does not
+        reach the dashed line on one side, the data give no limit for the parameter on this side.
 
     Raises
     ------
@@ -149,7 +149,8 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """Draw the profiles of a fit: the rise of the cost if one parameter is fixed at different values."""
+    """Draw the profiles of a fit. A profile is the increase of the cost if one parameter is fixed at different
+    values."""
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(_columns(), len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):

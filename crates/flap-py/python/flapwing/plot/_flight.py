@@ -95,8 +95,8 @@ def flight(
     label : sequence of str, optional
         The name of each flight of a list.
     legend : bool or str
-        False for no legends, or a place inside the axes such as ``"upper left"``. By default, the legends are above new
-        axes, but inside axes that you give.
+        False for no legends, or the place of the legends inside the axes, such as ``"upper left"``. By default, the
+        legends are above the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
         Axes for one panel, in the style of their figure. Default: axes of a new figure.
 

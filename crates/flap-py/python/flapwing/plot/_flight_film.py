@@ -48,21 +48,23 @@ def flight_film(
 ) -> Animation:
     """Animate a flight of a vehicle: the body with its flapping wings, the trajectory so far, and the time.
 
-    The wings follow `motion`, which is the motion of a wing on a body at rest. They do not show the response of the
-    wings to the motion of the body or to the controller. If a wing beat has fewer than ten frames, the wings beat
-    slower than in reality, once in ten frames. The text above the picture contains this factor.
+    The wings follow `motion`, which is the motion of a wing on a body at rest. The animation does not show the response
+    of the wings to the motion of the body or to the controller. If a wing beat has fewer than ten frames, the drawn
+    wings beat slower than the simulated wings: once in ten frames. The text above the picture contains the factor
+    between both speeds.
 
-    A thick line shows the body between the shoulders and the opposite side of the centre of mass, which is a dot. The
-    length of this line is not a property of the vehicle. Keep the returned object until you have saved or shown it:
-    ``plot.flight_film(flight, motion).save("flight.gif")``.
+    A thick line shows the body. The line goes from the shoulders of the wings through the centre of mass, which is a
+    dot, to the opposite side. The length of the thick line is not a property of the vehicle. Keep the returned object
+    until you have saved or shown it: ``plot.flight_film(flight, motion).save("flight.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A flight from `flapwing.fly` or ``flap vehicle --fly``.
     motion : Table, data frame, mapping of columns, or path
-        A trajectory of one wing from `flapwing.trajectory`, of at least one cycle, with ``time_s``, ``stroke_deg`` and
-        ``pitch_deg``. If the wings move differently, give a mapping of the names of all wings to trajectories.
+        A trajectory of one wing from `flapwing.trajectory`. The trajectory has at least one cycle and the columns
+        ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the wings move differently, give a mapping of the names of all
+        wings to trajectories.
     vehicle : Vehicle, Grid, dict or path, optional
         The vehicle with the positions and sizes of its wings. Default: the vehicle of the flight. If the flight is a
         file, `vehicle` is required.
@@ -72,8 +74,8 @@ def flight_film(
         Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
         takes about 0.1 s to draw.
     scale : float, optional
-        Factor by which the vehicle is drawn larger than its trajectory, more than zero. Default: 1 if the size of the
-        vehicle is at least 15 % of the largest distance that it flies; otherwise the factor for this size.
+        Factor by which the vehicle is drawn larger than its trajectory, more than zero. The default is the smallest
+        factor, 1 or more, that gives the drawn vehicle 15 % of the largest flown distance.
 
     Returns
     -------
@@ -225,7 +227,7 @@ class _Scene:
         self.figure.set_layout_engine(None)
 
     def _at(self, time: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """Return columns at the times of the frames."""
+        """Return the columns of the flight at the times of the frames."""
         return np.column_stack([np.interp(self.times, time, column) for column in columns.T])
 
     def _placed(self, points: np.ndarray) -> np.ndarray:

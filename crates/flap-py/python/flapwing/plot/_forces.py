@@ -1,4 +1,4 @@
-"""Pictures of forces and torques of a vehicle: their changes with inputs as a map, or curves against a parameter."""
+"""Pictures of forces and torques of a vehicle: a map of the changes with inputs, or curves against a parameter."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def control_matrix(
     """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
 
     The columns of the map are inputs, and the rows are components of force and torque. The number in a cell of the map
-    is the change per unit of the input. Colours show which force or torque an input changes most. In the comparison of
-    forces with torques by colours, 1 µN·m has the same weight as 1 mN. A number below 0.1 % of the largest number in
-    its column is shown as ``≈0``.
+    is the change per unit of the input. The colours of a column show which force or torque an input changes most. For
+    the colours, a torque of 1 µN·m counts as much as a force of 1 mN. A number below 0.1 % of the largest number in the
+    same column is shown as ``≈0``.
 
     Parameters
     ----------
@@ -58,16 +58,18 @@ def control_matrix(
         derivatives. The array has six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and
         one column for each of `inputs`.
     inputs : list of str, optional
-        The inputs to show, from left to right. If `table` is an array, `inputs` has the names of its columns.
+        The inputs to show, from left to right. If `table` is an array, `inputs` has the names of the columns of the
+        array.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
-        becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
+        the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Default: axes of a new figure.
 
     Returns
     -------
@@ -112,7 +114,8 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
 
     Returns
     -------

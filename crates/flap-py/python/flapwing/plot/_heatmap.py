@@ -54,12 +54,12 @@ def heatmap(
 
     The edges of cells are halfway between neighbouring values of an axis, or between their logarithms on a logarithmic
     axis. Cells without a periodic motion are grey. A cell is hatched if ``[where]`` excludes its row or the file does
-    not have the row. A legend explains grey and hatched cells. In a table of `respond`, each curve has its own refined
-    points. In a map of such a table, a cell without a row shows the nearest row of the same curve.
+    not have the row. A legend explains grey and hatched cells. In a table of `respond`, the curves of different designs
+    have different points. In a map of such a table, a cell without a row shows the nearest row of the same curve.
 
-    Points that form no grid, such as a sample, are drawn as dots. The colours between the dots are interpolated
-    linearly on triangles. A triangle is left out if one of its points has no value. Crosses are points without a
-    periodic motion.
+    If the points form no grid, for example in a sample, each point is drawn as a dot. The colours between the dots are
+    interpolated linearly on triangles. A triangle is left out if one of its points has no value. Crosses are points
+    without a periodic motion.
 
     Parameters
     ----------
@@ -68,12 +68,12 @@ def heatmap(
     value : str, optional
         The measure to draw. Default: the mean lift.
     x, y : str, optional
-        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, else the last axis of the
-        grid. Default for y: the first of the other axes. If the grid has fewer than two axes, sampled parameters are
-        used.
+        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
+        if ``drive_frequency`` does not vary. Default for y: the first of the other axes. If the grid has fewer than two
+        axes, sampled parameters are used.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. Default: logarithmic if the values of an axis have a constant ratio. For points that
-        form no grid: linear.
+        The scales of the axes. By default, an axis is logarithmic if each value is the value before times a constant
+        factor. For points that form no grid, the default is linear.
     cmap : str, optional
         A colour map of matplotlib. Default: viridis. For values of both signs, the default colour map is white at zero,
         with a line at zero.
@@ -81,8 +81,8 @@ def heatmap(
         The values at the ends of the colour bar, in the unit of the colour bar. Default: the smallest and the largest
         value of the measure. An arrow at an end of the colour bar marks values beyond this end.
     reduce : {"max", "min", "mean"}, optional
-        Combine the rows with the same x and y: their largest value, their smallest value or their mean. Rows with the
-        same x and y differ in the axes that are not drawn. Rows without a value are left out.
+        The cell's value if several rows have the same x and y: the largest value, the smallest value or the mean of
+        these rows. Rows with the same x and y differ in the axes that are not drawn. Rows without a value are left out.
     annotate : bool
         Mark the best cell with a star. The legend has the value and the place of the best cell, and the values of the
         axes that `reduce` combined. The best cell has the largest value with ``reduce="max"``, and the smallest value
@@ -90,18 +90,18 @@ def heatmap(
         the largest value for other measures.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected nor reduced, the picture has only the rows at its middle value. A warning shows this
-        value.
+        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If `reduce` is not given and
+        an axis of the grid is neither drawn nor selected, the picture has only the middle value of this axis. A warning
+        shows the middle value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
-        becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
+        the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
-        Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
+        outside of these axes. Default: axes of a new figure.
 
     Returns
     -------
@@ -110,8 +110,8 @@ def heatmap(
     Raises
     ------
     ValueError
-        An unknown column or value; several rows in one cell, without `reduce`; points that form no grid and are on one
-        line.
+        A column or value is unknown; several rows are in one cell, and `reduce` is not given; the points form no grid
+        and are on one line.
 
     Examples
     --------

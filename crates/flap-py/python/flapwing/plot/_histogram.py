@@ -1,4 +1,4 @@
-"""The number of designs over a measure, with mean, standard deviation and percentiles."""
+"""A histogram of a measure over designs, with mean, standard deviation and percentiles."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def histogram(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a histogram: the number of designs over a measure, with mean, standard deviation and percentiles.
+    """Draw a histogram of a measure over designs, with mean, standard deviation and percentiles.
 
     Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
     `flapwing.analysis.describe` returns mean, standard deviation and percentiles as numbers.
@@ -46,13 +46,15 @@ def histogram(
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above new axes, and inside
-        axes that you give. The legend contains the mean and the standard deviation.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is above the axes of a new figure, and inside axes that you give. The legend contains the mean and the
+        standard deviation.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels are outside of these axes. Default: axes of a
-        new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Only labels are outside of these
+        axes. Default: axes of a new figure.
 
     Returns
     -------
@@ -61,7 +63,7 @@ def histogram(
     Raises
     ------
     ValueError
-        An unknown column or value; no design with the measure; a percentage outside of 0 to 100.
+        A column or value is unknown; no design has a value of the measure; a percentage is not from 0 to 100.
 
     Examples
     --------

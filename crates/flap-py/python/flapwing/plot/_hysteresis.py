@@ -1,4 +1,4 @@
-"""A picture of both branches of a response, and of the hysteresis loop between the branches."""
+"""A picture of the rising and the falling branch of a response, and of the hysteresis loop between the branches."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ def hysteresis(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the branches up and down of a response. If the table has unstable orbits between these branches, draw them
-    too.
+    """Draw the rising and the falling branch of a response, and the unstable orbits between the branches if the table
+    has unstable orbits.
 
-    Arrows show the directions of the branches and the jumps between the branches. Bistable bands are shaded.
+    Arrows show the direction of each branch and the jumps between the branches. Bistable bands are shaded.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `flapwing.respond` or ``flap respond --out``.
     y : str, optional
-        The measure to draw. Default: the stroke, peak to peak.
+        The measure to draw. Default: the peak-to-peak stroke.
     parameter : str, optional
         The followed parameter. Default: the column after ``branch``.
     curve : int, optional
@@ -44,13 +44,14 @@ def hysteresis(
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
-        Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
+        outside of these axes. Default: axes of a new figure.
 
     Returns
     -------
@@ -59,7 +60,8 @@ def hysteresis(
     Raises
     ------
     ValueError
-        The table has several designs and none is selected; a column or value is unknown; the table has no branches.
+        The table has several designs, and no design is selected; a column or value is unknown; the table has no
+        branches.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:
@@ -170,8 +172,8 @@ def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
 
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
-    """Draw an arrowhead on the line of a branch: in a bistable band, or after a third of the branch without such a
-    band.
+    """Draw an arrowhead on the line of a branch. The arrowhead is in a bistable band, or after a third of the branch if
+    there is no bistable band.
     """
     count = len(way.x)
     if count < 3:

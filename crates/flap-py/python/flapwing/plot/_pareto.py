@@ -42,25 +42,26 @@ def pareto(
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, at least two. The first two objectives are drawn; a minimised objective comes first, along x.
-        Default: maximise the mean lift and minimise the mean power.
+        The objectives, at least two. The picture shows the first two objectives. If one of them is minimised, this
+        objective is on the horizontal axis. Default: maximise the mean lift and minimise the mean power.
     color : str, optional
         A column that sets the colours of the points: numbers with a colour bar, words with a legend.
     cmap : str, optional
-        A colour map of matplotlib, for numbers. Default: as for `heatmap`.
+        A colour map of matplotlib for columns of numbers. Default: the same as for `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
-        becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
+        the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
-        Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
+        outside of these axes. Default: axes of a new figure.
 
     Returns
     -------

@@ -35,7 +35,7 @@ def response(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a family of responses: a measure against one parameter, with one line for each value of another parameter.
+    """Draw a measure against one parameter, with one line for each value of another parameter (a family of responses).
 
     Rows without a periodic motion leave a gap in a line. Above the picture, each gap in a line has a mark in the colour
     of the line.
@@ -46,32 +46,33 @@ def response(
         Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
         several results: a mapping of names to results, or a list. Each design then has one line.
     y : str, optional
-        The measure to draw. Default: the stroke, peak to peak.
+        The measure to draw. Default: the peak-to-peak stroke.
     x : str, optional
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
-        axis. If several results are given, each result has one line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
+        grid's other axes, if the grid has another axis. If several results are given, each result has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     label : sequence of str, optional
-        The names of a list of results in the legend. Default: the numbers of the results.
+        The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
-        becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
+        the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Default: axes of a new figure.
 
     Returns
     -------
     matplotlib Axes
-        The axes show parameters in readable units, which the labels contain.
+        The axes show parameters in readable units, which the labels of the axes contain.
 
     Raises
     ------
@@ -117,7 +118,7 @@ def response_panels(
     colorbar: bool | Axes = True,
     **slices: Any,
 ) -> Figure:
-    """Draw several measures against one parameter, in axes below each other; see `response`.
+    """Draw several measures against one parameter, in axes below each other. Each measure is drawn as by `response`.
 
     Parameters
     ----------
@@ -130,20 +131,21 @@ def response_panels(
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter with one line for each value. Default: the first of the grid's other axes, if the grid has another
-        axis. If several results are given, each result has one line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
+        grid's other axes, if the grid has another axis. If several results are given, each result has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at its middle value. A warning shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        middle value.
     label : sequence of str, optional
-        The names of a list of results in the legend. Default: the numbers of the results.
+        The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, which
-        becomes smaller.
+        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
+        the picture becomes narrower.
 
     Returns
     -------

@@ -79,7 +79,7 @@ NARROW = 5.0
 def style(
     *, width: float | str | None = None, height: float | str | None = None, font_size: float = 8.0
 ) -> Iterator[None]:
-    """Set the size of pictures and of their letters, for a paper or for slides.
+    """Set the size of pictures and of the letters in pictures, for a paper or for slides.
 
     The settings apply to figures that are drawn and saved in the ``with`` block. The settings of `style` are settings
     of matplotlib, such as ``figure.figsize`` and ``font.size``, so they apply to your own figures too.
@@ -88,8 +88,9 @@ def style(
     ----------
     width, height : float or str, optional
         Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
-        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 of the width. Figures with several axes
-        below each other are higher in proportion. If both width and height are omitted, figures keep flap's sizes.
+        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. The height of a figure
+        with several axes below each other grows with the number of axes. If both width and height are omitted, figures
+        keep flap's sizes.
     font_size : float, optional
         Size of the letters (points). Lines and markers are thinner for letters of less than 9.5 points. Default: 8.
 
@@ -101,7 +102,7 @@ def style(
     Raises
     ------
     ValueError
-        A length or a font size that is not more than zero, or that has an unknown unit.
+        A length or a font size is zero or less, or has an unknown unit.
     TypeError
         A value of the wrong type.
 
@@ -160,8 +161,8 @@ def _inches(name: str, length: Any) -> float:
 def applied(ax: Axes | None = None) -> Iterator[None]:
     """Apply the style of flap's pictures while a picture is drawn.
 
-    Settings of matplotlib that the user has changed stay. A setting counts as changed if it differs from the default of
-    matplotlib. Axes that the user gives keep the style of their figure.
+    Settings of matplotlib that the user has changed are kept. A setting counts as changed if its value differs from the
+    default of matplotlib. Axes that the user gives keep the style of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     before = plt.get_fignums()
@@ -207,8 +208,8 @@ def size(factor: float) -> float:
 
 
 def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
-    """Return a new figure whose layout fits its labels. A size of figures that the user has set is kept: its width, and
-    its height for one axes.
+    """Return a new figure whose layout fits its labels. If the user has changed the size of figures in matplotlib, the
+    figure has this width. A figure with one axes also has this height.
     """
     if not _is_default("figure.figsize"):
         sides = mpl.rcParams["figure.figsize"]

@@ -29,32 +29,33 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw the sensitivity of a measure to each parameter, as bars in the order of their length.
+    """Draw the sensitivity of a measure to each parameter as a bar. The bars are in the order of their length.
 
-    If `design` is a preset, each parameter is changed slightly. If `design` is a sample, bars show the rank correlation
-    (Spearman) of each parameter with the measure, from -1 to 1.
+    If `design` is a preset, each parameter of the preset is changed slightly, and bars show the changes of the measure.
+    If `design` is a sample, bars show the rank correlation (Spearman) of each parameter with the measure, from -1 to 1.
 
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. Points are run only for a
-        preset.
+        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. Only for a preset, the
+        function runs points of the model.
     measure, parameters, change, **fixed
-        As for `flapwing.analysis.sensitivities`. For a sample, as for `flapwing.analysis.rank_correlations`, without
-        `change`.
+        For a preset, as for `flapwing.analysis.sensitivities`. For a sample, as for
+        `flapwing.analysis.rank_correlations`, without `change`.
     top : int
         The largest number of parameters to draw.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is beside new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is beside the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes for the picture, in the style of their figure. Only labels and a colour bar are outside of these axes.
-        Default: axes of a new figure.
+        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
+        outside of these axes. Default: axes of a new figure.
 
     Returns
     -------
     matplotlib Axes
-        The horizontal axis is the change of the measure in percent of the design's value, or the correlation.
+        For a preset, the horizontal axis is the change of the measure in percent of the design's value. For a sample,
+        the horizontal axis is the correlation.
 
     Raises
     ------

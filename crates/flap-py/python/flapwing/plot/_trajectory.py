@@ -50,7 +50,7 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw signals over time. Beside these curves, draw phase portraits: the rate of each angle against the angle.
+    """Draw signals over time, and beside the signals phase portraits: the rate of each angle against the angle.
 
     Parameters
     ----------
@@ -58,18 +58,19 @@ def trajectory(
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
         trajectories: a mapping of names to trajectories, or a list. Each design then has one colour.
     signals : str or sequence of str
-        The columns to draw over time; columns with the same unit share axes. With several trajectories, each column has
-        its own axes. Default: stroke and pitch.
+        The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
+        each column has its own axes. Default: stroke and pitch.
     portrait : sequence of str, optional
         The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
         table has no column for a rate, the rate is computed from the samples.
     time : str
         The column of the time.
     label : str or sequence of str, optional
-        The name of the motion in the legend, or of each motion of a list. Default: later motions are numbered.
+        The name of the motion in the legend, or the names of the motions of a list. By default, the second and later
+        motions have numbers as names.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. By default, the legend is above new
-        axes, but inside axes that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is above the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
         Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
         signal. If these axes already have motions, the colours continue and the legend has all lines.
@@ -77,13 +78,13 @@ def trajectory(
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The axes of the figure are the axes over time, from top to bottom, then the portraits.
+        The figure has first the axes over time, from top to bottom, then the axes of the phase portraits.
 
     Raises
     ------
     ValueError
-        An unknown column; a number of names that differs from the number of trajectories. With `ax`: signals of several
-        units, portraits, or another unit than the motions that are already in these axes.
+        A column is unknown. The number of names differs from the number of trajectories. With `ax`, the signals have
+        several units, portraits are requested, or the motions in `ax` have another unit.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A measure at points that form no grid, as colours of triangles between the points."""
+"""Maps of a measure at points that form no grid, with coloured triangles between the points."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ _MARKERS = {"subharmonic": "+", "unsettled": "x", "diverged": "1", "step_limit":
 
 
 def form_no_grid(data: Data, x: str, y: str) -> bool:
-    """Return True if the values of these parameters are sampled or refined, or if most cells would have no row."""
+    """Return True if the values of the parameters are sampled or refined, or if most cells of a map would have no
+    row."""
     if is_text(data[x]) or is_text(data[y]) or data.followed() in (x, y):
         return False
     if not (data.on_a_grid(x) and data.on_a_grid(y)):

@@ -39,15 +39,16 @@ def wing_path(
 ) -> Animation:
     """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
 
-    The dot is the leading edge of the wing, which is up, and the line ends at the trailing edge. The length of the
-    arrow shows the lift; the arrow points down if the lift is negative. Below the wing, curves show stroke and pitch
-    over the cycle. Keep the returned object until you have saved or shown it:
+    The dot is the leading edge, at the upper edge of the wing, and the line ends at the trailing edge. The length of
+    the arrow shows the lift. The arrow points down if the lift is negative. Below the wing, curves show stroke and
+    pitch over the cycle. Keep the returned object until you have saved or shown it:
     ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory of at least one cycle with ``time_s``, ``stroke_deg`` and ``pitch_deg``, evenly sampled.
+        A trajectory with the columns ``time_s``, ``stroke_deg`` and ``pitch_deg``, of at least one cycle, with equally
+        spaced samples.
     frames : int
         Number of frames in the cycle. The frames are evenly spaced in time.
     frequency : float, optional
@@ -56,16 +57,18 @@ def wing_path(
         Distance of the drawn chord from the stroke axis, in chords. Default: 3. If the peak-to-peak stroke is less than
         11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
     lift : str or None
-        The column that the arrow shows; None for no arrow. Without `lift`, the picture has no arrow if the default
-        column is missing.
+        The column that the arrow shows; None draws no arrow. If `lift` is not given and the table has no column of the
+        lift, the picture has no arrow.
     pitch_sign : {1, -1}, optional
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
-        lags (1) or leads (-1). Default: the convention of the model of the table. For a table without a model, the
-        default is the sign for which the trailing edge lags.
+        lags (1) or leads (-1). Default: the convention of the table's model. If the table has no model, the default is
+        the sign for which the trailing edge lags.
     legend : bool or str
-        False for no legend, or a place inside the axes such as ``"upper left"``. Default: above the axes.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
+        legend is above the axes.
     ax : matplotlib Axes, optional
-        Axes for the wing, without the curves below it. The legend is inside these axes.
+        Axes for the picture of the wing. The curves of stroke and pitch are then not drawn. The legend is inside these
+        axes.
 
     Returns
     -------
