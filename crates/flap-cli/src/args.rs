@@ -51,14 +51,14 @@ pub(crate) use vehicle::VehicleArgs;
 #[derive(Parser)]
 #[command(name = "flap", version, long_version = long_version(), max_term_width = 100, after_help = EXIT_CODES)]
 pub(crate) struct Args {
-    /// Print only warnings and errors to stderr, without progress and notes
+    /// Print only warnings and errors to stderr: no progress and no notes
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
-/// Returns the version and the build identity. Builds with the same identity write the same rows.
+/// Returns the version and the build identity. Two builds of flap with the same identity write the same rows.
 fn long_version() -> &'static str {
     static TEXT: LazyLock<String> = LazyLock::new(|| {
         let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
@@ -73,11 +73,11 @@ pub(crate) enum Command {
     Sweep(SweepArgs),
     /// Run one design point and print its measures
     Run(RunArgs),
-    /// Follow designs up and down along the drive frequency or another parameter, and find hysteresis
+    /// Follow the motions of designs while a parameter rises and falls, and find hysteresis
     Respond(RespondArgs),
-    /// Compute the force and torque of a vehicle, the effect of each input on them, and trims
+    /// Compute the force and torque of a vehicle, the effect of each input on force and torque, and trims
     Vehicle(VehicleArgs),
-    /// Find the best design within the axes of a grid file, under conditions
+    /// Find the best design within the axes of a grid file, under conditions on measures
     Optimise(OptimiseArgs),
     /// Open a page with sliders for the parameters, and curves that change with the sliders
     #[cfg(feature = "live")]
@@ -88,7 +88,7 @@ pub(crate) enum Command {
     Top(TopArgs),
     /// Summarize results: statuses, percentiles, and the best value of each axis
     Describe(DescribeArgs),
-    /// Draw results as a picture, or write a page to explore them in a browser
+    /// Draw results as a picture, or write a page on which you explore the results in a browser
     #[cfg(feature = "plots")]
     Plot(PlotArgs),
     /// Resume, rerun, merge, convert or verify results
@@ -122,7 +122,7 @@ Exit codes:
   0    done
   1    with --strict: some points are not periodic; `results verify`: some files have no checksums;
        `optimise`: no design satisfies all conditions
-  2    the command line or an input file must be corrected, or an input file does not exist
+  2    the command line or an input file has a mistake, or an input file does not exist
   3    reading or writing failed, or results are damaged
   130  interrupted; run the same command again to continue a sweep
   101  an internal error in flap";
@@ -139,7 +139,7 @@ pub(crate) fn line() -> &'static [OsString] {
     LINE.get().map_or(&[], Vec::as_slice)
 }
 
-/// Parses the command line. If it has mistakes, prints them and ends the process.
+/// Parses the command line. If the command line has mistakes, prints the mistakes and ends the process.
 pub(crate) fn parse() -> Args {
     let matches = command().try_get_matches_from(line()).unwrap_or_else(|error| with_hint(error).exit());
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
@@ -184,7 +184,7 @@ fn groups(command: &clap::Command) -> String {
     text
 }
 
-/// Adds the first example of a command above its usage line, and does the same for its subcommands.
+/// Adds the first example of a command, and of each of its subcommands, above the usage line.
 fn with_example(command: clap::Command) -> clap::Command {
     let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
     let lines = help.lines().skip_while(|line| !line.starts_with("Example"));

@@ -8,13 +8,13 @@ use super::values::{density, length, line_density, mass};
 
 #[derive(Subcommand)]
 pub(crate) enum DeviceCommand {
-    /// Print the device file of a preset, which you can edit
+    /// Print a device file with the values of a preset, as a start for your own device file
     ///
     /// The device file lists every parameter with its value, unit, range and meaning.
     New(NewArgs),
     /// Compute the parameters of a wing from its outline, and print them as a device file
     ///
-    /// The parameters of the wing are areas, radii, inertias, and a table of the chord.
+    /// The computed parameters are areas, radii and inertias of the wing, and a table of the wing's chord.
     Wing(WingArgs),
 }
 
@@ -37,7 +37,8 @@ pub(crate) struct WingArgs {
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// Preset, device file or grid file to which flap adds the wing; the model determines the computed parameters
+    /// Preset, device file or grid file to which flap adds the wing; the model of this design determines which
+    /// parameters flap computes
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 
@@ -59,15 +60,16 @@ pub(crate) struct WingArgs {
 
     /// Measured mass of the wing, such as `0.6 mg`
     ///
-    /// flap scales the masses of membrane and spar so that their sum is this mass. Without --thickness and --density, the mass
-    /// is spread evenly over the area of the wing.
+    /// flap scales the masses of membrane and spar so that the sum of both masses is the measured mass. Without
+    /// --thickness and --density, flap spreads the mass evenly over the area of the wing.
     #[arg(long, value_name = "MASS", value_parser = mass)]
     pub(crate) mass: Option<f64>,
 }
 
 const WING_HELP: &str = "\
-Distances are measured from the hinge's axis: the leading edge lies ahead of this axis, the trailing edge behind \
-it. Between two rows of the file, the edges of the wing are straight. Some parameters must change together with the wing: see the manual, How to, Wings.
+Distances are measured from the axis of the hinge. The leading edge lies ahead of the axis, and the trailing edge lies \
+behind the axis. Between two rows of the file, the edges of the wing are straight. Some parameters must change together \
+with the wing: see the manual, How to, Wings.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

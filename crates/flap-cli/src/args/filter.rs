@@ -2,16 +2,16 @@
 
 use flap_sweep::notation::expression::is_free_name;
 
-/// A condition on rows. Rows that do not satisfy it are left out.
+/// A condition on rows. Rows that do not satisfy the condition are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Filter {
-    /// The column of this name has this value.
+    /// A column, by its name, and the value that the column must have.
     Equal(String, String),
     /// A comparison of columns and numbers, such as `lift_mean_mn > 1`.
     Comparison(String),
 }
 
-/// Parses a condition: `COLUMN=VALUE`, else a comparison.
+/// Parses a condition `COLUMN=VALUE`, or a comparison if the text has another form.
 #[expect(clippy::unnecessary_wraps, reason = "clap requires a result")]
 pub(super) fn filter(text: &str) -> Result<Filter, String> {
     let equal = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()));
@@ -21,7 +21,7 @@ pub(super) fn filter(text: &str) -> Result<Filter, String> {
     })
 }
 
-/// Removes the quotes around a word. Words in comparisons have quotes, and a shell may leave them.
+/// Removes the quotes around a word. Words in comparisons have quotes, and some shells pass the quotes to flap.
 fn unquoted(word: &str) -> &str {
     let inner = |quote: char| word.strip_prefix(quote)?.strip_suffix(quote);
     inner('\'').or_else(|| inner('"')).unwrap_or(word)

@@ -7,11 +7,11 @@ use clap_complete::Shell;
 
 #[derive(Subcommand)]
 pub(crate) enum GenerateCommand {
-    /// Print a script that completes commands and options in a shell
+    /// Print a script with which a shell completes commands and options
     Completions(CompletionsArgs),
     /// Write manual pages, one per command
     Man(ManArgs),
-    /// Print a JSON schema of grid files, for editors that complete keys
+    /// Print a JSON schema of grid files, with which editors complete keys
     Schema(SchemaArgs),
 }
 

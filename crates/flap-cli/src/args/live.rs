@@ -19,14 +19,15 @@ pub(crate) struct LiveArgs {
     #[arg(long)]
     pub(crate) no_open: bool,
 
-    /// Number of worker threads; the rows do not depend on this number [default: one per core]
+    /// Number of worker threads; the number does not change the rows [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 }
 
 const LIVE_HELP: &str = "\
-flap starts a web server on this machine and prints the address of the page. The address contains a secret token. Anyone with the \
-address can make the server compute rows, so do not share the address. The server listens only on 127.0.0.1, reads only the file that you name, and writes no files. Ctrl-C stops the server.
+flap starts a web server on this machine and prints the address of the live page. The address contains a secret token. \
+Anyone with the address can make the server compute rows, so do not share the address. The server listens only on \
+127.0.0.1, reads only the file that you name, and writes no files. Ctrl-C stops the server.
 
 Examples:
   flap live jafferis2016

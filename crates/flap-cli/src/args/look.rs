@@ -27,11 +27,10 @@ pub(crate) struct TopArgs {
 }
 
 const TOP_HELP: &str = "\
-flap lists the best rows: their varied and derived parameters, the column that ranks the rows, and their status. The table \
-shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking column is \
-empty are left out. Rows with equal values keep their order. If the best row is at the end of an axis, flap prints a note: \
-rows beyond this value may be better. If FILE is unfinished, flap ranks the rows up to the last \
-checkpoint.
+flap lists the best rows: their varied and derived parameters, the column that ranks the rows, and their status. The \
+table shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking \
+column is empty are left out. Rows with equal values keep their order. If the best row is at the end of an axis, flap \
+prints a note: rows beyond this value may be better. If FILE is unfinished, flap ranks the rows up to the last checkpoint.
 
 Examples:
   flap top sweep.csv --by efficiency_gf_per_w
@@ -42,15 +41,15 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = DESCRIBE_HELP)]
 pub(crate) struct DescribeArgs {
-    /// Measures for which the best values of each axis are listed, separated by commas. [default: lift_mean_mn and
-    /// efficiency_gf_per_w, or the first measure of a file that has neither]
+    /// Measures for which flap lists the best value of each axis, separated by commas. [default: lift_mean_mn and
+    /// efficiency_gf_per_w, or the first measure if the file has neither column]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 
     /// Columns to summarize, separated by commas [default: all columns after the parameters]
     ///
-    /// For a column with numbers, flap prints mean, standard deviation and percentiles. For a column with text, such as true and false, flap counts how often
-    /// each text occurs.
+    /// For a column with numbers, flap prints mean, standard deviation and percentiles. For a column with text, such as
+    /// true and false, flap counts the rows with each text.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -59,38 +58,39 @@ pub(crate) struct DescribeArgs {
 }
 
 const DESCRIBE_HELP: &str = "\
-flap prints three kinds of tables. The first table has the number of rows of each status. The second table has the mean, \
-the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the largest value of each measure; csv and \
-json also have the standard error of the mean. The third kind of table shows the best value \
-of each axis for one main measure. For each axis, this table has the value in the best row, and the range of values in the \
-best tenth of the rows. If the range of the best tenth is wide, the axis has little influence. `at the end` means that the best value is at \
-an end of the axis: a wider axis may contain better designs. An axis is a varied parameter; in results of `flap respond`, \
-the branch is an axis too.
+flap prints three kinds of tables. The first table has the number of rows with each status. For each measure, the second \
+table has the mean, the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the largest value; \
+csv and json also have the standard error of the mean. The third kind of table is for one main measure, and shows the \
+best value of each axis. For each axis, the third table has the axis value of the best row, and the range of axis values \
+in the best tenth of the rows. If the best tenth of the rows has a wide range of an axis, this axis has little influence \
+on the measure. `at the end` means that the best value is at an end of the axis: a wider axis may contain better designs. \
+An axis is a varied parameter; in results of `flap respond`, the branch is an axis too.
 
 Examples:
   flap describe sweep.csv
   flap describe sweep.csv --by power_mean_mw --aim min --where 'lift_mean_mn>1'
   flap describe sweep.parquet --columns lift_mean_mn,stroke_pp_deg --format json";
 
-/// The choice of rows, and the format of a summary.
+/// Options of commands that summarize results: the rows to use, and the output format.
 #[derive(clap::Args)]
 pub(crate) struct LookArgs {
     /// Results of `flap sweep`, `flap respond --out` or `flap results`
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// Better direction of the measure: larger or smaller values [default: min for power, current, strain, field, drag and force, max for other columns]
+    /// Better direction of the measure: larger or smaller values [default: min for power,
+    /// current, strain, field, drag and force, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 
     /// Use only the rows that satisfy this condition. You can repeat --where
     ///
     /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
-    /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
+    /// such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Use rows of every status, not only periodic ones
+    /// Use rows of every status, not only rows with the status `periodic`
     #[arg(long)]
     pub(crate) all: bool,
 

@@ -12,17 +12,17 @@ pub(crate) struct ModelsArgs {
     #[arg(value_name = "NAME|FILE")]
     pub(crate) names: Vec<String>,
 
-    /// Explain the names only for this model, or for the model of this preset
+    /// Explain the names only for one model: the named model, or the model of the named preset
     #[arg(long, value_name = "MODEL|PRESET", requires = "names")]
     pub(crate) model: Option<String>,
 
-    /// Print whole meanings instead of first sentences, and also the symbols and allowed values of parameters
+    /// Print whole meanings, not only the first sentences, and also the symbols and allowed values of parameters
     #[arg(long, requires = "names")]
     pub(crate) long: bool,
 
     /// Output format
     ///
-    /// csv and json contain the whole meanings, and the values of parameters in SI units.
+    /// The formats csv and json contain the whole meanings, and the values of parameters in SI units.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }

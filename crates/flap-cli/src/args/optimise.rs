@@ -12,7 +12,7 @@ use super::values::{rows, threads};
 #[derive(clap::Args)]
 #[command(after_help = OPTIMISE_HELP, group = ArgGroup::new("goal").required(true).multiple(true))]
 pub(crate) struct OptimiseArgs {
-    /// Grid file, whose axes are the bounds of the search; `-` reads a grid from stdin
+    /// Grid file whose axes contain the bounds of the search; `-` reads a grid from stdin
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
@@ -29,7 +29,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// Compute a front of N designs between two goals: from the best value of the first goal to the best value of the second.
+    /// Compute a Pareto front of N designs for two goals, from the best value of one goal to the best value of the
+    /// other.
     /// Requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,
@@ -38,7 +39,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long, value_name = "N", default_value_t = Settings::STARTS, value_parser = starts)]
     pub(crate) starts: usize,
 
-    /// Largest number of grid points to compute. If the grid has more points, flap computes N points spread over the grid
+    /// Largest number of grid points to compute. If the grid has more points, flap computes N points that are spread
+    /// over the grid
     #[arg(long, value_name = "N", default_value_t = Settings::POINTS, value_parser = value_parser!(u64).range(1..=10_000_000))]
     pub(crate) sample: u64,
 
@@ -46,7 +48,7 @@ pub(crate) struct OptimiseArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Number of worker threads; the best design does not depend on this number [default: one per core]
+    /// Number of worker threads; the best design does not depend on this number [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -68,16 +70,17 @@ fn starts(text: &str) -> Result<usize, String> {
 }
 
 const OPTIMISE_HELP: &str = "\
-flap first computes the points of the grid. The search then improves the best points step by step, with the derivatives of the \
-measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole numbers and \
-parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
+flap first computes the points of the grid. The search then improves the best points step by step, with the derivatives \
+of the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole \
+numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
 
-The status is `optimal` if the derivatives confirm that the design is the best. The status is `approximate` if the \
-derivatives do not confirm the design or are missing. The status is `infeasible` if no design satisfies all conditions: flap \
-then prints the design with the smallest violation of the conditions, and the exit code is 1.
+The status is `optimal` if the derivatives confirm that no small change of the design is better. The status is \
+`approximate` if the derivatives are missing, or do not confirm that the design is optimal. The status is `infeasible` if \
+no design satisfies all conditions: flap then prints the design with the smallest violation of the conditions, and the \
+exit code is 1.
 
-With --points, each row is one design of the front: the best value of one goal under a limit on the other goal. With \
-`--format csv`, rows contain all measures, so that `flap plot` can draw them.
+With --points, each row is one design of the Pareto front: the best value of one goal under a limit on the other goal. \
+With `--format csv`, rows contain all measures, so that `flap plot` can draw the rows.
 
 Examples:
   flap optimise grid.toml --maximise vehicle_lift_mgf --where 'stroke_pp_deg < 100 deg' --where 'strain_surface_max < 0.08 %'

@@ -29,19 +29,21 @@ pub(crate) struct PointArgs {
 /// Options that set the solver.
 #[derive(clap::Args, Default)]
 pub(crate) struct SolverArgs {
-    /// Relative tolerance of the integrator; the absolute tolerance becomes a hundredth of this value
+    /// Relative tolerance of the integrator; the absolute tolerance is a hundredth of the relative tolerance
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 
-    /// Largest estimated relative error of a row; flap integrates points with a larger error again with a smaller tolerance
+    /// Largest estimated relative error of a row; if the error is larger, flap integrates the point again with a
+    /// smaller tolerance
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
-    /// A motion is settled if its states change by at most this share of their typical sizes from one drive period to the next
+    /// Largest change of the states from one drive period to the next in a settled motion, as a fraction of each
+    /// state's typical size
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 
-    /// Number of drive periods after which a motion that has not settled counts as unsettled
+    /// Largest number of drive periods before the motion settles; a slower motion has the status `unsettled`
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) max_cycles: Option<u32>,
 }
@@ -49,11 +51,11 @@ pub(crate) struct SolverArgs {
 /// Options of a sweep: threads, exit code and checkpoints.
 #[derive(clap::Args)]
 pub(crate) struct WorkArgs {
-    /// Number of worker threads; the rows do not depend on this number [default: one per core]
+    /// Number of worker threads; the number does not change the rows [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
-    /// Exit with code 1 if some points are not periodic
+    /// Exit with code 1 if the motions of some points are not periodic
     #[arg(long)]
     pub(crate) strict: bool,
 
@@ -62,7 +64,7 @@ pub(crate) struct WorkArgs {
     pub(crate) checkpoint: Duration,
 }
 
-/// The option of commands that write small files.
+/// Option of commands that write small files.
 #[derive(clap::Args)]
 pub(crate) struct OverwriteArgs {
     /// Overwrite existing files
@@ -73,9 +75,9 @@ pub(crate) struct OverwriteArgs {
 /// Options of commands that start or continue results.
 #[derive(clap::Args)]
 pub(crate) struct BeginArgs {
-    /// Start over, and replace existing results when the new ones are complete
+    /// Compute all rows again, and replace existing results when the new results are complete
     ///
-    /// Until the new results are complete, their file has a name such as results.new.csv.
+    /// Until the new results are complete, the file with the new rows has a name such as results.new.csv.
     #[arg(short = 'f', long, visible_alias = "force")]
     pub(crate) restart: bool,
 
@@ -90,7 +92,7 @@ impl BeginArgs {
     }
 }
 
-/// The format in which a command prints.
+/// Output format of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutputFormat {
     /// Aligned columns; numbers have six digits
@@ -101,7 +103,7 @@ pub(crate) enum OutputFormat {
     Json,
 }
 
-/// The better direction of a measure.
+/// Direction in which a measure is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Aim {
     /// Larger values are better
@@ -111,13 +113,14 @@ pub(crate) enum Aim {
 }
 
 impl Aim {
-    /// Returns the better direction of the column `name`: the direction in its label, else larger values.
+    /// Returns the better direction of the column `name`: the direction in the label of the column, or larger values if
+    /// the label has no direction.
     pub(crate) fn of(name: &str) -> Aim {
         if labels::better(name) == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
     }
 }
 
-/// The option of commands that read results.
+/// Option of commands that read results.
 #[derive(clap::Args)]
 pub(crate) struct ReadArgs {
     /// If results are damaged, use only the rows that flap can read

@@ -25,7 +25,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
 
-    /// Kind of picture [default: depends on the columns of the file, see below]
+    /// Kind of picture [default: depends on the columns of the file; the text below the options lists the kinds]
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
@@ -37,7 +37,7 @@ pub(crate) struct PlotArgs {
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) y: Option<String>,
 
-    /// Column for which flap draws one line per value
+    /// Column that distinguishes the lines: flap draws one line for each value of this column
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
@@ -48,21 +48,22 @@ pub(crate) struct PlotArgs {
     /// Use only the rows that satisfy this condition. You can repeat --where
     ///
     /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
-    /// as in 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep, flap draws
-    /// only the rows at the middle value of this axis. With --where you choose another value.
+    /// such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep,
+    /// flap draws only the rows at the middle value of this axis. With --where you choose another value of the axis.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Axis that the picture does not show: each cell of a map, or each point of a line, shows the best row over this axis. May
-    /// be repeated
+    /// Axis that the picture does not show. Each cell of a map, or each point of a line, shows the best row of all
+    /// values of this axis. You can repeat --best-over
     ///
-    /// The best row has the largest measure. For power, current, strain, field, drag and force, the best row has the smallest
-    /// measure. With --where, flap chooses among the rows that satisfy the conditions. Without --best-over, flap draws the rows
-    /// at the middle value of the axis.
+    /// The best row is the row with the largest value of the measure. For power, current, strain, field, drag and
+    /// force, the best row is the row with the smallest value. With --where, flap chooses among the rows that satisfy
+    /// the conditions. Without --best-over, flap draws the rows at the middle value of the axis.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) best_over: Vec<String>,
 
-    /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field, drag and force,
+    /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field,
+    /// drag and force,
     /// max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
@@ -115,11 +116,12 @@ pub(crate) enum PictureKind {
     Histogram,
     /// The rank correlation (Spearman) of a measure with each varied parameter, as bars
     Tornado,
-    /// Two measures of every design with the Pareto front: no other design is better in both measures
+    /// Two measures of every design, with the Pareto front: the designs for which no other design is better in both
+    /// measures
     Pareto,
     /// Stroke and pitch over time, and their phase portrait (rates against angles)
     Trajectory,
-    /// The branches up and down of a response; unstable orbits are dashed
+    /// The rising and the falling branch of a response; unstable orbits are dashed
     Hysteresis,
     /// The effect of each input of a vehicle on force and torque, read from the output of `flap vehicle --format csv`
     Matrix,
@@ -140,15 +142,16 @@ pub(crate) struct Size {
 }
 
 const PLOT_HELP: &str = "\
-If you do not give --kind, flap chooses the kind of picture from the file: `hysteresis` for results of `flap respond`, `trajectory` for a motion, \
-`matrix` for the output of `flap vehicle --format csv`, and `scatter` for a sample. A sweep of one parameter, or of the drive \
-frequency and other parameters, gives `response`. Other sweeps of two or more parameters give `map`. If --x and --y are \
-measures, the kind is `pareto`, or `scatter` for a sample and for a sweep of one parameter.
+If you do not give --kind, flap chooses the kind of picture from the file: `hysteresis` for results of `flap respond`, \
+`trajectory` for a motion, `matrix` for the output of `flap vehicle --format csv`, and `scatter` for results of a sample. \
+For a sweep of one parameter, or of the drive frequency and other parameters, the kind is `response`. For other sweeps of \
+two or more parameters, the kind is `map`. If --x and --y are measures, the kind is `pareto`, or `scatter` for a sample \
+and for a sweep of one parameter.
 
 If you give no columns, a scatter or Pareto picture shows the mean lift against the mean power. The points of a scatter \
 picture are coloured by the peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file does not have \
-these measures, flap draws other measures. If a sample is crossed with an axis, flap draws only the rows at the middle value \
-of the axis.
+these measures, flap draws other measures. If a grid combines a sample with an axis, flap draws only the rows at the \
+middle value of the axis.
 
 Examples:
   flap plot sweep.csv

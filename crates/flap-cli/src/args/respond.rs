@@ -10,11 +10,12 @@ use super::values::assignment;
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// flap leaves out the axis of the followed parameter. Each remaining point of the grid is a design with its own curve.
+    /// The grid may have an axis for the followed parameter. Each combination of the values of all other axes is a
+    /// design with its own curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
-    /// Parameter that flap changes upwards and then downwards
+    /// Followed parameter, which first rises and then falls
     #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
@@ -30,20 +31,22 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Longest step at the ends of bistable bands, and where the response is steep [default: a sixteenth of the shortest step]
+    /// Longest step of the followed parameter at the ends of bistable bands, and where the response is steep [default:
+    /// a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
     /// Continue the branches around the ends of bistable bands
     ///
-    /// The continuation finds the unstable orbits between the branches up and down, and writes them as rows of the branch
-    /// `unstable`.
+    /// The continuation finds the unstable orbits between the rising and the falling branch. flap writes these orbits
+    /// as rows of the branch `unstable`.
     #[arg(long)]
     pub(crate) unstable: bool,
 
-    /// Follow the ends of bistable bands in the plane of the followed parameter and of this parameter
+    /// Follow the ends of bistable bands in the plane of two parameters: the followed parameter and PARAMETER
     ///
-    /// flap follows the response at the design's own value of PARAMETER, then continues each end of its bands.
+    /// flap first follows the response at the design's value of PARAMETER. flap then continues each end of the bistable
+    /// bands in the plane.
     #[arg(
         long,
         value_name = "PARAMETER",
@@ -61,11 +64,12 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print points at multiples of this step from --edge-from, at cusps and at ends alone [default: all computed points]
+    /// Print only cusps, ends, and points at multiples of this step from --edge-from [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 
-    /// At each value in a bistable band, count the motions from N random initial states that go to each branch
+    /// At each value in a bistable band, start N motions from random initial states, and count the motions that settle
+    /// on each branch
     #[arg(
         long,
         value_name = "N",
@@ -89,7 +93,8 @@ pub(crate) struct RespondArgs {
 
     /// Output format of the summary
     ///
-    /// csv and json have one row per band of parameter values in which the design is bistable or its motions are not periodic.
+    /// The formats csv and json have one row per band of parameter values in which the design is bistable or the
+    /// motions are not periodic.
     /// With --edge, csv and json have one row per point of an edge. With --basins, csv and json have one row
     /// per value in a bistable band.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
@@ -109,21 +114,21 @@ const EDGES: &str = "Edges";
 const BASINS: &str = "Basins";
 
 const RESPOND_HELP: &str = "\
-The followed parameter first rises, then falls. The first point of each branch starts at rest. All later points start from the \
-settled motion of the point before. If the branches up and down settle to different motions, the design is bistable. \
-flap halves a step if a bistable band ends in this step. flap also halves a step in which the motion changes by more than a \
-tenth, because such a step may hide a narrow band. The summary has one line per design. flap prints the summary to stdout, \
-or to stderr if you give `--out -`.
+The followed parameter first rises, then falls. The first point of each branch starts at rest. Each later point starts \
+from the settled motion of the point before. If the motions of the rising and of the falling branch differ, the design is \
+bistable. flap halves a step if a bistable band ends in this step. flap also halves a step in which the motion changes by \
+more than a tenth, because such a step may hide a narrow bistable band. The summary has one line per design. flap prints \
+the summary to stdout, or to stderr if you give `--out -`.
 
 flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
-second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml, in the folder of \
-FILE, records the options of the command. Until all curves are complete, FILE.journal records the progress. To continue an \
-interrupted command, run the same command again.
+second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal \
+stops flap at once. FILE.meta.toml, in the folder of FILE, records the options of the command. Until all curves are \
+complete, FILE.journal records the progress. To continue an interrupted command, run the same command again.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'
-  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' \
---from '110 Hz' --to '140 Hz' --step '1 Hz' --out response.csv
-  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' \
---from '110 Hz' --to '140 Hz' --step '1 Hz' --edge drive_voltage_pp --edge-from '60 V' --edge-to '300 V' --format csv
+  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' --from '110 Hz' --to \
+'140 Hz' --step '1 Hz' --out response.csv
+  flap respond jafferis2016 --set 'hinge_stiffness=0.7486 uN*m/rad' --set 'drive_voltage_pp=160 V' --from '110 Hz' --to \
+'140 Hz' --step '1 Hz' --edge drive_voltage_pp --edge-from '60 V' --edge-to '300 V' --format csv
   flap respond ozaki2018-large --along drive_voltage_pp --from '20 V' --to '200 V' --step '5 V'";

@@ -16,9 +16,9 @@ pub(crate) enum ResultsCommand {
     Rerun(RerunArgs),
     /// Join the shards of a sweep into one file
     Merge(MergeArgs),
-    /// Write results in another format
+    /// Write results to a file of another format
     Convert(ConvertArgs),
-    /// Compare results with the checksums in their sidecars
+    /// Compare results with the checksums in the sidecars of the results
     Verify(VerifyArgs),
 }
 
@@ -37,13 +37,13 @@ pub(crate) struct VerifyArgs {
 }
 
 const VERIFY_HELP: &str = "\
-flap compares each FILE with the checksums in its sidecar FILE.meta.toml. flap prints one line per file: the file is sound, \
-or these rows are damaged. An unfinished file is compared up to the end of its journal. Rows are counted from 1, in blocks of \
-256. If a row is missing or added, all rows after it count as damaged.
+flap compares each FILE with the checksums in its sidecar FILE.meta.toml. For each file, flap prints one line: the file \
+is sound, or the damaged rows. An unfinished file is compared up to the end of its journal. flap counts rows from 1, and \
+compares blocks of 256 rows. If a row is missing or added, all later rows count as damaged.
 
 Exit codes:
   0    all files are sound
-  1    no file is damaged, but flap could not verify some files: there is no sidecar, or the sidecar has no checksums
+  1    no file is damaged, but flap could not verify some files, because the sidecar is missing or has no checksums
   2    the ending of a name is not the ending of a result file
   3    some files are damaged or cannot be read
 
@@ -65,12 +65,12 @@ pub(crate) struct ResumeArgs {
 }
 
 const RESUME_HELP: &str = "\
-flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes as a sweep without \
-interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if another build of flap or another kind \
-of machine started the sweep, or if complete results are damaged.
+flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes as \
+a sweep without interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if the sweep was started \
+by another build of flap or on another kind of machine, or if complete results are damaged.
 
-Merged shards of a grid with [refine] contain the points of the axes. For such a FILE, flap runs the points that \
-[refine] adds.
+Merged shards of a grid with [refine] contain the points of the axes. For such a FILE, flap runs the points that [refine] \
+adds.
 
 Example:
   flap results resume results/run1.csv";
@@ -82,7 +82,7 @@ pub(crate) struct RerunArgs {
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
-    /// Run the points with these statuses again, separated by commas
+    /// Statuses, separated by commas: flap runs the points with these statuses again
     #[arg(
         long,
         value_name = "STATUS,...",
@@ -92,7 +92,7 @@ pub(crate) struct RerunArgs {
     )]
     pub(crate) status: Vec<Status>,
 
-    /// Run the points again whose `error_estimate` exceeds the accuracy of RESULTS
+    /// Run all points again that have an `error_estimate` larger than the accuracy setting of RESULTS
     #[arg(long)]
     pub(crate) inaccurate: bool,
 
@@ -111,7 +111,7 @@ pub(crate) struct RerunArgs {
 }
 
 const RERUN_HELP: &str = "\
-The new rows keep the point indices of RESULTS. If you do not give a solver setting, flap takes its value from RESULTS.
+The new rows keep the point indices of RESULTS. For a solver setting that you do not give, flap uses the value from RESULTS.
 
 Examples:
   flap results rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
@@ -141,10 +141,10 @@ pub(crate) struct MergeArgs {
 }
 
 const MERGE_HELP: &str = "\
-OUT has the same bytes as the results of a sweep on one machine. flap stops with an error if a shard is missing, unfinished, damaged, given \
-twice, or part of another sweep. flap does not compute any row again. If another build of flap computed the shards, \
-OUT.meta.toml records that build. Rows of different builds may differ, so flap merges shards of several builds only if you \
-give --mixed-builds.
+OUT has the same bytes as the results of a sweep on one machine. flap stops with an error if a shard is missing, \
+unfinished, damaged, given twice, or part of another sweep. flap only joins the rows and computes no row again. If \
+another build of flap computed the shards, OUT.meta.toml records this build. Rows of different builds may differ, so flap \
+merges shards of several builds only if you give --mixed-builds.
 
 Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
@@ -168,7 +168,7 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-OUT has the same bytes as the results of a sweep that writes this format. If IN is unfinished, flap converts the rows up to \
+OUT has the same bytes as the results of a sweep in the format of OUT. If IN is unfinished, flap converts the rows up to \
 the last checkpoint.
 
 Examples:

@@ -14,19 +14,19 @@ pub(crate) struct RunArgs {
 
     /// CSV file with the waveform of the drive. The file replaces the parameter drive_shape
     ///
-    /// The columns are time_s (or time_ms) and wave. The duration of the record is the drive period, unless drive_frequency is
-    /// set.
+    /// The columns are time_s (or time_ms) and wave. The drive period is the duration of the file's record, unless
+    /// drive_frequency is set.
     #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
     pub(crate) waveform: Option<PathBuf>,
 
     /// CSV file with a prescribed stroke
     ///
     /// The columns are time_s (or time_ms) and stroke_deg (or stroke_rad).
-    /// The duration of the record is the drive period, unless drive_frequency is set.
+    /// The drive period is the duration of the file's record, unless drive_frequency is set.
     #[arg(long, value_name = "FILE")]
     pub(crate) stroke: Option<PathBuf>,
 
-    /// Follow the waveform or the stroke once from rest, without repeating it
+    /// Simulate the waveform or the prescribed stroke only once, from rest, instead of periodically
     #[arg(long, requires = "trajectory")]
     pub(crate) once: bool,
 
@@ -44,13 +44,14 @@ pub(crate) struct RunArgs {
           value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
 
-    /// Start the trajectory at rest instead of on the settled orbit
+    /// Begin the trajectory at rest instead of on the settled orbit
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
-    /// Print the ten parameters that change this measure most
+    /// Print the ten parameters with the largest effect on this measure
     ///
-    /// Each derivative is the change of the measure in the settled motion if the parameter grows by 1 %.
+    /// The effect of a parameter is the change of the measure in the settled motion if the parameter becomes 1 %
+    /// larger.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) gradient: Option<String>,
 

@@ -11,7 +11,7 @@ use super::values::threads;
 #[derive(clap::Args)]
 #[command(after_help = SWEEP_HELP)]
 pub(crate) struct SweepArgs {
-    /// Grid file: preset, parameters and axes; `-` reads a grid from stdin
+    /// Grid file with preset, parameters and axes; `-` reads a grid from stdin
     ///
     /// You can also give the sidecar of earlier results (FILE.meta.toml): flap then repeats the sweep of these results.
     #[arg(value_name = "GRID", required_unless_present = "named_grid")]
@@ -22,12 +22,12 @@ pub(crate) struct SweepArgs {
     named_grid: Option<PathBuf>,
 
     /// File for the rows; `-` prints the rows to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet.
-    /// [default: `path` in [output] of the grid file, else the grid file's name with the ending .csv, in the working
-    /// directory]
+    /// [default: `path` in [output] of the grid file. Without `path`, the grid file's name with the ending .csv, in the
+    /// working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// Run part I of N equal parts, so that several machines can share a sweep
+    /// Run only part I of N equal parts of the grid, so that several machines can share a sweep
     ///
     /// `flap results merge` joins the parts. Without --out, flap writes the rows to a file such as grid.2of8.csv.
     /// The parts do not contain points of [refine]: `flap results resume` adds these points to the merged file.
@@ -46,11 +46,12 @@ impl SweepArgs {
 }
 
 const SWEEP_HELP: &str = "\
-flap writes rows in the order of the points, as soon as they are computed. After Ctrl-C or SIGTERM, running points have half \
-a second to finish. flap keeps the complete rows and exits with code 130. A second signal stops flap at once. FILE.meta.toml (the \
-sidecar), in the folder of FILE, records the origin of the rows. Until the sweep is complete, FILE.journal records the progress. To \
-continue an interrupted sweep, run the same command again. If FILE already has all rows, flap runs no points. flap replaces \
-rows of another grid or of another build of flap only if you give --restart.
+flap writes each row as soon as possible, in the order of the points. After Ctrl-C or SIGTERM, flap waits up to half a \
+second for the points that are being computed. flap keeps the complete rows and exits with code 130. A second signal \
+stops flap at once. FILE.meta.toml (the sidecar), in the folder of FILE, records the origin of the rows. Until the sweep \
+is complete, FILE.journal records the progress. To continue an interrupted sweep, run the same command again. If FILE \
+already has all rows, flap runs no points. flap replaces rows of another grid or of another build of flap only if you \
+give --restart.
 
 Examples:
   flap sweep grid.toml
@@ -66,32 +67,34 @@ Examples:
 pub(crate) struct CheckArgs {
     /// Grid file; `-` reads a grid from stdin
     ///
-    /// If a grid from stdin contains names of files, their paths are relative to the working directory.
+    /// Paths of files in a grid from stdin are relative to the working directory.
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// Number of threads for which flap estimates the time; each is as fast as a thread of this machine [default: one per core]
+    /// Number of threads for which flap estimates the time, each as fast as a thread of this machine [default: one
+    /// thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
-    /// Estimate the time of part I of N equal parts, as of `flap sweep --shard I/N`
+    /// Estimate the time of part I of N equal parts, which `flap sweep --shard I/N` runs
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
 
     /// Output format
     ///
-    /// csv and json have one row per value of the summary, with the section, the name and the key of the value.
+    /// The formats csv and json have one row per value of the summary, with the section, the name and the key of the
+    /// value.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const CHECK_HELP: &str = "\
-flap shows the range of each axis, the number of points that [where] excludes, the first and the last point, and estimates \
-of the time of the sweep and of the size of its rows as CSV. For the estimates, flap runs up to 256 points for about a second. \
-The command also lists the parameters that differ from the preset, and parameters that stay the same although they usually \
-change with a varied parameter. flap warns if a value is more than a hundred times larger or smaller than the value of the \
-preset. If a grid has more than a million points, flap counts the excluded points in a sample of a million. \
-If the grid has [refine], the estimates are for `max_points` points.
+flap shows the range of each axis, the number of points that [where] excludes, the first and the last point, and \
+estimates of the time of the sweep and of the size of the CSV file. For the estimates, flap runs up to 256 points for \
+about a second. The command also lists the parameters that differ from the preset, and parameters that stay the same \
+although they usually change with a varied parameter. flap warns if a value is more than a hundred times larger or \
+smaller than the value of the preset. If a grid has more than a million points, flap counts the excluded points in a \
+sample of a million. If the grid has [refine], the estimates are for `max_points` points.
 
 Examples:
   flap check grid.toml

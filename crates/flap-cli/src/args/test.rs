@@ -9,11 +9,11 @@ use super::values::{finite, frequency, impulse, positive, time};
 
 #[derive(Subcommand)]
 pub(crate) enum TestCommand {
-    /// Simulate a chirp, in which the drive frequency changes steadily, and print one row per drive period
+    /// Simulate a chirp: the drive frequency changes at a constant rate; print one row per drive period
     Chirp(ChirpArgs),
-    /// Compute the free motion after an impulse on the resting stroke
+    /// Compute the free motion after an impulse on the stroke of the wing at rest
     Impulse(ImpulseArgs),
-    /// Compare the linear, free and driven resonances of a design point
+    /// Compare the resonances of a design point in linear, free and driven motion
     Resonance(ResonanceArgs),
     /// Compute the forces on a wing from its measured stroke and pitch
     Lift(LiftArgs),
@@ -37,7 +37,7 @@ pub(crate) struct ChirpArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Rate of change of the drive frequency (Hz/s); a negative rate is a falling chirp
+    /// Rate of change of the drive frequency (Hz/s); with a negative rate, the frequency falls
     ///
     /// A chirp has at most 100,000 drive periods.
     #[arg(long, value_name = "HZ/S", default_value_t = 15.0, value_parser = finite, allow_negative_numbers = true)]
@@ -47,7 +47,7 @@ pub(crate) struct ChirpArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
-    /// CSV file for the motion over time; `-` prints the motion to stdout instead of the rows
+    /// CSV file for the motion over time; `-` prints the motion to stdout instead of one row per drive period
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -80,8 +80,9 @@ pub(crate) struct ImpulseArgs {
 
     /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// The angle of the impulse is the amplitude that the stroke would reach in the first mode alone, without damping. For example, `20 deg` is a
-    /// stroke rate of 2 pi f_1 20 deg, with the frequency f_1 of the first mode.
+    /// The angle is the stroke amplitude that the impulse causes in the first mode alone, without damping. For example,
+    /// an impulse of `20 deg` causes an initial stroke rate of 2 pi f_1 20 deg, where f_1 is the frequency of the first
+    /// mode.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) amplitude: f64,
 
@@ -93,7 +94,7 @@ pub(crate) struct ImpulseArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Smallest number of samples per period of the first mode
+    /// Smallest number of samples that the motion has per period of the first mode
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
 
@@ -109,7 +110,8 @@ pub(crate) struct ImpulseArgs {
 }
 
 const IMPULSE_HELP: &str = "\
-During the motion, the drive voltage is constant: the voltage at which a wing at rest has zero stroke and pitch (see the manual, How to, Resonance).
+During the motion, the drive voltage has a constant value, at which a wing at rest has zero stroke and pitch (see the \
+manual, How to, Resonance).
 
 Examples:
   flap test impulse ozaki2018-small
@@ -130,7 +132,8 @@ pub(crate) struct TermsArgs {
 }
 
 const TERMS_HELP: &str = "\
-Each line changes one parameter: a term that the design leaves out is switched on with a typical size, other terms are switched off.
+Each line of the output changes one parameter. If the design leaves out a term, flap switches the term on with a typical \
+size; if the design has the term, flap switches the term off.
 
 Examples:
   flap test terms jafferis2016
@@ -144,7 +147,7 @@ pub(crate) struct ResonanceArgs {
 
     /// Size of the impulse on the stroke: an angle with its unit
     ///
-    /// The angle of the impulse is the amplitude that the stroke would reach in the first mode alone, without damping.
+    /// The angle is the stroke amplitude that the impulse causes in the first mode alone, without damping.
     #[arg(long, value_name = "ANGLE", default_value = "20 deg", value_parser = impulse, allow_hyphen_values = true)]
     pub(crate) impulse: f64,
 
@@ -164,7 +167,7 @@ pub(crate) struct ResonanceArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Largest error of the frequencies at which the driven stroke peaks (Hz)
+    /// Largest error of the peak frequencies of the driven stroke (Hz)
     #[arg(long, value_name = "HZ", default_value = "0.05", value_parser = frequency)]
     pub(crate) tolerance: f64,
 
@@ -177,10 +180,10 @@ pub(crate) struct ResonanceArgs {
 }
 
 const RESONANCE_HELP: &str = "\
-flap prints three kinds of resonance. The linear resonances are the natural frequencies of small undamped motions. The free \
-resonances are the frequency of a fitted damped sine and the peaks of a spectrum. For both, flap simulates the motion after \
-an impulse on the resting stroke. The driven resonances are the drive frequencies at which the settled stroke has a peak, at \
-the drive voltage of the design point.
+flap prints three kinds of resonance. The linear resonances are the natural frequencies of small undamped motions. For \
+the free resonances, flap simulates the motion after an impulse on the stroke of the wing at rest. The free resonances \
+are the frequency of a damped sine that is fitted to the motion, and the peaks of the motion's spectrum. The driven \
+resonances are the drive frequencies at which the settled stroke has a peak, at the drive voltage of the design point.
 
 Examples:
   flap test resonance ozaki2018-large
@@ -199,7 +202,7 @@ pub(crate) struct LiftArgs {
     #[arg(value_name = "MOTION")]
     pub(crate) motion: PathBuf,
 
-    /// Treat the motion as one period; the last sample is also the first sample of the next period
+    /// Treat the motion as one period of a periodic motion; the last sample is also the first sample of the next period
     #[arg(long)]
     pub(crate) periodic: bool,
 
@@ -207,7 +210,7 @@ pub(crate) struct LiftArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Number of samples from the beginning to the end of the motion
+    /// Number of samples of the forces from the beginning to the end of the motion
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
     pub(crate) samples: u32,
 
@@ -220,8 +223,8 @@ pub(crate) struct LiftArgs {
 }
 
 const LIFT_HELP: &str = "\
-Angles follow the conventions of the model: see the manual, Models, Direct drive. Between samples, the motion is a cubic \
-spline. The acceleration of the spline amplifies the noise of the samples, so smooth the samples first.
+Angles have the sign conventions of the model: see the manual, Models, Direct drive. Between samples, the motion is a \
+cubic spline. The acceleration of the spline amplifies the noise of the samples, so smooth the samples first.
 
 Examples:
   flap test lift ozaki2018-small motion.csv --trajectory forces.csv
@@ -233,7 +236,8 @@ pub(crate) struct TrackArgs {
     /// CSV file with the tracked points of every image
     ///
     /// The columns are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
-    /// For the pitch, the file also needs edge_x and edge_y, a point on the lower edge. All lengths have the same unit.
+    /// To compute the pitch, flap also requires edge_x and edge_y, a point on the lower edge. All lengths have the same
+    /// unit.
     #[arg(value_name = "POINTS")]
     pub(crate) points: PathBuf,
 

@@ -15,22 +15,23 @@ pub(crate) struct VehicleArgs {
     #[command(flatten)]
     pub(crate) point: PointArgs,
 
-    /// Inputs of the vehicle, separated by commas: parameters, or the words below
+    /// Inputs of the vehicle, separated by commas: parameters, or the words for inputs that are listed at the end of
+    /// this help
     ///
-    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. For each of these words, one
-    /// input changes all wings together, and one input is the left-right difference.
+    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each of these words
+    /// gives two inputs: one input changes all wings together, and one input is the left-right difference.
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 
     /// Find values of the inputs, near the point, that give this force (mN) or torque (uN*m). You can repeat --trim
     ///
-    /// `--trim hover` means: force_up equals the weight, and all torques are zero.
+    /// With `--trim hover`, force_up equals the weight, and all torques are zero.
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = target)]
     pub(crate) trim: Vec<(String, String)>,
 
     /// Fit a quadratic map of force and torque to rows that are spread over these ranges of inputs
     ///
-    /// Model-predictive controllers use such a map. Inputs have the same names as for --inputs.
+    /// Model-predictive controllers use such quadratic maps. Inputs have the same names as for --inputs.
     #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]
     pub(crate) wrench_map: Vec<NamedRange>,
 
@@ -38,7 +39,7 @@ pub(crate) struct VehicleArgs {
     #[arg(long, value_name = "N", default_value_t = WrenchMap::SAMPLES, value_parser = value_parser!(u32).range(1..=1_000_000), requires = "wrench_map")]
     pub(crate) samples: u32,
 
-    /// Number of worker threads of --wrench-map; the map does not depend on this number [default: one per core]
+    /// Number of worker threads of --wrench-map; the map does not depend on this number [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads, requires = "wrench_map")]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -48,13 +49,14 @@ pub(crate) struct VehicleArgs {
 
     /// Print the modes of the linear model about hover, with the trim residual
     ///
-    /// This requires total_mass and the moments of inertia, such as body_inertia_roll. `about` must be the centre of mass.
+    /// --hover requires total_mass and the moments of inertia, such as body_inertia_roll. The entry `about` of the
+    /// vehicle must be the centre of mass.
     #[arg(long)]
     pub(crate) hover: bool,
 
-    /// Simulate the flight for this time, such as 0.5s, and print the means over each wing beat
+    /// Simulate a flight of this duration, such as 0.5s, and print the means over each wing beat
     ///
-    /// The simulation couples the motion of wings and body. This requires the same numbers as --hover.
+    /// The simulation couples the motions of wings and body. --fly requires the same entries as --hover.
     #[arg(long, value_name = "TIME", value_parser = time, conflicts_with_all = ["wrench_map", "damping", "hover", "export"])]
     pub(crate) fly: Option<f64>,
 
@@ -62,7 +64,7 @@ pub(crate) struct VehicleArgs {
     #[arg(long, value_name = "STATE=VALUE", value_parser = assignment, requires = "fly")]
     pub(crate) disturb: Vec<(String, String)>,
 
-    /// Keep the motion of the wings when the body moves, as papers with prescribed wing motion do
+    /// Keep the motion of the wings unchanged when the body moves, as in papers with prescribed wing motion
     #[arg(long)]
     pub(crate) frozen: bool,
 
@@ -85,14 +87,15 @@ pub(crate) struct VehicleArgs {
 
 const VEHICLE_HELP: &str = "\
 flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of force \
-and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular values). \
-The derivatives are exact derivatives of the settled motion.
+and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular \
+values). The derivatives are exact derivatives of the settled motion.
 
-The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append _difference for \
-left minus right, or put the name of a wing before the word, as in left_amplitude.
+The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append _difference \
+for the left value minus the right value. Put the name of a wing before the word to change only this wing, as in \
+left_amplitude.
 The components of force and torque are force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw \
-(uN*m). A positive roll torque lifts the left side, a positive pitch torque lowers the nose, and a positive yaw torque turns \
-the nose to the left.
+(uN*m). A positive roll torque lifts the left side, a positive pitch torque lowers the nose, and a positive yaw torque \
+turns the nose to the left.
 
 Examples:
   flap vehicle vehicle.toml

@@ -84,7 +84,7 @@ def trajectory(
     ------
     ValueError
         A column is unknown. The number of names differs from the number of trajectories. With `ax`, the signals have
-        several units, portraits are requested, or the motions in `ax` have another unit.
+        several units, or portraits are requested. The motions in `ax` have another unit.
 
     Examples
     --------
