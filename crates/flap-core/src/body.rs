@@ -8,7 +8,7 @@ use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::Any;
 
 crate::choice! {
-    /// Answer of the wings to the motion of the body.
+    /// Response of the wings to the motion of the body.
     pub enum BodyResponse {
         /// The motion of the body changes the motion of the wings.
         Passive = "passive",
@@ -34,8 +34,8 @@ crate::parameters! {
         body_rate_pitch: f64 = ("rad/s", "q", Number(Any), default: 0.0),
         /// Yaw rate of the body. A positive rate turns the nose to the left.
         body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
-        /// Answer of the wings to the motion of the body. With "passive", stroke and pitch answer the motion of the
-        /// body. With "frozen", the wings move as if the body were at rest, and only the loads change.
+        /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the motion of
+        /// the body. With "frozen", the wings move as if the body were at rest, and only the loads on the body change.
         body_response: BodyResponse = ("", "", Choice(BodyResponse::NAMES)),
     }
 }
@@ -96,7 +96,7 @@ pub enum BodyTerms {
 }
 
 impl BodyTerms {
-    /// Returns the terms of either, if the other has none; otherwise the first.
+    /// Returns the terms of the motion that has terms, or of the first motion if both have terms.
     #[must_use]
     pub fn or(self, other: BodyTerms) -> BodyTerms {
         if self == BodyTerms::None { other } else { self }

@@ -61,9 +61,9 @@ crate::parameters! {
         /// tan delta. Here w is the angular drive frequency, C the capacitance and V the voltage. Impedances measured
         /// on such actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
-        /// Share of the power returned by the actuator that the power supply recovers, between 0 and 1. The share
-        /// affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power fell to
-        /// 58 %, a share of 0.42 for a capacitive load.
+        /// Fraction, between 0 and 1, of the power returned by the actuator that the power supply recovers. The
+        /// fraction affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power
+        /// fell to 58 %, which is a fraction of 0.42 for a capacitive load.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }

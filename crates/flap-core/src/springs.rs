@@ -24,7 +24,7 @@ crate::parameters! {
         /// Cubic stiffness of the wing hinge: the hinge adds a moment of hinge_stiffening times the third power of the pitch,
         /// against the pitch.
         hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
-        /// Pitch at which the stop of the hinge begins to act, in both directions.
+        /// Magnitude of the pitch at which the stop of the hinge begins to act, in both directions.
         hinge_stop_angle: f64 = ("rad", "", Number(NonNegative), default: FRAC_PI_3),
         /// Stiffness of the stop of the hinge. Beyond hinge_stop_angle, the stop adds this stiffness to the stiffness of
         /// the hinge.
@@ -59,7 +59,8 @@ impl HingeParameters {
 
     /// Returns the strain of the flexure's faces per pitch (1/rad): thickness over twice the length.
     ///
-    /// The flexure is assumed to bend to an arc of a circle. Zero if its dimensions are not set.
+    /// The flexure is assumed to bend to an arc of a circle. The strain is zero if the dimensions of the flexure are
+    /// not set.
     pub(crate) fn strain_per_angle(&self) -> f64 {
         match (self.hinge_thickness, self.hinge_length) {
             (Some(thickness), Some(length)) => 0.5 * thickness / length,
@@ -69,7 +70,7 @@ impl HingeParameters {
 }
 
 crate::per_lane! {
-    /// Nonlinear parts of the springs. The papers leave them out.
+    /// Nonlinear parts of the springs, which the papers leave out.
     pub struct Stiffening<R> {
         /// Cubic stiffness of the stroke k₃ (N·m/rad³).
         pub stroke: R,

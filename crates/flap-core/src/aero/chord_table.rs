@@ -23,7 +23,8 @@ crate::choice! {
 crate::parameters! {
     /// Chords at stations along the span, interpolated linearly in between.
     pub struct ChordTable {
-        /// Source of the chord of the wing: the chord shape of the model, or the table chord_0 to chord_10.
+        /// Source of the chord of the wing: the chord shape of the model ("off"), or the table chord_0 to chord_10
+        /// ("on").
         chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
         /// Chord at 0 % of the length of the wing, the root, for chord_table = "on".
         chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),

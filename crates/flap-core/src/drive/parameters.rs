@@ -18,9 +18,9 @@ crate::choice! {
 crate::choice! {
     /// Quantity that the drive prescribes.
     pub enum StrokeMode {
-        /// The voltage: the stroke follows from the equations of motion.
+        /// The voltage: the stroke results from the equations of motion.
         Free = "free",
-        /// The stroke: it follows the waveform exactly. Only the pitch follows from the equations of motion.
+        /// The stroke: the stroke equals the prescribed waveform. Only the pitch results from the equations of motion.
         Prescribed = "prescribed",
     }
 }
@@ -43,8 +43,8 @@ crate::parameters! {
         /// Phase p_3 of the third harmonic in the drive sin(w t) + h_3 sin(3 w t + p_3), for drive_shape = "harmonics".
         /// Here w is the angular drive frequency, t the time, and h_3 is drive_third_harmonic.
         drive_third_phase: f64 = ("rad", "", Number(Any)),
-        /// Rise time of the square wave, which equals its fall time, as a fraction of the drive period, for drive_shape
-        /// = "square". The fraction is at most 0.5.
+        /// Rise time of the square wave as a fraction of the drive period, for drive_shape = "square". The fall time
+        /// equals the rise time. The fraction is at most 0.5.
         drive_rise: f64 = ("", "", Number(Positive)),
     }
 }

@@ -50,7 +50,8 @@ impl Columns {
             }
         }
         if let Some(power) = model.iter().position(|column| column.name == "power_mean_mw") {
-            let doc = "force_up_mn in grams-force, divided by power_mean_mw; empty unless the power is more than zero";
+            let doc =
+                "force_up_mn in grams-force, divided by power_mean_mw; empty if the power is zero or less";
             columns.add("efficiency_gf_per_w", "gf/W", doc, Source::Efficiency(power));
         }
         for (wing, mount) in mounts.iter().enumerate() {

@@ -197,13 +197,13 @@ fn branch() -> Column {
         "branch",
         "",
         CellKind::Text,
-        "branch of the motion: up, down, or unstable (between the branches up and down)",
+        "branch of the motion: up (rising parameter), down (falling parameter), or unstable (orbits between both branches)",
     )
 }
 
 /// Returns the column that is true where a curve is bistable.
 fn bistable() -> Column {
-    let doc = "true if the branches up and down have different motions at the same value of the parameter; empty if neither motion is periodic";
+    let doc = "true if the motions of the branches up and down differ at the same value of the parameter; empty if neither motion is periodic";
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
@@ -432,7 +432,7 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",
         kind: CellKind::Whole,
-        doc: "number of integrated drive periods, including the measured periods",
+        doc: "number of drive periods that were integrated, including the periods of the measurement",
         cell: |_, row| Cell::Whole(row.cycles.into()),
     },
     Fixed {
@@ -457,7 +457,7 @@ pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "stable",
         kind: CellKind::Flag,
-        doc: "true if the motion returns to the orbit after a small change",
+        doc: "true if the motion returns to the orbit after a small disturbance",
         cell: |_, row| Cell::Flag(row.stable()),
     },
     Fixed {

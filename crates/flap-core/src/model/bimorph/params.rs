@@ -74,7 +74,7 @@ crate::parameters! {
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
-        /// Density of the air. The value is assumed, because Jafferis et al. (2016) do not give one.
+        /// Density of the air. The value is assumed, because Jafferis et al. (2016) do not give the density.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Drag coefficient of the wing at an attack angle of 90 deg (pitch 0).
         drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), is_fitted: true) 1.25 * 3.4,
@@ -94,7 +94,8 @@ crate::parameters! {
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Jafferis et al. (2016) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the normal force of the rotational drag. A factor of 1 belongs to the moment of Eq. (9).
+        /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
+        /// consistent with the moment of Eq. (9).
         /// Jafferis et al. (2016) do not use this parameter.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. A factor of 1 is the
@@ -126,8 +127,9 @@ crate::parameters! {
         piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
         /// Young's modulus of the piezoelectric plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
-        /// Relative reduction of the modulus of the piezoelectric plates per electric field. The mean of the fields in both
-        /// plates counts, which is constant over a period. Jafferis et al. (2016) do not use this parameter.
+        /// Relative reduction of the modulus of the piezoelectric plates per electric field. The reduction depends on
+        /// the mean of the fields in both plates, which is constant over a period. Jafferis et al. (2016) do not use
+        /// this parameter.
         modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.
@@ -176,8 +178,9 @@ crate::parameters! {
         /// Transition of the piezoelectric stress with the electric field, Eq. (6): corrected, or as printed. The
         /// printed equation halves the force.
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
-        /// Attack angle that determines the chordwise centre of pressure, Eq. (11): folded to at most 90 deg, relative
-        /// to the motion, or as printed. The printed equation breaks the mirror symmetry of the two half strokes.
+        /// Attack angle that determines the chordwise centre of pressure, Eq. (11): folded to at most 90 deg
+        /// ("folded"), relative to the motion ("directional"), or as printed ("literal"). The printed equation breaks
+        /// the mirror symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
         /// Stiffness of the actuator: dependent on the strain, Eq. (4), or constant. The constant stiffness is the
         /// stiffness at zero strain.
@@ -193,7 +196,7 @@ crate::choice! {
     pub enum FieldTransition {
         /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: rises from f_min to f_max, as the paper's text describes.
         Corrected = "corrected",
-        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed. It never approaches f_max.
+        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed. The printed stress never approaches f_max.
         Printed = "printed",
     }
 }
@@ -205,7 +208,7 @@ crate::choice! {
         Folded = "folded",
         /// ψ sign(ẋ): the attack angle is relative to the motion.
         Directional = "directional",
-        /// ψ: as printed. It breaks the mirror symmetry of the two half strokes.
+        /// ψ: as printed. The printed angle breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }

@@ -61,8 +61,9 @@ crate::parameters! {
 
         ["wing shape"]
         /// Direction of the flow for the translational forces: of the whole wing ("uniform"), or of each blade element
-        /// ("blade"). The direction "uniform" follows from the mean velocity of the wing, as in Ozaki and Hamaguchi
-        /// (2018). The direction "blade" follows from the velocity of each blade element. With "blade", flap computes
+        /// ("blade"). The direction "uniform" is computed from the mean velocity of the wing, as in Ozaki and Hamaguchi
+        /// (2018). The direction "blade" is computed from the velocity of each blade element. With "blade", flap
+        /// computes
         /// the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for
         /// these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
@@ -76,7 +77,8 @@ crate::parameters! {
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
-        /// The chord as a table. It replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
+        /// The chord as a table. The table replaces mean_chord, midspan_chord, the shape moments and rotation_moment,
+        /// for
         /// every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
@@ -122,7 +124,7 @@ crate::parameters! {
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
         /// Density of the shim. The value is already halved because of the slits in the shim.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
-        /// Piezoelectric coefficient. The sign of the coefficient only mirrors the motion.
+        /// Piezoelectric coefficient. A coefficient of the opposite sign gives the mirror image of the motion.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
         /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the value is for a free
         /// or a clamped layer.
@@ -156,16 +158,18 @@ crate::parameters! {
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the normal force of the rotational drag. A factor of 1 belongs to the moment of Eq. (32).
+        /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
+        /// consistent with the moment of Eq. (32).
         /// Ozaki and Hamaguchi (2018) do not use this parameter.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
-        /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion, folded to at most 90
-        /// deg, or as printed. The printed equation breaks the mirror symmetry of the two half strokes.
+        /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion ("directional"),
+        /// folded to at most 90 deg ("folded"), or as printed ("literal"). The printed equation breaks the mirror
+        /// symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
-        /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018), or with the gyroscopic terms
-        /// of a Lagrangian derivation.
+        /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018) for "paper", or with the
+        /// gyroscopic terms of a Lagrangian derivation for "lagrangian".
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
         /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
@@ -178,9 +182,9 @@ crate::parameters! {
 crate::choice! {
     /// Direction of the air's flow over a wing that reverses.
     pub enum FlowDirection {
-        /// One direction for the whole wing, from its mean velocity: as in the paper.
+        /// One direction for the whole wing, from the mean velocity of the wing, as in the paper.
         Uniform = "uniform",
-        /// One direction for each blade element, from its own velocity.
+        /// One direction for each blade element, from the velocity of the blade element.
         Blade = "blade",
     }
 }
@@ -192,7 +196,7 @@ crate::choice! {
         Directional = "directional",
         /// π/2 − |ψ|: never above 90°.
         Folded = "folded",
-        /// |π/2 − ψ|: as printed. It breaks the mirror symmetry of the two half strokes.
+        /// |π/2 − ψ|: as printed. The printed angle breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }
@@ -202,7 +206,7 @@ crate::choice! {
     pub enum AddedMass {
         /// As in the paper.
         Paper = "paper",
-        /// With the gyroscopic terms of a Lagrangian derivation. They do no work.
+        /// With the gyroscopic terms of a Lagrangian derivation. The gyroscopic terms do no work.
         Lagrangian = "lagrangian",
     }
 }
@@ -284,7 +288,8 @@ impl Params {
 
     /// Returns these parameters with the hinge stiffness of `other`.
     ///
-    /// Hypothesis: the columns of k_w in Table A1 are swapped. The text of the paper cannot prove it.
+    /// Hypothesis: the columns of k_w in Table A1 are swapped. The text of the paper does not prove or disprove the
+    /// hypothesis.
     fn with_hinge_of(self, other: &Params) -> Params {
         Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }

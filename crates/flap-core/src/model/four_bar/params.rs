@@ -14,8 +14,8 @@ use crate::piezo::{EPSILON_0, ElectricalParameters};
 use crate::springs::{FLEXURE, HingeParameters};
 
 crate::parameters! {
-    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013, if the paper has
-    /// one.
+    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013, if the paper has a
+    /// symbol.
     pub struct Params {
         ["drive"]
         /// Peak-to-peak drive voltage. If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak voltage of
@@ -30,7 +30,7 @@ crate::parameters! {
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
         /// Voltage at which the actuator exerts no force at zero stroke. The value is assumed, because Arabagi et al.
-        /// (2013) do not give one.
+        /// (2013) do not give this voltage.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
@@ -95,8 +95,8 @@ crate::parameters! {
         /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of the stroke,
         /// against the stroke. Arabagi et al. (2013) do not use this parameter.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
-        /// Viscous damping of the stroke by the flexures of the transmission. The value is assumed: it gives modal
-        /// damping ratios of 4 to 9 percent.
+        /// Viscous damping of the stroke by the flexures of the transmission. The value is assumed: this damping gives
+        /// modal damping ratios of 4 to 9 percent.
         stroke_damping: f64 = ("N*m*s", "D", Number(NonNegative)) 2e-7,
         /// Loss factor of the springs that act on the stroke: the actuator and the series spring together. The loss
         /// factor adds a viscous damping: loss factor times stiffness, divided by the angular drive frequency.
@@ -185,13 +185,14 @@ crate::parameters! {
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
-        /// Chordwise lever arms of Eqs. (8) and (17): as printed, or from the rotation axis. The printed arms take the
-        /// leading edge as the rotation axis.
+        /// Chordwise lever arms of Eqs. (8) and (17): as printed ("printed"), or from the rotation axis ("axis"). The
+        /// printed lever arms take the leading edge as the rotation axis.
         arms: Arms = ("", "", Choice(Arms::NAMES)) Arms::Printed,
         /// Sign of the term with the pitch acceleration in the added-mass lift, Eq. (7): corrected, or as printed.
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)) AddedMassSign::Corrected,
         ["strips of the wing"]
-        /// Division of the wing into strips: at the nodes of the Gauss-Legendre rule, or of equal width.
+        /// Division of the wing into strips: at the nodes of the Gauss-Legendre rule ("gauss"), or of equal width
+        /// ("midpoint").
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)) Quadrature::Gauss,
         /// Number of strips of the wing: a whole number from 1 to 64.
         strips: f64 = ("", "N", Number(STRIPS)) 16.0,
@@ -206,7 +207,7 @@ crate::choice! {
     pub enum Arms {
         /// Distances from the rotation axis: c/2 to the mid-chord, d_cp c to the centre of pressure.
         Printed = "printed",
-        /// Both distances are measured from the leading edge, and the rotation axis is χc behind it.
+        /// Both distances are measured from the leading edge, and the rotation axis is χc behind the leading edge.
         Axis = "axis",
     }
 }
@@ -224,7 +225,8 @@ crate::choice! {
 crate::choice! {
     /// Rules for cutting the wing into strips.
     pub enum Quadrature {
-        /// Strips at the nodes of the Gauss-Legendre rule. 8 of them are more accurate than 256 equal strips.
+        /// Strips at the nodes of the Gauss-Legendre rule. A wing with 8 such strips is more accurate than a wing with
+        /// 256 equal strips.
         Gauss = "gauss",
         /// Strips of equal width.
         Midpoint = "midpoint",
