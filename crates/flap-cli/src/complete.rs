@@ -1,6 +1,7 @@
 //! Completion in a shell: the shell runs the command with the words so far, and the command prints candidates for the last word.
 //!
-//! A script cannot contain these candidates: they include added models and the columns of files in the working directory.
+//! A script cannot contain the candidates, because the candidates include added models and the columns of files in the
+//! working directory.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -36,7 +37,8 @@ pub(crate) fn answer() {
     }
 }
 
-/// Returns the command line. Each argument gets its candidates by the name of its value.
+/// Returns the command line, in which each argument has candidates. The name of an argument's value determines the
+/// candidates.
 fn command() -> Command {
     with_candidates(args::command())
 }
@@ -77,7 +79,7 @@ fn models_and_presets() -> Vec<CompletionCandidate> {
     models.chain(presets()).collect()
 }
 
-/// Returns all names that `flap models` lists and explains, and files.
+/// Returns the candidates for `flap models`: all names that the command explains, and file names.
 fn names_and_files(word: &OsStr) -> Vec<CompletionCandidate> {
     let mut found = begun(word, models_and_presets().into_iter().chain(names()).collect());
     found.extend(PathCompleter::any().complete(word));
@@ -99,7 +101,7 @@ fn parameters() -> Vec<CompletionCandidate> {
     each_parameter(|parameter| vec![candidate(parameter.name, parameter.doc)])
 }
 
-/// Returns parameters before an equals sign; after it, the options of a choice.
+/// Returns parameters before an equals sign, and options of a choice after the equals sign.
 fn assignments(word: &OsStr) -> Vec<CompletionCandidate> {
     let is_named = word.to_string_lossy().contains('=');
     let candidates = each_parameter(|parameter| match parameter.kind {
@@ -145,7 +147,7 @@ fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<Completi
     candidates
 }
 
-/// Returns the candidates without later ones of the same name.
+/// Returns the candidates; of candidates with the same name, only the first.
 fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
     let mut kept: Vec<CompletionCandidate> = Vec::new();
     for candidate in candidates {

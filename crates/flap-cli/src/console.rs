@@ -1,4 +1,4 @@
-//! Output: results go to stdout, everything else to stderr.
+//! Output of the command: results go to stdout, and all other messages go to stderr.
 
 use std::env;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ use anstyle::{AnsiColor, Style};
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
-/// From this call on, prints only warnings and errors to stderr, without notes and progress.
+/// After this call, flap prints only warnings and errors to stderr: no notes and no progress.
 pub(crate) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
@@ -18,9 +18,10 @@ pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Returns the number of characters in a line of stdout: the width of the terminal, else the variable COLUMNS.
+/// Returns the number of characters in a line of stdout: the width of the terminal, or the value of the variable
+/// COLUMNS without a terminal.
 ///
-/// `None` without both, for example in a pipe, where lines may have any length.
+/// `None` if both are missing, for example in a pipe, where lines may have any length.
 pub(crate) fn width() -> Option<usize> {
     let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)
@@ -39,7 +40,8 @@ pub(crate) fn warn(text: &str) {
     complain(&format!("{style}warning{style:#}: {text}"));
 }
 
-/// Breaks a long help line into lines that fit the terminal. Later lines are indented to the first word.
+/// Breaks a long help line into lines that fit the terminal. Lines after the first line are indented to the first word
+/// of the first line.
 pub(crate) fn help_lines(text: &str) -> String {
     const MARGIN: &str = "      ";
     let terminal = terminal_size::terminal_size_of(io::stderr()).map(|(width, _)| usize::from(width.0));
@@ -47,7 +49,7 @@ pub(crate) fn help_lines(text: &str) -> String {
     textwrap::wrap(text, width).join(&format!("\n{MARGIN}"))
 }
 
-/// Returns a word for copying into a shell: in quotes if it has characters that shells interpret.
+/// Returns a word that a user can copy into a shell: in quotes if the word has characters that shells interpret.
 pub(crate) fn shell_word(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-/+=:,".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -3,7 +3,7 @@
 const UNITS: [(f64, &str); 5] =
     [(31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes"), (1.0, "seconds")];
 
-/// Returns a time in the largest unit of which it has at least two: `7 minutes`.
+/// Returns a time in the largest unit in which the number is at least two: `7 minutes`.
 pub(crate) fn words(seconds: f64) -> String {
     between(seconds, seconds)
 }

@@ -55,7 +55,7 @@ pub(crate) enum Failure {
     System(String, Vec<String>),
     /// An internal error in flap.
     Bug(String),
-    /// The reader of stdout closed it, as `head` does. This is not an error.
+    /// The program that reads stdout closed it, as `head` does. A closed stdout is not an error.
     ClosedPipe,
 }
 
@@ -75,7 +75,7 @@ impl Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
-    /// Returns the failure for results that have changed since they were written.
+    /// Returns the failure for results that have changed since flap wrote them.
     pub(crate) fn damaged(message: String) -> Failure {
         Failure::System(message, Vec::new()).help("replace the file by an undamaged copy")
     }
@@ -133,7 +133,8 @@ impl Failure {
         self
     }
 
-    /// Adds a question with the name among `names` that is closest to `name`; if none is close, the line `otherwise`.
+    /// Adds a question with the name among `names` that is closest to `name`. If no name is close, adds the line
+    /// `otherwise`.
     pub(crate) fn nearest<'n>(
         self,
         name: &str,
@@ -170,7 +171,7 @@ impl Failure {
     }
 }
 
-/// Adds the first line of the grid that was edited, if there is one.
+/// Adds the first edited line of the grid, if a line was edited.
 fn edited(failure: Failure, changed: Option<&String>) -> Failure {
     let Some(line) = changed else { return failure };
     failure
@@ -191,7 +192,7 @@ fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues:
     edited(failure, changed).help("use --restart to delete the rows of this file and start over")
 }
 
-/// Returns the help line if earlier results will be replaced by new ones; `None` if there are no earlier results.
+/// Returns the help line if new results will replace earlier results; `None` if there are no earlier results.
 pub(crate) fn still_kept(out: &Path) -> Option<String> {
     let is_kept = job::unfinished(out).is_some() && out.exists();
     is_kept

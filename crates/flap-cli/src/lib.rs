@@ -1,4 +1,4 @@
-//! The `flap` command as a library, for programs that add their own models.
+//! The `flap` command as a library, for programs with additional models.
 //!
 //! ```no_run
 //! use flap_core::simulate::{self, Simulator};
@@ -35,14 +35,14 @@ use args::Command;
 use failure::{Exit, Failure};
 use flap_core::simulate::Simulator;
 
-/// Runs the command line of this process with these models, and returns its exit code.
+/// Runs the command line of this process with the given models, and returns the exit code.
 ///
 /// If the command line has mistakes, the process ends. Only the first call in a process sets the models.
 pub fn run(models: Vec<&'static dyn Simulator>) -> ExitCode {
     ExitCode::from(run_line(env::args_os().collect(), models))
 }
 
-/// Runs a command line with these models, and returns its exit code. The first word is the name of the program.
+/// Runs a command line with the given models, and returns the exit code. The first word is the name of the program.
 ///
 /// If the command line has mistakes, the process ends. Only the first call in a process sets the line and the models.
 pub fn run_line(line: Vec<OsString>, models: Vec<&'static dyn Simulator>) -> u8 {

@@ -1,4 +1,4 @@
-//! The models of this process.
+//! The models that the commands of this process can use.
 
 use std::sync::OnceLock;
 

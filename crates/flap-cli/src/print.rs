@@ -13,7 +13,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::table::{Table, six_digits};
 
-/// Prints `page`, or the rows with all digits below their names.
+/// Prints `page`, or the rows with all digits below a line with the column names.
 pub(crate) fn table(
     format: OutputFormat,
     names: &[impl AsRef<str>],
@@ -48,7 +48,7 @@ pub(crate) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Fa
     Ok(())
 }
 
-/// Returns the rows as comma-separated values below their names.
+/// Returns the rows as comma-separated values below a line with the column names.
 fn csv(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Failure> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let names = names.iter().map(AsRef::as_ref);
@@ -72,7 +72,7 @@ fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Fa
     Ok(format!("[\n{}\n]\n", objects.join(",\n")))
 }
 
-/// Returns a cell as JSON: null if it is empty or infinite.
+/// Returns a cell as JSON: null for an empty or infinite cell.
 fn json(cell: &str) -> Value {
     match cell {
         "" => Value::Null,

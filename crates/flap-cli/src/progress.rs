@@ -12,7 +12,7 @@ use crate::{console, duration};
 /// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
-    /// Progress as lines, if there is no bar.
+    /// Progress as lines of text, if no bar is shown.
     log: Option<Log>,
     /// The units of the run, such as "points".
     units: &'static str,
@@ -21,7 +21,8 @@ pub(crate) struct Bar {
 }
 
 impl Bar {
-    /// Returns the progress of a run that counts `units`, such as "points"; it prints nothing if progress is switched off.
+    /// Returns the progress of a run that counts `units`, such as "points"; the progress prints nothing if it is
+    /// switched off.
     pub(crate) fn new(units: &'static str) -> Bar {
         let template =
             format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
@@ -75,7 +76,7 @@ const PAUSE: Duration = Duration::from_secs(60);
 /// The progress as lines.
 struct Log {
     last: Instant,
-    /// Time and number of finished units at the beginning. Units of earlier sessions were not computed in this one.
+    /// Time and number of finished units at the beginning. Units of earlier sessions were not computed in this session.
     begin: Option<(Instant, u64)>,
 }
 
@@ -84,7 +85,7 @@ impl Log {
         Log { last: now, begin: None }
     }
 
-    /// Returns a line if it is time to print one.
+    /// Returns a line of progress if it is time to print the next line.
     fn line(&mut self, progress: Progress, units: &str, now: Instant) -> Option<String> {
         let Progress { finished, points } = progress;
         let (begun, before) = *self.begin.get_or_insert((now, finished));

@@ -46,7 +46,7 @@ impl Table {
         Table::with_names(headings.iter().map(|heading| heading.to_uppercase()).collect())
     }
 
-    /// Returns a table with headings and these rows.
+    /// Returns a table with the given headings and rows.
     pub(crate) fn of(headings: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> Table {
         let mut table = Table::with_headings(headings);
         for row in rows {
@@ -55,7 +55,7 @@ impl Table {
         table
     }
 
-    /// Returns a table with a first row of column names, which are printed as they are.
+    /// Returns a table with a first row of column names, which are printed unchanged.
     pub(crate) fn with_names(names: Vec<String>) -> Table {
         let mut table = Table::default();
         table.row(names);
@@ -83,8 +83,9 @@ impl Table {
 
     /// Returns the text, with two blanks between columns: one line per row or, with a `width`, lines of at most `width` characters.
     ///
-    /// In the second case, the cells of the last column are wrapped. If the columns do not fit even then, they are split into several
-    /// tables, one below the other. Each has the first column, or the columns of [`Table::with_keys`].
+    /// With a `width`, the cells of the last column are wrapped. If the columns do not fit even then, they are split
+    /// into several
+    /// tables, one below the other. Each of these tables has the first column, or the columns of [`Table::with_keys`].
     pub(crate) fn text_within(&self, width: Option<usize>) -> String {
         let widths = self.widths();
         let parts = width.map_or_else(Vec::new, |width| parts(&widths, self.keys.max(1), width));
@@ -112,7 +113,7 @@ impl Table {
             .collect()
     }
 
-    /// Returns the table with the first columns and these columns.
+    /// Returns the table with the first columns and the given columns.
     fn part(&self, columns: Range<usize>) -> Table {
         let cells = |row: &Vec<String>| {
             let rest = row.iter().skip(columns.start).take(columns.len());

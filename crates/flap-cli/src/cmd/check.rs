@@ -196,7 +196,7 @@ fn error_text(error: Error) -> String {
     }
 }
 
-/// Returns a table of the parameters that differ from the preset; empty if none does.
+/// Returns a table of the parameters that differ from the preset; empty if no parameter differs.
 fn deviations(plan: &Plan) -> String {
     let deviations = deviation::of(plan);
     if deviations.is_empty() {
@@ -210,8 +210,8 @@ fn deviations(plan: &Plan) -> String {
     "\n".to_owned() + &table.text_within(console::width())
 }
 
-/// Returns the parameters that stay the same although they usually change with a varied one, and formulas for them;
-/// empty if there are none.
+/// Returns the parameters that stay the same although they usually change with a varied parameter, and formulas for
+/// these parameters. The text is empty if there are no such parameters.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();
@@ -278,14 +278,14 @@ fn samples(plan: &Plan) -> String {
     text
 }
 
-/// Largest number of points that are checked one by one to count the excluded ones.
+/// Largest number of points that are checked one by one to count the excluded points.
 const MOST_COUNTED: u64 = 1_000_000;
 
 /// The points that `[where]` excludes.
 struct Excluded {
     /// A line about the excluded points; empty without conditions.
     line: String,
-    /// Number of points that are run; approximate for a large grid.
+    /// Number of points that a sweep of the grid runs; approximate for a large grid.
     runs: u64,
 }
 

@@ -41,9 +41,9 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
 /// The columns that the user selected.
 struct Asked {
     status: Option<usize>,
-    /// Columns with percentiles, and true if the user named them.
+    /// Columns with percentiles, and true if the user named these columns.
     columns: (Vec<usize>, bool),
-    /// For each column of the file, true if it is read.
+    /// For each column of the file, true if the column is read.
     is_read: Vec<bool>,
     /// Measures whose best rows are listed.
     by: Vec<usize>,
@@ -118,7 +118,8 @@ fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
     }
 }
 
-/// Returns the number of rows of each status, and the rows to describe: all rows, or only the periodic ones.
+/// Returns the number of rows of each status, and the rows to describe: all rows, or only the rows with a periodic
+/// motion.
 fn statuses(table: &Table, status: usize, all: bool) -> (Vec<Count>, Vec<usize>) {
     let rows: Vec<usize> = (0..table.rows).collect();
     let levels = Levels::of(table, status, &rows);

@@ -22,7 +22,7 @@ pub(crate) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
     }
 }
 
-/// Prints a script with which a shell requests completions from this program.
+/// Prints a script with which a shell requests completions from the command `flap`.
 fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let program = args::line().first().map_or_else(|| "flap".into(), PathBuf::from);
     let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();

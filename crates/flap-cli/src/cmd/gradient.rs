@@ -1,4 +1,4 @@
-//! `flap run --gradient`: the parameters that change a measure of a point most.
+//! `flap run --gradient`: the parameters with the largest effect on a measure of a point.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! `flap live`: a page with sliders for parameters, and curves that follow them.
+//! `flap live`: a page with sliders for parameters, and curves that change with the sliders.
 
 use std::sync::atomic::Ordering;
 use std::thread;

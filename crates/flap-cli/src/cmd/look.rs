@@ -1,4 +1,4 @@
-//! Failures that several commands on rows have in common.
+//! Failures that are the same for several commands that read rows.
 
 use crate::args::LookArgs;
 use crate::data::filter::Filters;

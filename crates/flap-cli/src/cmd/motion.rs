@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::print::write_csv;
 use crate::{console, job};
 
-/// Writes a CSV file, all or nothing, and prints its number of rows. `row` is the noun for a row, such as `sample`.
+/// Writes a complete CSV file or no file, and prints the number of rows. `row` is the noun for a row, such as `sample`.
 ///
 /// # Errors
 ///

@@ -103,7 +103,7 @@ fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The options that set the solver's settings where they differ from the usual ones.
+/// The command-line options for solver settings that differ from the defaults.
 fn options(solver: &SolverSettings) -> String {
     let usual = SolverSettings::default();
     let mut options = String::new();
@@ -167,7 +167,7 @@ fn unit<'p>(plan: &'p Plan, goal: &str) -> &'p str {
         .unwrap_or_default()
 }
 
-/// The number of starts that end at the optimum.
+/// The number of searches that end at the optimum.
 fn same(best: &Optimum) -> usize {
     best.optima.first().map_or(0, |first| first.starts)
 }
@@ -295,7 +295,7 @@ fn conditions(best: &Optimum) -> String {
     page
 }
 
-/// The active bounds and limits, and the optima that the starts end at.
+/// The active bounds and limits, and the optima at which the searches end.
 fn ends(problem: &Problem, best: &Optimum) -> String {
     let mut page = String::new();
     if !best.active.is_empty() {

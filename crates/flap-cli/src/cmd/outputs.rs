@@ -1,4 +1,5 @@
-//! Checks the output files of a command: each differs from its inputs and from its other outputs.
+//! Checks the output files of a command. Each output file must differ from the input files and from the other output
+//! files.
 
 use std::path::Path;
 
@@ -13,7 +14,7 @@ pub(crate) fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Checks the names of CSV tables as [`check`] does, and their endings.
+/// Checks the names of CSV tables as [`check`] does, and also the endings of the names.
 ///
 /// # Errors
 ///

@@ -21,9 +21,9 @@ use crate::table::six_digits;
 /// A design point and its plan.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
-    /// One value per parameter.
+    /// Value of each parameter, in the order of the parameters.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or stroke from a file, if the command line gives one.
+    /// The model with a waveform or stroke from a file, if the command line names such a file.
     pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
     /// Indices of the parameters that the command line sets.
@@ -73,7 +73,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// If the drive frequency is the resonance, searches it.
+    /// If the drive frequency is the resonance, searches for the resonance.
     fn find_resonance(&mut self) -> Result<(), Failure> {
         let Some(resonance) = self.plan.resonance() else { return Ok(()) };
         let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
@@ -98,7 +98,7 @@ impl Chosen {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
-    /// Returns the model that is run.
+    /// Returns the model of the point.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
@@ -123,7 +123,7 @@ impl Chosen {
         of_file || self.set_with_unit.contains(&parameter)
     }
 
-    /// Returns model and preset in one line.
+    /// Returns the model and the preset as one line of text.
     pub(crate) fn title(&self) -> String {
         let Chosen { plan, index, .. } = self;
         let title = format!("{} from {}", plan.simulator().name(), plan.preset());
@@ -181,7 +181,7 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     })
 }
 
-/// Returns the option that sets a parameter, up to its value.
+/// Returns the beginning of the option that sets a parameter, up to the value.
 pub(super) fn set_option(name: &str) -> String {
     format!("--set {name}=")
 }

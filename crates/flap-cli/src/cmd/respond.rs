@@ -79,7 +79,7 @@ fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> 
     Ok(job::complete(&summary, &args.begin.work))
 }
 
-/// A sink that drops rows.
+/// A sink that ignores the rows that it receives.
 struct Nowhere;
 
 impl Sink for Nowhere {

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     settle(&chosen, args, measure)
 }
 
-/// Returns the option that requires one wing, if the user gave one.
+/// Returns an option of the command line that requires a single wing, if the user gave such an option.
 fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
     let options = [
         (args.trajectory.is_some(), "--trajectory"),
@@ -89,7 +89,7 @@ fn settle(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// Returns a line with the command that runs an unsettled point longer.
+/// Returns a line with a command that runs an unsettled point for more drive periods.
 fn longer(chosen: &Chosen, args: &RunArgs) -> String {
     let cycles = chosen.plan.solver().max_cycles;
     let PointArgs { what, point, set } = &args.point;
@@ -149,7 +149,8 @@ fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     course.chain(measures(chosen, row, text::float)).collect()
 }
 
-/// Returns status and numbers of a run, with the names of their columns. A number that does not apply is empty.
+/// Returns status and numbers of a run, with the names of their columns. A number that does not apply to the run is
+/// empty.
 fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
     [
@@ -164,7 +165,7 @@ fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     ]
 }
 
-/// Returns the measures in the columns [`NAMES`]; empty if the row has none.
+/// Returns the measures in the columns [`NAMES`]; empty if the row has no measures.
 fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<String>> {
     let columns = chosen.plan.simulator().columns();
     let of_model = columns.iter().zip(&row.measures).map(|(column, &measure)| {

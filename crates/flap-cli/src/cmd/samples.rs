@@ -35,10 +35,10 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Share of the range of the samples by which the spline may exceed it without a warning.
+/// Largest excess of the spline over the range of the samples without a warning, as a fraction of the range.
 const OVERSHOOT: f64 = 0.02;
 
-/// Warns if the spline through the samples exceeds them.
+/// Warns if the spline through the samples exceeds the range of the samples.
 fn warn_of_overshoot(samples: &Samples, path: &Path, unit: &str) {
     let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
     if (from - low).max(high - to) > OVERSHOOT * (to - from) {

@@ -5,7 +5,7 @@ use flap_sweep::table::layout::split_unit;
 
 use crate::table::six_digits;
 
-/// A unit that suits the size of the numbers that are shown.
+/// A unit in which the shown numbers are easy to read.
 pub(super) struct Shown {
     factor: f64,
     unit: String,
@@ -20,7 +20,7 @@ impl Shown {
         Shown { factor, unit }
     }
 
-    /// Chooses a unit for the column `name`. If the name ends in the unit, the numbers keep it.
+    /// Chooses a unit for the column `name`. If the name of the column ends in a unit, the numbers keep this unit.
     pub(super) fn of_column(name: &str, unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
         let (_, ending) = split_unit(name);
         if !ending.is_empty() && ending == unit {
@@ -29,12 +29,12 @@ impl Shown {
         Shown::new(unit, numbers)
     }
 
-    /// Returns the unit as it is printed; empty for none.
+    /// Returns the printed unit; empty for numbers without a unit.
     pub(super) fn unit(&self) -> &str {
         &self.unit
     }
 
-    /// Returns the name of a column, with its unit if the name does not end in it.
+    /// Returns the name of a column. If the name does not end in the unit, the unit follows the name.
     pub(super) fn heading(&self, name: &str) -> String {
         let (_, ending) = split_unit(name);
         if self.unit.is_empty() || labels::printed(ending) == self.unit {

@@ -1,4 +1,4 @@
-//! `flap sweep`: runs every point of a grid file and writes one row each.
+//! `flap sweep`: runs every point of a grid file and writes one row for each point.
 
 use std::path::{Path, PathBuf};
 
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     job::run(&plan, out, args.begin.treatment(), &args.begin.work, origin)
 }
 
-/// Returns the plan in the sidecar of earlier results, and the origin of its points if the results are a rerun.
+/// Returns the plan in the sidecar of earlier results, and the origin of the points if the results are a rerun.
 fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     let path = args.grid();
     if args.shard.is_some() {

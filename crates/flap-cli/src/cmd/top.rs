@@ -106,7 +106,7 @@ fn value(by: &str, cell: &str) -> Result<f64, Failure> {
 struct Best {
     most: usize,
     aim: Aim,
-    /// Values with their cells.
+    /// The ranked values, each with the cells of its row.
     rows: Vec<(f64, Vec<String>)>,
 }
 
@@ -119,7 +119,7 @@ impl Best {
         self.rows.push((value, cells.into_iter().map(str::to_owned).collect()));
     }
 
-    /// Drops all rows except the best. Rows with equal values keep their order.
+    /// Keeps only the best rows. Rows with equal values keep their order.
     fn cut(&mut self) {
         match self.aim {
             Aim::Max => self.rows.sort_by(|a, b| b.0.total_cmp(&a.0)),
@@ -159,7 +159,7 @@ impl Range {
     }
 }
 
-/// Numbers of rows that are not ranked.
+/// The numbers of rows that have no rank, by reason.
 #[derive(Default)]
 struct LeftOut {
     other_statuses: u64,

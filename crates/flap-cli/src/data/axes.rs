@@ -1,4 +1,4 @@
-//! The axes of a sweep: the parameters that its results vary.
+//! The axes of a sweep: the parameters that vary in the results of the sweep.
 
 use flap_sweep::picture::sample::rank_correlation;
 
@@ -8,9 +8,9 @@ use super::levels::{Levels, Values};
 /// The parameters that a file varies.
 #[derive(Clone)]
 pub(crate) struct Axes {
-    /// Columns with more than one value, except columns that follow from an earlier one.
+    /// Columns with more than one value, except columns whose values follow from the values of an earlier column.
     pub(crate) columns: Vec<usize>,
-    /// True for a sample: most of its values differ, so the points form no grid.
+    /// True for a sample: most values differ, so the points form no grid.
     pub(crate) sampled: bool,
     /// Columns among `columns` that stand for a sample.
     #[cfg(feature = "plots")]
@@ -18,7 +18,8 @@ pub(crate) struct Axes {
     /// Columns among `columns` that contain words.
     #[cfg(feature = "plots")]
     pub(crate) words: Vec<usize>,
-    /// All parameters of a sample. Each of these columns has a different value in every row, so the others follow from the first.
+    /// All parameters of a sample. Each parameter of a sample has a different value in every row, so the value of one
+    /// parameter determines the values of the others.
     pub(crate) members: Vec<usize>,
 }
 
@@ -64,7 +65,8 @@ impl Axes {
     }
 }
 
-/// Returns the parameters of a sample, from the sidecar; without one, the columns that follow from the sample's columns.
+/// Returns the parameters of a sample, from the sidecar. Without a sidecar, returns the columns whose values follow
+/// from the columns of the sample.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let standing = || kept.iter().filter(|(column, _)| sample.contains(column));
     let is_member = |(column, levels): &&Varied| {
@@ -80,7 +82,8 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
     members
 }
 
-/// Returns the kept columns that stand for a sample, from the sidecar; without one, the columns whose values look like a sample.
+/// Returns the kept columns that stand for a sample, from the sidecar. Without a sidecar, returns the columns whose
+/// values look like a sample.
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {
@@ -105,7 +108,8 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
 /// Smallest number of points at which a sample crossed with axes is recognised without its sidecar.
 const FEWEST: usize = 8;
 
-/// Returns true if each of two columns follows from the other but their orders differ, as only in samples.
+/// Returns true if the values of two columns determine each other but have different orders. Only samples have such
+/// columns.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)

@@ -24,16 +24,16 @@ pub(crate) struct Table {
 #[cfg_attr(not(feature = "plots"), expect(dead_code, reason = "only pictures use it"))]
 pub(crate) struct RefinedAxis {
     pub(crate) name: String,
-    /// True if its values have a constant ratio.
+    /// True if the values of the axis have a constant ratio.
     pub(crate) log: bool,
-    /// Number of cells between its values in the grid file.
+    /// Number of cells between the values of the axis in the grid file.
     pub(crate) cells: u64,
 }
 
 /// A column of a file.
 pub(crate) struct Column {
     pub(crate) name: String,
-    /// The unit as text; empty for none.
+    /// The unit as text; empty for a column without a unit.
     pub(crate) unit: String,
     pub(crate) cells: Cells,
 }

@@ -29,7 +29,7 @@ enum Test {
     Comparison(Comparison),
 }
 
-/// The condition that a cell is a number.
+/// The condition that a cell has a given number.
 struct Number {
     column: usize,
     name: String,
@@ -41,16 +41,16 @@ struct Number {
     first: OnceCell<f64>,
 }
 
-/// The condition that a cell is a word.
+/// The condition that a cell has a given word.
 struct Word {
     column: usize,
     name: String,
     wanted: String,
-    /// Other words in the column, up to the number that is listed.
+    /// Other words in the column, at most as many as a message lists.
     others: RefCell<BTreeSet<String>>,
 }
 
-/// Largest number of words of a column that are listed.
+/// Largest number of words of a column that a message lists.
 const MOST_WORDS: usize = 8;
 
 /// A comparison of columns.
@@ -164,7 +164,8 @@ impl Filters {
         lines
     }
 
-    /// Reads the rows of `source` that satisfy the conditions, as [`Source::read_kept`] does. At least one row must satisfy them.
+    /// Reads the rows of `source` that satisfy the conditions, as [`Source::read_kept`] does. At least one row must
+    /// satisfy the conditions.
     #[cfg(feature = "plots")]
     pub(crate) fn read(
         &self,
@@ -203,7 +204,7 @@ fn in_unit(name: &str, unit: &str, usual: f64) -> Option<String> {
     (!unit.is_empty()).then(|| format!("{name} is in {unit}{example}; a number may have its unit"))
 }
 
-/// Returns a number in a unit, with a prefix unless the unit has one already, such as mN.
+/// Returns a number in a unit. The unit gets a prefix, except units that already have a prefix, such as mN.
 fn shown_in(number: f64, unit: &str) -> String {
     let prefixed = units::prefixed(number, unit);
     let is_read = units::parse_as(&prefixed, unit).is_ok();
@@ -215,7 +216,7 @@ fn cell(row: &StringRecord, column: usize) -> &str {
     row.get(column).unwrap_or_default()
 }
 
-/// Returns true if a cell is the number that the user gave, who may write fewer digits than the file has.
+/// Returns true if a cell has the number that the user gave. The user may give fewer digits than the file has.
 pub(crate) fn is_same(value: f64, wanted: f64) -> bool {
     value == wanted || (value - wanted).abs() <= 1e-9 * wanted.abs().max(f64::MIN_POSITIVE)
 }
@@ -223,7 +224,7 @@ pub(crate) fn is_same(value: f64, wanted: f64) -> bool {
 /// Parses `text` as a number in the unit of the column `name`; returns `None` for a word.
 ///
 /// # Errors
-/// `Usage` for a number with a unit of another kind, and for invalid text that begins like a number.
+/// `Usage` for a number whose unit has another dimension, and for invalid text that begins like a number.
 pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, Failure> {
     if let Ok(number) = text.parse() {
         return Ok(Some(number));
@@ -263,7 +264,7 @@ impl Scope for Names<'_> {
     }
 }
 
-/// Parses the comparison `plain`, which has no units; `text` is the user's original for messages.
+/// Parses the comparison `plain`, which has no units. `text` is the comparison as the user wrote it, for messages.
 fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message()));
@@ -294,7 +295,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
     }
 }
 
-/// Returns the value of a cell in a comparison; NaN if it is empty.
+/// Returns the value of a cell in a comparison; NaN for an empty cell.
 fn value(name: &str, cell: &str) -> Result<f64, Failure> {
     let among = |options: &[&str]| options.iter().position(|option| *option == cell);
     let found = match name {

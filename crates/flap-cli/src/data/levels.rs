@@ -9,7 +9,7 @@ use super::columns::{Cells, NO_WORD, Table};
 
 /// The different values of a column, and the value in each row.
 pub(crate) struct Levels {
-    /// For each row the index of its value.
+    /// For each row, the index of the value in the row.
     pub(crate) codes: Vec<usize>,
     pub(crate) values: Values,
 }
@@ -21,7 +21,7 @@ pub(crate) enum Values {
 }
 
 impl Levels {
-    /// Returns the values of the column in these rows. Empty cells count as one value, the last.
+    /// Returns the distinct values of the column in the given rows. All empty cells count as one value, which is last.
     pub(crate) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
         match &table.columns[column].cells {
             Cells::Numbers(values) => {
@@ -70,7 +70,7 @@ impl Levels {
         }
     }
 
-    /// Returns true if the value of each row follows from its value in `other`.
+    /// Returns true if, in each row, the value in the column `other` determines the value in this column.
     pub(crate) fn follow(&self, other: &Levels) -> bool {
         let mut image = vec![usize::MAX; other.len()];
         self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {

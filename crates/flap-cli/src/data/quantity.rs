@@ -9,10 +9,11 @@ use flap_sweep::table::labels;
 use super::columns;
 use crate::failure::Failure;
 
-/// Returns the comparison `text` with its numbers in the units of the columns that they are compared with, and without units.
+/// Returns the comparison `text` without units: each number is converted to the unit of the column with which the
+/// number is compared.
 ///
 /// # Errors
-/// `Usage` for a number with a unit that is compared with no column, or with a column of another kind.
+/// `Usage` for a number with a unit that is compared with no column, or with a column of another dimension.
 pub(super) fn without_units(
     text: &str,
     names: &[String],
@@ -28,7 +29,7 @@ pub(super) fn without_units(
     })
 }
 
-/// Returns the comparison `text` with its units as they are printed: `µN·m/rad`.
+/// Returns the comparison `text` with printed units, such as `µN·m/rad`.
 #[cfg(feature = "plots")]
 pub(crate) fn printed(text: &str) -> String {
     let mut shown = String::new();

@@ -18,7 +18,7 @@ use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
 
-/// Largest number of rows that are read; their numbers are held in memory.
+/// Largest number of rows that are read. All numbers of these rows are in memory.
 const MOST_ROWS: usize = 20_000_000;
 
 /// An open file of results whose header has been read.
@@ -34,7 +34,8 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Opens the results and reads their header. If `tells` is true, prints notes and warnings about them to stderr.
+    /// Opens the results and reads the header. If `tells` is true, prints notes and warnings about the results to
+    /// stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
         Failure::not_results(path).map_or(Ok(()), Err)?;
         let opened = integrity::open(path, read.on_damage())?;
@@ -66,7 +67,7 @@ impl Source {
         columns::find(self.names().iter().map(String::as_str), name)
     }
 
-    /// Returns the unit of a column as text; empty for none.
+    /// Returns the unit of a column as text; empty for a column without a unit.
     pub(crate) fn unit(&self, column: usize) -> String {
         self.units.of_column(&self.names()[column])
     }
@@ -95,7 +96,7 @@ impl Source {
 
     /// Reads the rows that `keep` accepts, with the cells of `wanted` columns.
     ///
-    /// If there are more than `most` such rows, it keeps every second, fourth or eighth row, and so on.
+    /// If there are more than `most` accepted rows, the function keeps every second, fourth or eighth row, and so on.
     pub(crate) fn read_kept(
         mut self,
         wanted: impl Fn(usize) -> bool,
@@ -136,7 +137,7 @@ impl Source {
     }
 }
 
-/// A column while it is read.
+/// A column of which some rows have been read.
 struct Gathered {
     cells: Cells,
     codes: HashMap<String, u32>,
@@ -234,7 +235,8 @@ fn refined(plan: &Plan) -> Vec<RefinedAxis> {
     parameters.map(axis).collect()
 }
 
-/// The units of columns: from the sidecar's plan, else from models and endings of names.
+/// The units of columns, from the plan in the sidecar. Without a sidecar, units come from the models and from the
+/// endings of names.
 struct Units(BTreeMap<String, String>);
 
 impl Units {

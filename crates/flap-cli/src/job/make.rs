@@ -11,7 +11,7 @@ use flap_sweep::files::sidecar::Sidecar;
 use crate::console;
 use crate::failure::Failure;
 
-/// Writes a file all or nothing. An earlier file remains until the new one is complete.
+/// Writes a complete file or no file. An earlier file remains until the new file is complete.
 ///
 /// `write` returns the sidecar of results. The inner result comes from `write`.
 pub(crate) fn make<E: From<io::Error>>(

@@ -22,7 +22,7 @@ use crate::models;
 const SIDECAR_HELP: &str =
     "the sidecar FILE.meta.toml must be in the folder of the results; it contains the grid";
 
-/// Returns the plan of results, from the sidecar beside them.
+/// Returns the plan of results, from the sidecar in the same folder.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
     let sidecar = read_sidecar(results, on_damage)?;
     Ok((plan_of(&sidecar_of(results), &sidecar)?, sidecar))
@@ -63,7 +63,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     })
 }
 
-/// Opens results for reading, and prints warnings about them.
+/// Opens results for reading, and prints warnings about the results.
 pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     Failure::not_results(results).map_or(Ok(()), Err)?;
     let opened = integrity::open(results, read.on_damage())?;
@@ -104,7 +104,7 @@ pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
 }
 
-/// Opens results that have a sidecar, and returns them with the plan in it.
+/// Opens results that have a sidecar, and returns the results with the plan in the sidecar.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
     Failure::not_results(results).map_or(Ok(()), Err)?;
     Format::of(results)?;
@@ -115,7 +115,7 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
 
 /// Returns the plan of results with the points that its refinement added, if `point` is one of them.
 ///
-/// These points follow from the rows.
+/// The rows determine the points of a refinement.
 pub(crate) fn with_refinement(
     plan: Plan,
     results: &Path,

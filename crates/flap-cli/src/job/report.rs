@@ -15,7 +15,7 @@ use flap_sweep::table::layout::Layout;
 use super::exclusion;
 use crate::console::{self, shell_word};
 
-/// Prints the summary of the rows and the name of their file.
+/// Prints the summary of the rows and the name of the file with the rows.
 pub(super) fn report(plan: &Plan, done: &Done) {
     let Done { summary, rows_before, seconds, place } = done;
     for InvalidPoint { point, reason } in &summary.invalid {
@@ -113,8 +113,8 @@ fn report_warnings(plan: &Plan, done: &Done) {
     }
 }
 
-/// Prints the number of points that did not settle, with a command that runs them longer. A rerun gets other advice, because it
-/// has already run them longer.
+/// Prints the number of points that did not settle, with a command that runs them longer. For a rerun the advice
+/// differs, because a rerun has already run these points longer.
 fn report_unsettled(plan: &Plan, done: &Done) {
     let unsettled = done.summary.statuses.of(Status::Unsettled);
     if unsettled == 0 {
@@ -156,7 +156,7 @@ fn beside(results: &Path, word: &str) -> String {
     shell_word(&results.with_file_name(format!("{stem}.{word}{ending}")).to_string_lossy())
 }
 
-/// Prints the number of curves and the name of their file.
+/// Prints the number of curves and the name of the file with the curves.
 pub(super) fn report_curves(done: &Done) {
     let Done { summary, place, .. } = done;
     match place {

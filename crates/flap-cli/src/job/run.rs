@@ -24,7 +24,8 @@ use crate::print;
 use crate::progress::Bar;
 use crate::system;
 
-/// Runs `plan`, writes its rows to `out`, and prints a report. For a rerun, `origin` gives the earlier results of its points.
+/// Runs `plan`, writes its rows to `out`, and prints a report. For a rerun, `origin` has the earlier results of the
+/// points.
 pub(crate) fn run(
     plan: &Plan,
     out: PathBuf,

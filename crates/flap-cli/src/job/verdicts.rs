@@ -15,9 +15,9 @@ use crate::table::assignment;
 /// The stream for the lines of curves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lines {
-    /// Stdout. If its reader closes it, the run ends.
+    /// Stdout. If the program that reads stdout closes it, the run ends.
     Stdout,
-    /// Stdout, while rows go to a file. If its reader closes it, the run continues.
+    /// Stdout, while rows go to a file. If the program that reads stdout closes it, the run continues.
     StdoutBesideFile,
     /// Stderr, because the rows go to stdout.
     Stderr,
@@ -32,7 +32,7 @@ pub(crate) struct Verdicts<'a> {
     plan: &'a Plan,
     along: &'a Along,
     parameter: &'a Parameter<'a>,
-    /// Index of the stroke's amplitude among the measures.
+    /// Index of the measure of the stroke's amplitude among the measures of the model.
     stroke: usize,
 }
 
@@ -74,7 +74,8 @@ impl<'a> Verdicts<'a> {
         varied.chain(["kind", "from", "to", "unit", "resolution", "jump_deg", "motions"]).collect()
     }
 
-    /// Returns one row for each band of a curve; for a curve without bands, one row for its whole range.
+    /// Returns one row for each band of a curve. A curve without bands has one row for the whole range of the
+    /// parameter.
     fn cells(&self, design: &Point, verdict: &Verdict) -> Vec<Vec<String>> {
         let row = |kind: &str, [from, to]: [f64; 2], jump: Option<f64>, motions: String| {
             let values = self.plan.axes().varied();
@@ -108,7 +109,7 @@ impl<'a> Verdicts<'a> {
         bands.collect()
     }
 
-    /// Returns the parameters that distinguish a design from others, as text.
+    /// Returns the parameters that distinguish a design from the other designs, as text.
     fn design(&self, design: &Point) -> String {
         let assignment = |index: usize| assignment(&self.plan.parameters()[index], design.values[index]);
         self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")

@@ -23,7 +23,7 @@ pub(super) fn bytes(scene: Scene, format: Format) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Returns the format that the ending of a name stands for.
+/// Returns the format for the ending of a file name.
 pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     match ending(out).as_str() {
         "svg" => Ok(Format::Svg),
@@ -39,7 +39,7 @@ pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     }
 }
 
-/// Returns the ending of a name in lower case; empty if there is none.
+/// Returns the ending of a name in lower case; empty for a name without an ending.
 pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
@@ -50,9 +50,9 @@ const SCALE: u32 = 2;
 /// Largest number of pixels of a picture that is drawn at double size and averaged.
 const MOST_PIXELS: f64 = 1e8;
 
-/// Returns a picture as PNG, with [`SCALE`] times as many pixels in each direction as it has units.
+/// Returns a picture as PNG, with [`SCALE`] pixels per unit of the picture in each direction.
 ///
-/// It is drawn at double size and averaged, so that lines and points are smooth.
+/// The picture is drawn at double size and averaged, so that lines and points are smooth.
 fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
     scene.elements = scene.elements.into_iter().flat_map(dashes).collect();
     let turned = take_turned(&mut scene);
@@ -190,7 +190,8 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
     pieces.into_iter().map(line).collect()
 }
 
-/// Takes the text that reads upwards out of a scene, and returns it upright in a scene as wide as the other is high.
+/// Removes the text that reads upwards from a scene. Returns this text upright, in a scene as wide as the first scene
+/// is high.
 ///
 /// The library draws rotated letters bold and without smooth edges. A quarter turn to the left moves the text to its place.
 fn take_turned(scene: &mut Scene) -> Option<Scene> {

@@ -59,7 +59,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Draws a dashed line at each percentile, with its value above the bars, each in its own line of text.
+/// Draws a dashed line at each percentile. The value of each percentile is above the bars, in a separate line of text.
 fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &Label) {
     let middle = frame.margin_left + frame.plot_width() / 2.0;
     let top = |line: usize| frame.margin_top + line as f64 * LINE;
@@ -90,7 +90,7 @@ fn told(name: &str, designs: usize, found: &Histogram, label: &Label) -> String 
     format!("{name} of {designs} designs: {}", parts.join(", "))
 }
 
-/// Returns a value, which is already multiplied by the label's factor, with four digits and its unit.
+/// Returns a value with four digits and its unit. The value is already multiplied by the factor of the label.
 fn shown(value: f64, label: &Label) -> String {
     format!("{} {}", super::label::digits(value, 4), label.unit).trim_end().to_owned()
 }

@@ -1,4 +1,4 @@
-//! Pictures of the branches of a response while its parameter rises and falls.
+//! Pictures of the branches of a response to a parameter that rises and falls.
 
 use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
 use flap_sweep::picture::colours::BISTABLE;
@@ -107,7 +107,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Returns the branches of a design, and the differences between its branches up and down.
+/// Returns the branches of a design, and the differences between the rising and the falling branch.
 fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
     let (x, y) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
     let is_branch = words(table, "branch")?;

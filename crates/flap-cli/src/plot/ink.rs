@@ -120,7 +120,7 @@ pub(super) fn rectangle(scene: &mut Scene, (x, y): (f64, f64), (width, height): 
     scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity: None });
 }
 
-/// Draws the frame around the plot again, after something was drawn over it.
+/// Draws the frame around the plot again, over the contents of the plot.
 pub(super) fn frame_lines(scene: &mut Scene, frame: &ComputedLayout) {
     scene.add(Primitive::Rect {
         x: frame.margin_left,

@@ -5,12 +5,12 @@ use flap_sweep::table::labels;
 use crate::data::columns::{Cells, Table};
 use crate::data::levels::{Levels, Values};
 
-/// A column's label, and the unit in which its numbers are shown.
+/// The label of a column, and the unit in which the numbers of the column are shown.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
     /// The name as text: `Lift, mean`.
     pub(super) words: String,
-    /// The printed unit: `mN`, `µN·m/rad`; empty for none.
+    /// The printed unit, such as `mN` or `µN·m/rad`; empty for a column without a unit.
     pub(super) unit: String,
     /// The factor from the column's unit to the unit that is shown.
     pub(super) factor: f64,

@@ -17,7 +17,7 @@ use crate::data::columns::{RefinedAxis, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Largest number of cells in a picture: more would exceed its pixels.
+/// Largest number of cells in a picture. More cells than pixels cannot be drawn.
 const MOST_CELLS: usize = 500_000;
 
 /// A coloured cell: its sides in the units of the picture, and its value.
@@ -80,7 +80,7 @@ impl Grid {
     }
 }
 
-/// Returns the refined axis of a column, if it has one.
+/// Returns the refined axis of a column, if the column is a refined axis.
 fn axis_of(table: &Table, column: usize) -> Option<&RefinedAxis> {
     table.refined.iter().find(|axis| axis.name == table.columns[column].name)
 }
@@ -132,7 +132,8 @@ fn place(axis: &Axis, share: f64) -> f64 {
     if axis.log { low * (high / low).powf(share) } else { low + (high - low) * share }
 }
 
-/// Places of a raster with the same nearest point: from the first to before the second column and row.
+/// A rectangle of a raster in which all places have the same nearest point. The first column and row are included, the
+/// second are not.
 #[derive(Clone, Debug, PartialEq)]
 struct Rectangle {
     columns: [usize; 2],
@@ -194,7 +195,8 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
 
 /// Returns the cells of curves along the first of `columns`, one curve for each value of the second.
 ///
-/// The values of the first differ from curve to curve in responses, and if it alone is refined. Each curve has its own values, and its cells end halfway between them.
+/// The values of the first column differ from curve to curve in responses, and if only the first column is refined. The
+/// cells of a curve end halfway between the values of this curve.
 fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
     let side = side(table, selection, across)?;
@@ -260,7 +262,8 @@ fn several(table: &Table, selection: &Selection) -> Failure {
     Failure::usage(message).help("choose one value of each of the other parameters with --where")
 }
 
-/// Returns the boundaries of the cells: halfway between their values, and at the same distance beyond the first and the last.
+/// Returns the boundaries of the cells: halfway between neighbouring values, and at the same distance beyond the first
+/// and the last value.
 fn edges(values: &[f64], log: bool) -> Vec<f64> {
     let to = |value: f64| if log { value.ln() } else { value };
     let from = |place: f64| if log { place.exp() } else { place };

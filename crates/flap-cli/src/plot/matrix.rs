@@ -20,10 +20,10 @@ use crate::failure::Failure;
 /// Names of the columns of force and torque.
 const NAMES: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
-/// A change with a smaller share of its input's largest change is drawn as nearly zero.
+/// Fraction of an input's largest change below which a change is drawn as nearly zero.
 const LEAST: f64 = 1e-3;
 
-/// At a larger share, the colour is so dark that its number is white.
+/// Fraction of an input's largest change above which the colour is dark and the number is white.
 const DARK: f64 = 0.6;
 
 /// The font size of the numbers.
@@ -87,7 +87,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// A cell: the change of a component, and its share of the input's largest change.
+/// A cell: the change of a component, and the change as a fraction of the input's largest change.
 struct Cell {
     sides: [f64; 2],
     ends: [f64; 2],
@@ -132,7 +132,7 @@ impl Cell {
     }
 }
 
-/// Returns an input with the unit that its changes are per.
+/// Returns the name of an input with its unit, which is the denominator of the changes.
 fn name(input: &str, unit: &str) -> String {
     let words = labels::with_unit(input, unit);
     if words.unit.is_empty() { words.words } else { format!("{}, per {}", words.words, words.unit) }

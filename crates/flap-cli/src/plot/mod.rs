@@ -1,4 +1,4 @@
-//! `flap plot`: draws results as pictures, and writes pages to explore them.
+//! `flap plot`: draws results as pictures, and writes pages on which users explore results.
 
 mod encode;
 mod histogram;

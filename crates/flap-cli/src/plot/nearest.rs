@@ -1,6 +1,7 @@
 //! Cells of a map whose points form no grid: each place has the colour of the nearest point.
 
-/// Returns for each place of a raster the index of the nearest point; of equally near ones, the first.
+/// Returns for each place of a raster the index of the nearest point. If several points are equally near, returns the
+/// first of these points.
 ///
 /// `points` are in the unit square. The places are the middles of `columns` times `rows` equal cells of the square, row
 /// by row from the bottom. `weights` are the factors of distances across and up. Without points the result is empty.
@@ -14,7 +15,7 @@ pub(super) fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [
     places.map(|(row, column)| buckets.nearest([middle(column, columns), middle(row, rows)])).collect()
 }
 
-/// Points by the square in which they are.
+/// Points, grouped by the square that contains them.
 struct Buckets<'p> {
     points: &'p [[f64; 2]],
     weights: [f64; 2],

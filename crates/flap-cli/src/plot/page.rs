@@ -1,4 +1,5 @@
-//! A page to choose columns, filter rows and read their values in a browser. It contains its rows, code and style.
+//! A page for a browser, on which users choose columns, filter rows and read values. The page contains the rows, the
+//! code and the style.
 
 mod data;
 
@@ -36,7 +37,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     Ok(flap_live::page::results(heading, &data))
 }
 
-/// Returns the first view: the picture with the same arguments, if there is one.
+/// Returns the first view of the page: the picture with the same arguments, if there is such a picture.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (args.values().into_iter())
         .map(|(name, text)| {
@@ -94,7 +95,7 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
     Ok(Start { kind, x: columns.x, y, by, color: columns.color, best, filters })
 }
 
-/// Returns the value of a slice, as the file has it.
+/// Returns the value of a slice in the form of the file.
 fn filter(table: &Table, name: &str, text: &str) -> Result<Value, Failure> {
     let column = table.find(name)?;
     let rows = slices::filtered(table, &[(name.to_owned(), text.to_owned())])?;

@@ -29,7 +29,7 @@ pub(super) struct Panel {
     pub(super) x: Axis,
     pub(super) y: Axis,
     pub(super) plots: Vec<Plot>,
-    /// Heading of the legend, if there is one.
+    /// Heading of the legend, if the legend has a heading.
     pub(super) legend: Option<String>,
     /// True if there is space on the right for a colour bar.
     pub(super) bar: bool,

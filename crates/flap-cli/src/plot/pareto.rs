@@ -1,4 +1,4 @@
-//! Pareto pictures: two measures of every design, and the designs that no other design beats in both.
+//! Pareto pictures: two measures of every design, and the designs for which no other design is better in both measures.
 
 use flap_sweep::picture::colours::{DARK, PLAIN};
 use kuva::plot::legend::{LegendEntry, LegendShape};
@@ -18,7 +18,7 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Largest number of corners of a front that have rings: more would merge and hide the colours below.
+/// Largest number of corners of a front that have rings. More rings would merge and hide the colours below.
 const MOST_RINGS: usize = 40;
 
 /// The width of the front's line.
@@ -135,7 +135,8 @@ type Better = bool;
 
 /// Returns the points that no other point dominates, in rising order of the first number.
 ///
-/// A point dominates another if it is at least as good in both numbers and better in one. Points with NaN are ignored.
+/// One point dominates another point if both numbers are at least as good and one number is better. Points with NaN are
+/// ignored.
 fn front(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
     // From here on, larger values are better in both numbers.
     let toward = |value: f64, more: Better| if more { value } else { -value };
@@ -185,7 +186,7 @@ mod tests {
             .collect()
     }
 
-    /// Returns points from a small grid, so that many have equal numbers.
+    /// Returns points from a small grid, so that many points have equal numbers.
     fn points(count: usize, seed: u64) -> Vec<(f64, f64)> {
         let mut state = seed;
         let mut next = || {

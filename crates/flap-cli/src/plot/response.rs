@@ -1,4 +1,4 @@
-//! Responses: a measure over a parameter, with one line for each value of another.
+//! Responses: a measure over a parameter, with one line for each value of another parameter.
 
 use std::borrow::Cow;
 
@@ -113,7 +113,7 @@ pub(super) struct Line {
     pub(super) rows: Vec<usize>,
 }
 
-/// Groups the chosen rows by the value of the column `by`; if there is none, all rows form one line.
+/// Groups the chosen rows by the value of the column `by`; without this column, all rows form one line.
 pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, Failure> {
     let Some(by) = selection.columns.by else {
         return Ok(vec![Line { name: String::new(), rows: selection.rows.clone() }]);

@@ -25,7 +25,8 @@ pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     (low - share * width, high + share * width)
 }
 
-/// Returns the range of a vertical axis: from 0 if that is near, otherwise with margins.
+/// Returns the range of a vertical axis. The range begins at 0 if all values are near 0; otherwise the range has
+/// margins.
 pub(super) fn from_zero((low, high): (f64, f64)) -> (f64, f64) {
     let (padded_low, padded_high) = padded((low, high), 0.05);
     if low >= 0.0 && low < 0.3 * high { (0.0, padded_high) } else { (padded_low, padded_high) }
@@ -61,7 +62,7 @@ pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// Returns true if an axis is logarithmic: its values have even ratios and span a decade or more.
+/// Returns true if an axis is logarithmic: the values have a constant ratio and span a decade or more.
 pub(super) fn is_log(values: &[f64]) -> bool {
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
     if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {

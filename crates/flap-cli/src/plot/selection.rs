@@ -13,14 +13,14 @@ use crate::data::source::Source;
 use crate::data::{filter, quantity};
 use crate::failure::Failure;
 
-/// Columns that some kinds need.
+/// Columns that some kinds of pictures require.
 const NEEDED: [&str; 7] =
     ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch", "bistable"];
 
 /// The column with the names of inputs in the output of `flap vehicle`.
 pub(super) const INPUT: &str = "input";
 
-/// The name of the row of means in that column.
+/// The name of the row of means in the column of inputs.
 pub(super) const MEAN: &str = "mean";
 
 /// The request of the user, as columns of the file.
@@ -31,7 +31,7 @@ pub(super) struct Request<'a> {
     pub(super) y: Option<usize>,
     pub(super) by: Option<usize>,
     pub(super) color: Option<usize>,
-    /// Columns that must have a value, with the value.
+    /// Columns that must have a given value, with this value.
     pub(super) values: Vec<(String, String)>,
     pub(super) filters: Vec<usize>,
     /// Axes over which the best rows are drawn.
@@ -99,14 +99,14 @@ impl<'a> Request<'a> {
             || NEEDED.contains(&self.names[column].as_str())
     }
 
-    /// Returns the column with the inputs of a vehicle, if the file has one line for each.
+    /// Returns the column with the inputs of a vehicle, if the file has one line for each input.
     pub(super) fn matrix(&self) -> Option<usize> {
         let has = |name: &str| self.place(name).is_some();
         let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
         self.place(INPUT).filter(|_| is_matrix)
     }
 
-    /// Returns the first of these columns that the user did not request.
+    /// Returns the first of the given columns that the user did not request.
     pub(super) fn free(&self, preferred: [Option<usize>; 3]) -> Option<usize> {
         let asked = [self.x, self.y, self.color];
         preferred.into_iter().flatten().find(|column| !asked.contains(&Some(*column)))
@@ -135,7 +135,7 @@ pub(super) struct Columns {
     pub(super) x: usize,
     /// Column of the vertical axis; equal to `x` in a trajectory, a histogram and a tornado.
     pub(super) y: usize,
-    /// Column for whose values lines are drawn, one each.
+    /// Column that distinguishes the lines: each value has one line.
     pub(super) by: Option<usize>,
     /// Column shown as colour.
     pub(super) color: Option<usize>,
@@ -148,7 +148,7 @@ impl Columns {
     }
 }
 
-/// Returns the kind and the columns: from the request where given, otherwise the usual ones.
+/// Returns the kind and the columns of a picture: as requested, or the defaults for what the user did not request.
 pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let kind = kind(request, axes)?;
     match kind {
@@ -282,7 +282,7 @@ fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
 }
 
-/// Returns the column of the parameter that a response follows.
+/// Returns the column of the followed parameter of a response.
 fn followed(request: &Request) -> Option<usize> {
     request.branch().map(|branch| branch + 1)
 }
@@ -349,7 +349,7 @@ fn has_aims(request: &Request) -> bool {
     request.args.x_aim.is_some() || request.args.y_aim.is_some()
 }
 
-/// Returns an error if an option does not apply to this kind.
+/// Returns an error if an option does not apply to the kind of picture.
 fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
     use PictureKind::{Histogram, Hysteresis, Map, Pareto, Response, Scatter, Tornado};
     let strays = [
@@ -481,7 +481,7 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     })
 }
 
-/// Prints the place of the best of these rows.
+/// Prints the place of the best row among the given rows.
 fn tell_best(
     table: &Table,
     request: &Request,

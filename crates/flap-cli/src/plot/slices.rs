@@ -8,7 +8,7 @@ use crate::data::filter;
 use crate::data::levels::Levels;
 use crate::failure::Failure;
 
-/// Returns the rows that have the values of `filters`.
+/// Returns the rows that have the values in `filters`.
 pub(super) fn filtered(table: &Table, filters: &[(String, String)]) -> Result<Vec<usize>, Failure> {
     let mut rows: Vec<usize> = (0..table.rows).collect();
     for (name, text) in filters {
@@ -63,7 +63,7 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
 /// The rows with one value of each axis that the picture does not show.
 pub(super) struct Slice {
     pub(super) rows: Vec<usize>,
-    /// The value that was chosen for each of those axes.
+    /// The value that was chosen for each axis that the picture does not show.
     pub(super) taken: Vec<Taken>,
 }
 
@@ -73,7 +73,7 @@ pub(super) struct Taken {
     pub(super) shown: String,
     /// The column.
     pub(super) name: String,
-    /// The value in the unit that is shown: `70 V`.
+    /// The value in the shown unit, such as `70 V`.
     pub(super) value: String,
     /// The number of values of the axis.
     pub(super) of: usize,

@@ -20,7 +20,7 @@ const MOST_BARS: usize = 20;
 /// The height of a bar, relative to the distance between two bars.
 const THICK: f64 = 0.62;
 
-/// A longer bar has its number inside.
+/// Length of a bar above which the number is inside the bar.
 const LONG: f64 = 0.82;
 
 /// Draws the correlations of the parameters with column `x`, the largest at the top.

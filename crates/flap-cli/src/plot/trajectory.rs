@@ -1,4 +1,4 @@
-//! Stroke and pitch over time, and their rates over them.
+//! Stroke and pitch over time, and the rates of stroke and pitch over the angles.
 
 use flap_sweep::picture::colours;
 use flap_sweep::table::labels;
@@ -17,7 +17,7 @@ use crate::failure::Failure;
 /// Largest number of points in one line.
 const MOST_POINTS: usize = 8000;
 
-/// The angles: the first parts of their columns' names.
+/// The angles, given as the first parts of the column names.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
 /// Draws the motion beside its phase portrait.

@@ -11,7 +11,7 @@ use signal_hook::flag;
 
 use crate::failure::Exit;
 
-/// Returns a flag that the first SIGINT or SIGTERM sets; the second ends the process at once.
+/// Returns a flag that the first SIGINT or SIGTERM sets. The second signal ends the process at once.
 ///
 /// A signal that the process ignores from its start stays ignored. Shells start background jobs in this way, which
 /// protects the jobs from Ctrl-C at the terminal.

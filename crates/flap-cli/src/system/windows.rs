@@ -12,13 +12,13 @@ use windows_sys::core::BOOL;
 
 use crate::failure::Exit;
 
-/// Flag that an event of the console sets.
+/// Flag that an event of the Windows console sets, such as Ctrl-C.
 static STOP: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
-/// Time for which Windows waits at most before it ends a process whose console is closed.
+/// Longest time that Windows waits before it ends a process whose console is closed.
 const CLOSING: Duration = Duration::from_secs(5);
 
-/// Returns a flag that the first Ctrl-C or Ctrl-Break sets; the second ends the process at once.
+/// Returns a flag that the first Ctrl-C or Ctrl-Break sets. The second Ctrl-C or Ctrl-Break ends the process at once.
 ///
 /// If the user closes the console or logs off, the flag is set too, and Windows ends the process within seconds. If
 /// the parent process disables Ctrl-C, Ctrl-C has no effect.

@@ -1,4 +1,4 @@
-//! Estimates the time of a sweep, and the size of its rows, by running some of its points.
+//! Runs some points of a sweep, and estimates the time of the sweep and the size of its rows.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -27,16 +27,16 @@ const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 /// After this time, running points are abandoned.
 const LONGEST: Duration = Duration::from_secs(2);
 
-/// Largest number of points that are checked to find points that are not excluded.
+/// Largest number of points that are checked in the search for points that are not excluded.
 const MOST_LOOKED_AT: u64 = 100_000;
 
-/// Smallest relative error of an estimate; the speed of a machine varies by this much.
+/// Smallest relative error of an estimate, because the speed of a machine varies by this fraction.
 const SMALLEST_ERROR: f64 = 0.1;
 
-/// The estimates for a sweep, from a few of its points.
+/// Estimates for a sweep, from a few points of the sweep.
 #[derive(Default)]
 pub(super) struct Estimate {
-    /// Message if every checked point is invalid, with the reason of the first one.
+    /// Message if every checked point is invalid, with the reason of the first invalid point.
     pub(super) invalid: Option<String>,
     /// Lower and upper bound of the likely time (s). `None` if no point was run.
     pub(super) seconds: Option<[f64; 2]>,
@@ -79,7 +79,7 @@ fn size(bytes: f64) -> String {
 
 /// Runs some points of `plan` to estimate the time of `points` points on `threads` threads, by default one per core.
 ///
-/// The estimate of a whole plan contains all points that its refinement may add. A shard adds none.
+/// The estimate of a whole plan contains all points that the refinement of the plan may add. A shard adds no points.
 pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option<NonZeroUsize>) -> Estimate {
     let most_points = plan.refine().map(|refine| refine.max_points).filter(|_| shard.is_none());
     let points = match shard {

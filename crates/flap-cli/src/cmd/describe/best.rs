@@ -34,7 +34,7 @@ pub(super) struct Axis {
     pub(super) range: [Place; 2],
     /// The value in the best row.
     pub(super) best: Place,
-    /// The smallest and the largest value among the best tenth of the rows; of words, all of them.
+    /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
     pub(super) best_tenth: Vec<Place>,
     /// True if the best value is the first or the last of an axis of three or more numbers, not of a sample.
     pub(super) at_the_end: bool,
@@ -49,7 +49,7 @@ pub(super) enum Place {
 }
 
 impl Best {
-    /// Returns the best of these rows; `None` if no row has a value.
+    /// Returns the best of the given rows; `None` if no row has a value.
     pub(super) fn of(
         table: &Table,
         column: usize,

@@ -9,7 +9,7 @@ use crate::data::columns::Column;
 #[derive(Serialize)]
 pub(super) struct Spread {
     pub(super) column: String,
-    /// The unit in words; empty for none.
+    /// The unit as text; empty for a column without a unit.
     pub(super) unit: String,
     /// Number of values.
     pub(super) count: usize,

@@ -12,10 +12,11 @@ use crate::cmd::point;
 use crate::console;
 use crate::failure::{Exit, Failure};
 
-/// Density of air (kg/m³) for models without a parameter for it.
+/// Density of air (kg/m³) for models without a parameter for the density.
 const AIR_DENSITY: f64 = 1.2;
 
-/// Largest relative difference between the areas of the table of chords and of the outline that gives no note.
+/// Largest relative difference between the area of the chord table and the area of the outline. A larger difference
+/// gives a note.
 const CLOSE: f64 = 5e-3;
 
 pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
@@ -130,7 +131,7 @@ fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     ))
 }
 
-/// Returns the material that the options give; `None` if they give none.
+/// Returns the material in the options; `None` if the options contain no material.
 fn material(args: &WingArgs) -> Result<Option<Material>, Failure> {
     let membrane = match (args.thickness, args.density) {
         (Some(thickness), Some(density)) => Some(thickness * density),

@@ -48,7 +48,7 @@ pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> 
     last.map_or(Ok(()), Err)
 }
 
-/// Returns the meanings of a name, which may be a parameter of several models and a column of others.
+/// Returns the meanings of a name. A name may be a parameter of several models and a column of other models.
 fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> Result<Vec<Entry>, Failure> {
     let mut found: Vec<Entry> = known.iter().filter(|entry| entry.name == name).cloned().collect();
     if found.is_empty() {

@@ -36,7 +36,7 @@ pub(super) fn list(what: &str, args: &ModelsArgs) -> Result<(), Failure> {
     print::table(args.format, &NAMES, &rows, || head(&values.lines) + &listing(&entries, args.long))
 }
 
-/// Returns the model called `name`; if `name` is a preset, its model and the preset.
+/// Returns the model called `name`. If `name` is a preset, returns the model of the preset, and the preset.
 pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'static Preset>), Failure> {
     let preset = models::preset(name).map(|(model, preset)| (model, Some(preset)));
     let found = preset.or_else(|| models::by_name(name).map(|model| (model, None)));
@@ -52,7 +52,7 @@ struct Values {
     robot: Robot,
     /// The first lines of the page.
     lines: [String; 2],
-    /// Values in SI units, NaN for a parameter that is not set; none for a model.
+    /// Values in SI units, with NaN for a parameter that is not set; `None` for a model without values.
     numbers: Option<Vec<f64>>,
     /// Indices of parameters with their standard errors.
     errors: Vec<(usize, f64)>,
@@ -110,7 +110,7 @@ struct Entry {
     /// Title of the group.
     group: String,
     name: String,
-    /// Value in the preset or file, in SI units; empty without one.
+    /// Value in the preset or file, in SI units; empty if there is no value.
     value: String,
     /// Value with a prefix, the unit and the standard error; without a value, the unit.
     shown: String,

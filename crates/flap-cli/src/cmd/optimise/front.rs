@@ -48,7 +48,7 @@ pub(super) fn run(
     Ok(if is_feasible { Exit::Done } else { Exit::NotAll })
 }
 
-/// The names of both goals that are no measures or parameters, with their places.
+/// The names of the goals that are expressions, with the positions of these goals.
 fn expressions<'n>(plan: &Plan, names: [&'n str; 2], point: &FrontPoint) -> Vec<(usize, &'n str)> {
     let is_known = |name: &str| {
         measures(plan, &point.best).iter().any(|(known, ..)| *known == name)
@@ -88,7 +88,7 @@ fn cells(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<Vec<String>> {
     front.points.iter().enumerate().map(row).collect()
 }
 
-/// The front to be read: both goals and the varied parameters.
+/// The front as a table to read: both goals and the varied parameters.
 fn page(plan: &Plan, names: [&str; 2], front: &Front) -> String {
     let mut headings: Vec<String> = names.map(str::to_owned).to_vec();
     headings.extend(plan.differing().map(|index| {

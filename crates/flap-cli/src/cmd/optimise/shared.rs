@@ -1,4 +1,4 @@
-//! The work that searches for one design and for fronts share.
+//! Code for both kinds of search: for one design and for a front.
 
 use std::cell::RefCell;
 use std::num::NonZeroUsize;
@@ -37,7 +37,8 @@ pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     }
 }
 
-/// The result of `work`, which counts `units` and is stopped by signals; `None` if it was stopped or has no start.
+/// The result of `work`. The progress counts `units`, and signals stop the work. `None` if the work was stopped or has
+/// no start.
 pub(super) fn watched<T, E>(
     args: &OptimiseArgs,
     units: &'static str,

@@ -64,12 +64,12 @@ fn table(plan: &Plan, along: &Along, curve: &Curve, basins: &[Basin]) -> String 
     before("\n") + &table.text_within(console::width())
 }
 
-/// Returns a share with its standard error, such as `61.5 ± 2.4 %`.
+/// Returns a percentage with its standard error, such as `61.5 ± 2.4 %`.
 fn percent(share: f64, error: f64) -> String {
     format!("{:.1} ± {:.1} %", 100.0 * share, 100.0 * error)
 }
 
-/// Returns one row for csv and json.
+/// Returns the row of a value of the followed parameter for csv and json.
 fn cells(plan: &Plan, curve: &Curve, basin: &Basin) -> Vec<String> {
     let varied = plan.axes().varied();
     let varied = varied.map(|index| text::value(&plan.parameters()[index], curve.design.values[index]));

@@ -62,7 +62,7 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// Returns both parameters, the second one first.
+    /// Returns the texts of both parameters, beginning with the second parameter.
     fn parameters(&self) -> [&Parameter<'_>; 2] {
         [self.second.parameter, self.along.parameter].map(|index| &self.plan.parameters()[index])
     }
@@ -72,7 +72,7 @@ impl Output<'_> {
         prefixed(value, self.plan.parameters()[parameter].unit)
     }
 
-    /// Returns the parameters that distinguish a design from others, followed by a colon.
+    /// Returns the parameters that distinguish a design from the other designs, followed by a colon.
     fn design(&self, curve: &Curve) -> String {
         let varied = self.plan.axes().varied();
         let assignments: Vec<String> = varied
@@ -130,7 +130,7 @@ impl Output<'_> {
     }
 }
 
-/// Returns a cell as text: empty if it is unknown.
+/// Returns a cell as text. The text is empty if the value is unknown.
 fn cell_text(cell: &Cell) -> String {
     match *cell {
         Cell::Whole(number) => number.to_string(),

@@ -1,4 +1,4 @@
-//! `flap results resume`: continues an interrupted sweep from its results and their sidecar.
+//! `flap results resume`: continues an interrupted sweep, from the unfinished results and the sidecar of the results.
 
 use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::files::results::Format;

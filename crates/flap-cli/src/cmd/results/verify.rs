@@ -1,4 +1,4 @@
-//! `flap results verify`: compares results with their recorded checksums.
+//! `flap results verify`: compares results with the checksums in the sidecar.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -34,7 +34,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// Returns the verdict on a file in a word, its detail, and the exit code.
+/// Returns the verdict on a file as a word, a detail of the verdict, and the exit code.
 fn verdict(results: &Path) -> (&'static str, String, Exit) {
     match integrity::verify(results) {
         Ok(Integrity::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),

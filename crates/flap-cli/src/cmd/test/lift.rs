@@ -48,7 +48,8 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the failure for a motion without pitch. If the model can prescribe its stroke, the help names the command.
+/// Returns the failure for a motion without pitch. If the model supports a prescribed stroke, the help line names the
+/// command for a prescribed stroke.
 fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     let computes = |what: &str| {
         let motion = shell_word(&args.motion.to_string_lossy());

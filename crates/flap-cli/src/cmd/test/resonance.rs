@@ -15,10 +15,10 @@ use crate::table::{Table, six_digits};
 /// Samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// If the residual of the damped sine exceeds this share, a note is printed.
+/// Residual of the damped sine above which a note is printed, as a fraction of the motion.
 const POOR_FIT: f64 = 0.1;
 
-/// If the second peak is at least this high relative to the highest, a note is printed.
+/// Height of the second peak, relative to the highest peak, from which a note is printed.
 const RIVAL: f64 = 0.95;
 
 pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
@@ -55,7 +55,7 @@ pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// One resonance. Numbers that do not apply are NaN.
+/// One resonance. Numbers that do not apply to the method are NaN.
 struct Line {
     name: String,
     frequency: f64,

@@ -11,7 +11,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
 
-/// Prints the flight from these values of the vehicle's parameters.
+/// Prints the flight of a vehicle with the given values of its parameters.
 pub(super) fn run(
     args: &VehicleArgs,
     seconds: f64,

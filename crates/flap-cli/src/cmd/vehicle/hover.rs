@@ -1,4 +1,4 @@
-//! Damping matrix, modes of the linear model about hover, and files with this model.
+//! Damping matrix and modes of the linear model about hover, and files with the linear model.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write as _};
@@ -20,13 +20,14 @@ use crate::failure::Failure;
 use crate::job;
 use crate::table::{Table, six_digits};
 
-/// Parameter that keeps the motion of the wings.
+/// Parameter that keeps the motion of the wings unchanged when the body moves.
 const RESPONSE: &str = "body_response";
 
 /// The vertical force.
 const LIFT: usize = 2;
 
-/// Entries smaller than this share of the largest entries of their row and column are rounding.
+/// Relative size below which an entry is only a rounding error: the entry divided by the largest entries of its row and
+/// column.
 const NOTHING: f64 = 1e-12;
 
 /// Returns the name and the format of an output file, before anything is computed.

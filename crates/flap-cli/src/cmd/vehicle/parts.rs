@@ -1,4 +1,4 @@
-//! Parts that the outputs of `flap vehicle` share.
+//! Parts that are the same in several outputs of `flap vehicle`.
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::grid;
@@ -34,7 +34,7 @@ pub(super) fn input(vehicle: &Vehicle, chosen: &Chosen, name: &str, option: &str
     })
 }
 
-/// Returns the number, or zero if it is only rounding beside 1 mN or 1 uN·m.
+/// Returns the number, or zero if the number is a rounding error compared with 1 mN or 1 uN·m.
 pub(super) fn tidy(number: f64) -> f64 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }

@@ -75,7 +75,7 @@ fn inputs(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Vec<
     Ok(inputs)
 }
 
-/// Returns the failure of a map that was requested with `place`, an option.
+/// Returns the failure of a map. `place` is the option that requested the map.
 fn refused(place: &str, error: WrenchMapError) -> Failure {
     let help = error.help();
     let failure = match error {

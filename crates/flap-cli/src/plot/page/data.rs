@@ -1,4 +1,4 @@
-//! The data of a page as JSON: its rows and its first view.
+//! The data of a page as JSON: the rows, and the first view of the page.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -38,7 +38,7 @@ pub(super) struct Start {
     pub(super) y: usize,
     pub(super) by: Option<usize>,
     pub(super) color: Option<usize>,
-    /// The better directions of x and y, such as `1,-1`; empty for a view without a front.
+    /// The better directions of x and y, such as `1,-1`; empty for a view without a Pareto front.
     pub(super) best: String,
     /// Values of slices, by column.
     #[serde(rename = "where")]

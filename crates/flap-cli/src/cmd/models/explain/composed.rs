@@ -1,4 +1,5 @@
-//! Names that are composed of others: columns of derivatives, and names of vehicles and their wings.
+//! Names that are composed of other names: columns of derivatives, and parameters and columns of vehicles and their
+//! wings.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};

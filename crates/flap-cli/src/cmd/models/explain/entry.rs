@@ -11,9 +11,9 @@ use crate::cmd::models::parameters::{allowed, shown};
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) name: String,
-    /// The kind of thing that has this name, as in `a column of trajectories of`.
+    /// The kind of the name, such as `a column of trajectories of`.
     what: String,
-    /// Models that have this name; empty if it does not depend on the model.
+    /// Models with this name; empty if the name does not depend on the model.
     models: Vec<&'static str>,
     /// Text after the models.
     rest: String,
@@ -22,7 +22,7 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// Returns an entry for a name that does not depend on the model.
+    /// Returns an entry for a name that is the same in all models.
     pub(super) fn new(name: impl Into<String>, what: impl Into<String>, text: String) -> Entry {
         let (name, what) = (name.into(), what.into());
         Entry { name, what, models: Vec::new(), rest: String::new(), text }
@@ -43,7 +43,7 @@ impl Entry {
         Entry { rest: rest.into(), ..self }
     }
 
-    /// Returns the kind of thing that has this name, with its models.
+    /// Returns the kind of the name, with the models that have the name.
     pub(super) fn kind(&self) -> String {
         let Entry { what, models, rest, .. } = self;
         let of = match models.as_slice() {
@@ -61,7 +61,8 @@ impl Entry {
         vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
-    /// Adds the entry to `others`. If an entry with the same meaning exists, only its list of models grows.
+    /// Adds the entry to `others`. If an entry with the same meaning exists, the models are added to the existing
+    /// entry.
     pub(super) fn add(self, others: &mut Vec<Entry>) {
         let same = |other: &&mut Entry| {
             (&other.name, &other.what, &other.rest, &other.text)
