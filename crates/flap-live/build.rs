@@ -1,8 +1,9 @@
 //! Joins the modules of each page's code into one script.
 //!
-//! A page is one file that works without a network and from a folder, where browsers cannot load modules.
-//! In the script, each module becomes a function after the modules that it imports, and its imports become variables.
-//! The Content Security Policy of the pages allows only inline scripts, so it needs no change.
+//! A page is one file that works without a network. Browsers cannot load modules from a folder.
+//! In the script, each module becomes a function after the modules that it imports. The imports of a module become
+//! variables.
+//! The Content Security Policy of the pages allows only inline scripts, which include the joined script.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -67,7 +68,7 @@ fn without_comments(source: &str) -> String {
     lines.fold(String::from("\n"), |kept, line| kept + line + "\n")
 }
 
-/// Returns the imports of a module, as names in braces and a path, and the rest of its text.
+/// Returns the imports of a module, as names in braces and a path, and the rest of the module's text.
 fn split(source: &str) -> (Vec<(&str, &str)>, String) {
     let (mut imports, mut body) = (Vec::new(), String::new());
     let mut rest = source;

@@ -19,7 +19,8 @@ const PEAKS: usize = 2;
 /// Settings for the analysis of a free motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeRequest {
-    /// Size of the impulse: the amplitude (rad) that an undamped stroke of the first mode alone would reach.
+    /// Size of the impulse: the stroke amplitude (rad) that the impulse causes in the first mode alone, without
+    /// damping.
     pub amplitude: f64,
     /// Number of periods of the first mode in the fit of the damped sine.
     pub fit_cycles: u32,
@@ -34,14 +35,14 @@ pub struct FreeRequest {
 pub struct FreeMotion {
     /// Rate of the stroke right after the impulse (rad/s).
     pub stroke_rate: f64,
-    /// Best fit of a damped sine to the signal that the impulse excites, if there is one.
+    /// Best fit of a damped sine to the signal that the impulse excites, if a damped sine fits.
     pub fit: Option<DampedSine>,
     /// Highest peaks of the spectra of the model's [free signals](Experiments::free_signals), with the signals'
     /// names.
     pub spectra: Vec<(&'static str, Vec<SpectrumPeak>)>,
 }
 
-/// Returns the stroke rate (rad/s) after an impulse that gives an undamped first mode this `amplitude` (rad).
+/// Returns the stroke rate (rad/s) after an impulse that causes this `amplitude` (rad) of the undamped first mode.
 ///
 /// # Errors
 /// [`Invalid`] if the first mode has no frequency, for lack of a spring.
@@ -58,12 +59,12 @@ pub fn stroke_rate(modes: &[Mode], amplitude: f64) -> Result<f64, Invalid> {
 /// Returns the first mode.
 ///
 /// # Errors
-/// [`Invalid`] if there is no mode.
+/// [`Invalid`] if the design has no natural mode.
 pub fn first(modes: &[Mode]) -> Result<Mode, Invalid> {
     modes.first().copied().ok_or_else(|| Invalid::new("the model has no natural frequencies"))
 }
 
-/// Applies an impulse to a point's stroke and computes the frequencies of the motion after it.
+/// Applies an impulse to the stroke of a point and computes the frequencies of the motion after the impulse.
 ///
 /// # Errors
 /// [`Unfinished`] if the run is interrupted, the values or the request are impossible, or the motion fails.
@@ -101,7 +102,7 @@ pub fn examine(
 /// Returns the number of intervals of a motion of `duration` (s), for at least `rate` samples per second.
 ///
 /// # Errors
-/// [`Invalid`] if there are no intervals or too many.
+/// [`Invalid`] if the number of intervals is zero or too large.
 pub fn intervals(duration: f64, rate: f64) -> Result<u32, Invalid> {
     // A product that is a whole number except for rounding counts as this number.
     let intervals = (duration * rate * (1.0 - 1e-12)).ceil();

@@ -5,7 +5,8 @@ use core::f64::consts::PI;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
-/// Length of the motion padded with zeros, in lengths of the motion. Bins are closer than its resolution by this
+/// Length of the motion padded with zeros, in lengths of the motion. Bins are closer than the resolution of the
+/// spectrum by this
 /// factor.
 const PADDING: usize = 8;
 
@@ -62,7 +63,8 @@ impl Spectrum {
     /// Returns at most `count` peaks, the highest first. A parabola through three bins gives frequency and amplitude.
     ///
     /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is higher
-    /// than these, relative to the minimum between it and each higher peak.
+    /// than the side lobes and ripples. Heights are relative to the minimum between the local maximum and each higher
+    /// peak.
     pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();
@@ -87,7 +89,7 @@ impl Spectrum {
 
     /// Returns the height of a local maximum above the lowest amplitude on the way to a higher peak.
     ///
-    /// The way ends at the next amplitude that exceeds the local maximum.
+    /// The search for the minimum ends at the next amplitude that exceeds the local maximum.
     fn height_towards(&self, top: usize, higher: usize) -> f64 {
         let height = self.amplitudes[top];
         let lowest = |ground: &mut dyn Iterator<Item = &f64>| {
@@ -112,7 +114,8 @@ impl Spectrum {
 
     /// Returns the largest side lobe of a peak of amplitude A at a distance d in frequency: A/(N sin πdΔ).
     ///
-    /// N is the number of samples and Δ their distance. The peak's mirror image at negative frequencies is included.
+    /// N is the number of samples and Δ is the time between samples. The peak's mirror image at negative frequencies is
+    /// included.
     fn leaked(&self, peak: &SpectrumPeak, frequency: f64) -> f64 {
         let of = |distance: f64| {
             peak.amplitude / (self.samples as f64 * libm::sin(PI * distance * self.interval).abs())

@@ -28,7 +28,8 @@ impl LeadingEdge {
         libm::atan2(y, x)
     }
 
-    /// Returns the distance of a point from the line of the leading edge, positive to its left.
+    /// Returns the distance of a point from the line of the leading edge. The distance is positive to the left of the
+    /// line.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let [x, y] = self.direction();
         x * (point[1] - self.root[1]) - y * (point[0] - self.root[0])
@@ -66,7 +67,7 @@ pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> 
 /// ```
 ///
 /// # Errors
-/// If there are fewer than two edges, an edge has no direction, or all are parallel.
+/// If there are fewer than two leading edges, an edge has no direction, or all edges are parallel.
 pub fn rotation_centre(edges: &[LeadingEdge]) -> Result<[f64; 2], Invalid> {
     // With the normals n_i of the lines: Σ n_i n_iᵀ p = Σ n_i n_iᵀ p_tip,i.
     let [mut xx, mut xy, mut yy, mut right_x, mut right_y] = [0.0; 5];

@@ -66,7 +66,7 @@ struct MeasureText {
     label: String,
     unit: String,
     doc: String,
-    /// 1 if larger values are better, -1 if smaller values are better, 0 for neither.
+    /// 1 if larger values are better, -1 if smaller values are better, and 0 if the measure has no better direction.
     better: i8,
 }
 

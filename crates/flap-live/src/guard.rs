@@ -1,4 +1,4 @@
-//! Checks requests: their token, host and origin.
+//! Checks the token, host and origin of requests.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -9,7 +9,7 @@ use axum::http::{HeaderMap, Uri};
 /// The header of the page's requests that contains the token.
 const TOKEN_HEADER: &str = "x-flap-token";
 
-/// The check of every request. It accepts only requests of the page itself.
+/// The check of every request, which accepts only requests of the page itself.
 ///
 /// Other pages of the browser and other users of the machine cannot read or compute anything.
 pub(crate) struct Guard {

@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Largest number of pairs of page and kind that are stored. Closed pages send no message, so the oldest pairs are dropped.
+/// Largest number of stored pairs of page and request kind. Closed pages send no message, so the oldest pairs are
+/// dropped.
 const MOST: usize = 256;
 
 /// The newest request of each kind of each page.
@@ -21,7 +22,8 @@ struct Newest {
 }
 
 impl Latest {
-    /// Starts request `number`: cancels the older request, and returns the flag that a newer request will set.
+    /// Starts request `number`: cancels the older request, and returns the flag that a newer request sets to cancel
+    /// this request.
     ///
     /// `None` if a newer request has already arrived.
     pub(crate) fn begin(&self, page: &str, kind: &'static str, number: u64) -> Option<Arc<AtomicBool>> {
@@ -51,7 +53,7 @@ impl Latest {
         }
     }
 
-    /// No code panics while it holds the lock, so a poisoned lock is still usable.
+    /// No code panics while holding the lock, so a poisoned lock is still usable.
     fn lock(&self) -> MutexGuard<'_, VecDeque<Newest>> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -2,7 +2,7 @@
 //!
 //! # Modules
 //!
-//! Each module uses only the modules above it:
+//! Each module uses only modules above it in this list:
 //!
 //! - [`page`]: pages for a browser, each in one text with its style, code and data
 //! - `request`: requests of the live page

@@ -30,7 +30,8 @@ pub(crate) struct Opened {
     head: String,
     /// The plan of `head`, which has the published values.
     published: Plan,
-    /// One value per parameter, from the first point; NaN if the parameter follows others.
+    /// One value per parameter, from the first point. The value is NaN if the parameter is computed from other
+    /// parameters.
     values: Vec<f64>,
     /// The row of the published design, computed at the first request.
     published_row: OnceLock<Row>,
@@ -40,7 +41,7 @@ impl Opened {
     /// Opens the first design of a plan, with its formulas, conditions and settings.
     ///
     /// # Errors
-    /// The mistakes of the file if its points are left out.
+    /// The mistakes of the opened file if its points are left out.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
         let published = grid::parse(NAME, &head, models)?;
@@ -89,7 +90,7 @@ impl Opened {
     /// Returns a grid file for the design, or for lines of the design.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] if it would have too many rows.
+    /// [`Refused::Impossible`] if the plan would have too many rows.
     pub(crate) fn grid(
         &self,
         design: &Design,
@@ -133,7 +134,7 @@ impl Opened {
             && !self.plan.derived().parameters().any(|derived| derived == index)
     }
 
-    /// Writes lines for the parameters that differ from the published values, except those in `axes`.
+    /// Writes lines for the parameters that differ from the published values, except parameters in `axes`.
     ///
     /// Opened values keep their standard errors.
     fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {

@@ -5,13 +5,13 @@ const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_s
 /// The chart library.
 const CHART_LIBRARY: &str = include_str!("../web/uplot/uPlot.iife.min.js");
 
-/// Returns the page of results with this heading. `data` is JSON for its code.
+/// Returns the page of results with this heading. `data` is JSON for the code of the page.
 pub fn results(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/results.js"));
     filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, script)
 }
 
-/// Returns the live page with this heading. `data` is JSON for its code.
+/// Returns the live page with this heading. `data` is JSON for the code of the page.
 #[cfg(feature = "server")]
 pub(crate) fn live(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/live.js"));
@@ -38,7 +38,7 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> S
     page
 }
 
-/// Returns JSON that is safe in a script: without `<`, no text can end the script or start another.
+/// Returns JSON that is safe in a script: without `<`, no text can end the script or start another script.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }

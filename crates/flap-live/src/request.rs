@@ -7,7 +7,8 @@ use serde::Deserialize;
 /// Largest number of rows in one answer.
 pub(crate) const MOST_ROWS: usize = 4000;
 
-/// The parameters that differ from the opened design, by name. Null removes a parameter's value, so that it follows others.
+/// The parameters that differ from the opened design, by name. Null removes the value of a parameter, so that the
+/// parameter is computed from other parameters.
 pub(crate) type Design = BTreeMap<String, Option<Number>>;
 
 /// A number in SI units, or text: a quantity with a unit, or an option.
@@ -39,7 +40,7 @@ pub(crate) struct By {
 /// The order of a request among the requests of its page: a newer request cancels it.
 #[derive(Debug, Deserialize)]
 pub(crate) struct RequestOrder {
-    /// A text that identifies the page.
+    /// A text that identifies an open page.
     pub(crate) page: String,
     pub(crate) number: u64,
 }

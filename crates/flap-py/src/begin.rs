@@ -41,7 +41,7 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     Ok(values)
 }
 
-/// Returns the states in the rows of an array; `None` for a row with an unknown component.
+/// Returns the states in the rows of an array. The state is `None` for a row with an unknown component.
 pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
     let rows = begin.as_array();
     rows.rows()

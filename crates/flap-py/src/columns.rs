@@ -19,7 +19,7 @@ enum Data {
     Number(Vec<f64>),
     /// 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
-    /// For each row the index of its word, and the words.
+    /// For each row, the index of the row's word, and the list of words.
     Text(Vec<u32>, Vec<String>),
 }
 
@@ -74,7 +74,8 @@ impl Columns {
         }
     }
 
-    /// Adds a row of a file. If a cell is not of its column's kind, returns the name of the column as an error.
+    /// Adds a row of a file. If a cell does not have the kind of its column, returns the name of the column as an
+    /// error.
     pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
         for ((column, data), text) in self.columns.iter_mut().zip(cells) {
             data.push(Cell::parse(column.kind, text).ok_or(column.name.as_str())?);

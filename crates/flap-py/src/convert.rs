@@ -9,7 +9,8 @@ use pyo3::types::{PyBool, PyString};
 
 /// Returns a finite number from any type that Python's `float` accepts, except text and truth values.
 ///
-/// `TypeError` if `value` has another type, or raises an exception while it is read: the message requires `wanted` for `name`.
+/// `TypeError` if `value` has another type, or if reading `value` raises an exception. The message requires `wanted`
+/// for `name`.
 /// `ValueError` if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
@@ -88,7 +89,8 @@ pub(crate) fn too_large(name: &str) -> PyErr {
     PyValueError::new_err(format!("`{name}` is too large for a 64-bit float\nthe largest is {:e}", f64::MAX))
 }
 
-/// Returns the `TypeError` for an object that raised `error` while it was read; `error` is its cause. Exceptions that are not
+/// Returns the `TypeError` for an object that raised `error` while it was read. `error` is the cause of the
+/// `TypeError`. Exceptions that are not
 /// errors, such as `KeyboardInterrupt`, are returned unchanged.
 pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: PyErr) -> PyErr {
     let py = value.py();
@@ -108,7 +110,7 @@ pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "an object".to_owned(), |name| name.to_string())
 }
 
-/// Returns the index of one of `length` points; a negative index counts from the end.
+/// Returns the index of a point among `length` points. A negative index counts from the end.
 pub(crate) fn point_index(length: u64, name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
     let missing =
         |wanted: &str| PyIndexError::new_err(format!("there is no point {wanted}: the grid has {length}"));

@@ -82,7 +82,8 @@ fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)>
     Ok((plan, indices))
 }
 
-/// Returns the exception for a change that a plan rejects. `given` describes the parameter in the message: "set here".
+/// Returns the exception for a change that a plan rejects. `given` describes the parameter in the message, for example
+/// "set here".
 pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
     PyValueError::new_err(match error {
         ChangeError::Varied(name) | ChangeError::Derived(name) => {

@@ -38,7 +38,8 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     }
 }
 
-/// Returns a `GridError` for a dictionary that cannot be written as a grid file. It has no lines, so it has no diagnostics.
+/// Returns a `GridError` for a dictionary that cannot be written as a grid file. A dictionary has no lines, so the
+/// error has no diagnostics.
 pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
     let error = GridError::new_err(message.to_owned());
     match error.value(py).setattr("diagnostics", Vec::<Diagnostic>::new()) {

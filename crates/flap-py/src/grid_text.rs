@@ -13,7 +13,7 @@ use crate::{convert, error};
 /// Largest number of nested levels of dictionaries and lists. A grid file has about six.
 const MOST_LEVELS: usize = 64;
 
-/// The types that an entry of a grid can have, for messages.
+/// The types that an entry of a grid can have, as text for messages.
 const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
 /// Return the text of a grid file with the entries `entries`.
@@ -53,7 +53,7 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
 /// Tables of a list, each with the key of the list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
-/// Splits a table into its entries without lists of dictionaries, and these lists, such as the wings of a vehicle.
+/// Splits the entries of a table into lists of dictionaries, such as the wings of a vehicle, and all other entries.
 fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Blocks<'py>)> {
     let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
     for (key, value) in table {
@@ -68,7 +68,7 @@ fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Block
     Ok((plain, blocks))
 }
 
-/// Returns the dictionaries of a list, if it has only dictionaries.
+/// Returns the dictionaries of a list, if all items of the list are dictionaries.
 fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyDict>>>> {
     let Ok(list) = value.cast::<PyList>() else { return Ok(None) };
     let items = list.iter().map(|item| dictionary(&item)).collect::<PyResult<Option<Vec<_>>>>()?;

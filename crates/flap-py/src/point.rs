@@ -25,7 +25,8 @@ pub(crate) struct Chosen {
 }
 
 impl Chosen {
-    /// Returns point number `point` of a design with the values of keywords, driven by `wave` if the call gives one.
+    /// Returns point number `point` of a design with the values of keywords. If the call gives `wave`, `wave` drives
+    /// the point.
     pub(crate) fn new(
         design: &Bound<'_, PyAny>,
         keywords: &Bound<'_, PyDict>,
@@ -47,7 +48,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the point, or an error if it cannot be run.
+    /// Returns the point, or an error if the point cannot be run.
     pub(crate) fn possible(self) -> PyResult<Chosen> {
         match &self.invalid {
             Some(reason) => Err(PyValueError::new_err(reason.clone())),
@@ -55,13 +56,15 @@ impl Chosen {
         }
     }
 
-    /// Returns the point for a motion, or an error if it cannot be run. If its drive frequency is the resonance, searches it.
+    /// Returns the point for a motion, or an error if the point cannot be run. If the drive frequency is the resonance,
+    /// searches for the resonance.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
         design::check_one_wing(&self.plan)?;
         self.at_frequency(py)
     }
 
-    /// Returns the point, or an error if it cannot be run. If its drive frequency is the resonance, searches it.
+    /// Returns the point, or an error if the point cannot be run. If the drive frequency is the resonance, searches for
+    /// the resonance.
     pub(crate) fn at_frequency(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;
         let Some(resonance) = chosen.plan.resonance() else { return Ok(chosen) };
@@ -85,7 +88,7 @@ impl Chosen {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
-    /// Returns the model that is run.
+    /// Returns the model of the point.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
@@ -107,7 +110,8 @@ impl Chosen {
         Parameter::index(self.plan.parameters(), name)
     }
 
-    /// Replaces the drive or the stroke by samples. Their duration is the drive period, unless the frequency `is_set`.
+    /// Replaces the drive or the stroke by samples. The drive period is the duration of the samples, unless the
+    /// frequency `is_set`.
     fn drive_by(&mut self, wave: &Wave, is_set: bool) -> PyResult<()> {
         if !is_set && let Some(index) = self.parameter(DRIVE_FREQUENCY) {
             self.values[index] = 1.0 / wave.samples.duration();

@@ -50,7 +50,7 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
 /// The contents of a result file, with warnings for the user.
 struct Contents {
     columns: Columns,
-    /// The origin of the rows, if it is recorded.
+    /// The origin of the rows, if the file records the origin.
     origin: Option<Origin>,
     /// Units recorded in the file itself.
     units: BTreeMap<String, String>,
@@ -102,7 +102,8 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// Returns the origin in the sidecar, else in the file, provided that its columns equal the file's columns.
+/// Returns the origin in the sidecar, or in the file without a sidecar. The columns of the origin must equal the
+/// columns of the file.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))

@@ -16,12 +16,12 @@ pub(crate) struct Wave {
     pub(crate) samples: Samples,
     /// True for a stroke (rad), false for a waveform of unit amplitude.
     pub(crate) is_stroke: bool,
-    /// True if it is followed once, from rest.
+    /// True if the record is followed once, from rest.
     pub(crate) once: bool,
 }
 
 impl Wave {
-    /// Returns the waveform or the stroke of a call, if it gives one.
+    /// Returns the waveform or the stroke of a call, if the call has one.
     pub(crate) fn of(
         waveform: Option<&Bound<'_, PyAny>>,
         stroke: Option<&Bound<'_, PyAny>>,
@@ -58,7 +58,7 @@ pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
 }
 
-/// Returns a quantity of a record over its time.
+/// Returns a quantity of a record over the time of the record.
 pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) -> PyResult<Samples> {
     record.samples(quantity, repeat).map_err(|error| refused(&error))
 }

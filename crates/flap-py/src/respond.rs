@@ -24,7 +24,7 @@ struct Judged {
 }
 
 /// A bistable band: its ends in SI units, and the largest difference of the stroke between the two motions (deg, peak to peak).
-/// The difference is NaN if the two motions are nowhere both periodic.
+/// The difference is NaN if at no value of the band both motions are periodic.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,
@@ -150,7 +150,7 @@ fn followed<'py>(
     Along::new(plan, index, steps, number(tolerance)?, unstable).map_err(impossible)
 }
 
-/// Returns a value of a parameter; `None` for a choice, which no curve follows.
+/// Returns a value of a parameter; `None` for a choice, because no curve follows a choice.
 fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
     match parameter.kind {
         Kind::Choice(_) => Ok(None),

@@ -22,7 +22,7 @@ pub(crate) fn settings() -> Vec<&'static str> {
 pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 
 impl<'py> Keywords<'py> {
-    /// Splits keywords into solver settings and others. A setting that is None counts as not given.
+    /// Splits keywords into solver settings and other keywords. A setting that is None counts as not given.
     pub(crate) fn take(
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<(Keywords<'py>, Vec<Keyword<'py>>)> {

@@ -99,7 +99,8 @@ pub(crate) fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs; it is empty if nothing was
+/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs. The summary is
+/// empty if nothing was
 /// left to run.
 fn into_file<'py>(
     py: Python<'py>,
@@ -141,7 +142,7 @@ fn into_file<'py>(
     Ok(dict)
 }
 
-/// Runs the points in this process, or takes their rows from chunks.
+/// Runs the points in this process, or takes the rows of the points from chunks.
 fn work(
     plan: &Plan,
     options: &RunOptions,
@@ -188,7 +189,7 @@ fn run_here(options: &RunOptions, output: &mut RowWriter<'_>, watch: &mut Watch)
     Ok(())
 }
 
-/// Takes the rows of other processes, until there are no more or the interpreter interrupts the run.
+/// Takes the rows of other processes, until there are no more rows or the interpreter interrupts the run.
 fn fetch(
     plan: &Plan,
     options: &RunOptions,
@@ -218,7 +219,8 @@ fn fetch(
     Ok(())
 }
 
-/// Returns the derivatives of rows as a dictionary: their measures and parameters, and the column of each pair.
+/// Returns the derivatives of rows as a dictionary: the measures, the parameters, and the column of each pair of
+/// measure and parameter.
 fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bound<'py, PyDict>> {
     let known: Vec<&str> = plan.measured().collect();
     let of: Vec<&str> = gradient.of.iter().map(|&of| known[of]).collect();

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 /// The interval between checks: short for a user, long compared with the work of a check.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// A watch on the interpreter while work runs without it.
+/// A watch on the interpreter while work runs without the interpreter lock.
 pub(crate) struct Watch {
     /// A callback, called with the number of points done and the total number of points.
     progress: Option<Py<PyAny>>,
@@ -51,14 +51,15 @@ impl Watch {
         self.note(seen);
     }
 
-    /// If `seen` is an exception, stores it and ends the work.
+    /// If `seen` is an exception, stores the exception and ends the work.
     pub(crate) fn note(&mut self, seen: PyResult<()>) {
         if let Err(error) = seen {
             self.error.get_or_insert(error);
         }
     }
 
-    /// Reports that all points are done, so that a bar is full at the end. Does nothing if an exception ended the work.
+    /// Reports that all points are done, so that a progress bar is full at the end. Does nothing if an exception ended
+    /// the work.
     pub(crate) fn done(&mut self, all: u64) {
         if self.error.is_none() {
             self.look_now(all, all);
@@ -70,13 +71,14 @@ impl Watch {
         self.error.is_some()
     }
 
-    /// Returns the exception that ended the work, if one did, as `Err`.
+    /// Returns the exception that ended the work as `Err`, if an exception ended the work.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
     }
 }
 
-/// Runs `work` without the interpreter lock. Ctrl-C interrupts it; then the exception of the signal handler is returned as `Err`.
+/// Runs `work` without the interpreter lock. Ctrl-C interrupts the work, and the exception of the signal handler is
+/// then returned as `Err`.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Interrupt<'_>) -> T + Send,

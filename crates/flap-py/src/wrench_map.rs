@@ -49,7 +49,7 @@ pub(crate) fn wrench_map<'py>(
     into_python(py, &chosen, &map)
 }
 
-/// Returns an input with its range.
+/// Returns an input of the map with its range.
 fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<MapInput> {
     let vehicle = chosen.plan.vehicle().ok_or_else(|| refused(WrenchMapError::NoVehicle))?;
     let input = Input::of(vehicle, name).map_err(|error| {

@@ -1,4 +1,4 @@
-//! Text of input files, with a limit on their size.
+//! Text of input files, with a limit on the size of the files.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -17,7 +17,7 @@ pub const MOST_LISTED: u64 = 256 << 20;
 /// Reason for an unusable input file.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
-    /// There is no such file.
+    /// The input file does not exist.
     #[error("there is no such file")]
     Missing,
     /// The path is a folder.
@@ -35,11 +35,11 @@ pub enum InputError {
     /// The file is not text.
     #[error("not UTF-8 text at byte {byte} (line {line}, column {column}): save the file as UTF-8")]
     NotUtf8 {
-        /// Offset of the first byte that is not UTF-8, from 0.
+        /// Offset of the first byte that is not UTF-8, counted from 0.
         byte: usize,
-        /// Line of this byte, from 1.
+        /// Line of the invalid byte, counted from 1.
         line: usize,
-        /// Column of this byte in characters, from 1.
+        /// Column of the invalid byte in characters, counted from 1.
         column: usize,
     },
 }
@@ -96,7 +96,7 @@ pub fn open(path: &Path) -> Result<File, InputError> {
     File::open(path).map_err(InputError::Unreadable)
 }
 
-/// Returns all bytes of `source`, or the first `most + 1` if there are more.
+/// Returns all bytes of `source`, or the first `most + 1` bytes of a longer source.
 ///
 /// # Errors
 /// [`InputError::Unreadable`] if the source cannot be read.
@@ -109,7 +109,7 @@ pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
 /// Returns the text of the bytes from [`beginning`].
 ///
 /// # Errors
-/// [`InputError`] if there are more than `most` bytes, or they are not text.
+/// [`InputError`] if there are more than `most` bytes, or the bytes are not text.
 pub fn of_bytes(bytes: Vec<u8>, most: u64) -> Result<String, InputError> {
     String::from_utf8(within(bytes, most)?).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();

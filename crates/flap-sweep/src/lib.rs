@@ -2,7 +2,7 @@
 //!
 //! # Modules
 //!
-//! Each module uses only modules above it:
+//! Each module uses only modules above it in this list:
 //!
 //! - `system`: operations that differ between operating systems
 //! - [`notation`]: numbers, units, times and formulas as text

@@ -8,7 +8,7 @@ use flap_sweep::run::{RunError, RunOptions};
 use crate::opened::Opened;
 use crate::request::Refused;
 
-/// The design and the options of an answer, and its stop flag.
+/// The design and the options of an answer, and the flag that stops the computation.
 pub(crate) struct AnswerContext<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) options: RunOptions,

@@ -1,4 +1,4 @@
-//! Lines of rows, which equal the rows of a sweep of the same grid.
+//! Families of lines. The rows of a family equal the rows of a sweep of the same grid.
 
 use std::time::Instant;
 

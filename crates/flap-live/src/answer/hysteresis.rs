@@ -9,7 +9,7 @@ use super::context::{AnswerContext, failed};
 use crate::request::{HysteresisRequest, MOST_ROWS, Refused};
 use crate::rows::Rows;
 
-/// Computes the rows of `flap respond`: up, then down.
+/// Computes the rows of `flap respond`: the rising branch, then the falling branch.
 pub(crate) fn hysteresis(context: &AnswerContext<'_>, request: &HysteresisRequest) -> Result<Rows, Refused> {
     let HysteresisRequest { design, x } = request;
     if x.n < 2 || 2 * x.n as usize > MOST_ROWS {

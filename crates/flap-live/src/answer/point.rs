@@ -45,7 +45,7 @@ struct Mode {
 #[derive(Serialize)]
 struct Slope {
     parameter: String,
-    /// The change of the measure, in its unit, per 1 % of the parameter.
+    /// The change of the measure, in the unit of the measure, per 1 % of the parameter.
     per_percent: f64,
 }
 

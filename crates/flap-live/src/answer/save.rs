@@ -7,7 +7,7 @@ use super::context::AnswerContext;
 use super::python;
 use crate::request::{Along, Refused, SaveKind, SaveRequest};
 
-/// A text, and the name of its file.
+/// A text, and the name of the file for the text.
 #[derive(Serialize)]
 pub(crate) struct Saved {
     name: &'static str,

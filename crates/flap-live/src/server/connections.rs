@@ -12,10 +12,10 @@ use tokio::sync::Semaphore;
 use tokio::time::sleep;
 use tokio_io_timeout::TimeoutStream;
 
-/// Longest time to receive the head of a request, to receive its body, and between two parts of an answer that are read.
+/// Longest time to receive the head of a request, to receive the body of a request, and between two parts of an answer.
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Largest number of connections at the same time; others wait until one has ended.
+/// Largest number of connections at the same time. Further connections wait until a connection has ended.
 const MOST_CONNECTIONS: usize = 128;
 
 /// Pause after a connection that could not be accepted, for example because too many files are open.

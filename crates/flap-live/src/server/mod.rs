@@ -22,7 +22,7 @@ use crate::guard::Guard;
 use crate::opened::Opened;
 use state::ServerState;
 
-/// Number of threads that wait for requests or compute answers; rows have additional workers.
+/// Number of threads that wait for requests or compute answers. Additional worker threads compute rows.
 const MOST_BLOCKING: usize = 16;
 
 /// Options of a server.
@@ -43,12 +43,12 @@ pub enum StartError {
     /// The operating system provides no threads or no random numbers.
     #[error("cannot start the server: {0}")]
     System(String),
-    /// If its points are left out, the file has mistakes.
+    /// The opened file has mistakes if its points are left out.
     #[error("the design is not valid without its points")]
     Design(Mistakes),
 }
 
-/// A running server, which stops when it is dropped.
+/// A running server. The server stops when this value is dropped.
 ///
 /// ```
 /// use flap_live::{LiveOptions, Server};
@@ -118,7 +118,8 @@ impl Server {
 
     /// Stops the server: closes connections and abandons current work.
     ///
-    /// In a forked child of the process that started the server, this does nothing, and the server continues in the parent.
+    /// In a forked child of the process that started the server, a drop has no effect, and the server continues in the
+    /// parent.
     pub fn stop(&mut self) {
         if self.process != std::process::id() {
             // In a child, waking or joining a thread of the parent would use the parent's event loop, or panic.

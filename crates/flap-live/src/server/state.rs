@@ -16,7 +16,7 @@ use crate::opened::Opened;
 use crate::page;
 use crate::request::{Refused, RequestOrder};
 
-/// Largest number of requests that are computed at the same time. Others wait, so that memory is bounded.
+/// Largest number of requests that are computed at the same time. Further requests wait, so that memory is bounded.
 const MOST_AT_ONCE: usize = 4;
 
 /// The state that all requests share.
@@ -39,7 +39,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Returns the kind with this name in addresses.
+    /// Returns the kind of request that has this name in addresses.
     pub(super) fn named(name: &str) -> Option<Kind> {
         let kinds = [Kind::Family, Kind::Point, Kind::Motion, Kind::Hysteresis, Kind::Save];
         kinds.into_iter().find(|kind| kind.name() == name)
@@ -56,7 +56,7 @@ impl Kind {
     }
 }
 
-/// The flag of a request. It is set when the request is dropped, because nothing waits for the answer then.
+/// The flag of a request. The flag is set when the request is dropped, because nobody then waits for the answer.
 pub(super) struct CancelOnDrop(Arc<AtomicBool>);
 
 impl Drop for CancelOnDrop {
@@ -89,7 +89,7 @@ impl ServerState {
         Ok(page::live(&format!("{} · flap live", self.opened.plan().source().name), &data))
     }
 
-    /// Starts a request, and cancels older requests of its kind and page.
+    /// Starts a request, and cancels older requests of the same kind from the same page.
     pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<CancelOnDrop, Refused> {
         if let Kind::Save = kind {
             return Ok(CancelOnDrop(Arc::default()));

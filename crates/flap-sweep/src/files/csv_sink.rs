@@ -22,7 +22,7 @@ impl<W: Durable> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
     }
 
-    /// Returns the target. All rows are in it after [`Sink::flush`] or [`Sink::finish`].
+    /// Returns the target. The target has all rows after [`Sink::flush`] or [`Sink::finish`].
     pub fn target(&self) -> &W {
         self.lines.target()
     }
@@ -50,7 +50,7 @@ impl<W: Durable> Sink for CsvSink<W> {
 /// Returns the error of the operating system, such as a closed pipe, or [`io::ErrorKind::InvalidData`] with the
 /// mistake in the table.
 ///
-/// The csv crate's own conversion would hide the former.
+/// The conversion of the csv crate would hide the error of the operating system.
 pub fn cause(error: csv::Error) -> io::Error {
     let wrong = |place: Option<csv::Position>, what: String| {
         let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));

@@ -12,7 +12,7 @@ use crate::system;
 pub trait Durable: Write {
     /// Waits until the written bytes would survive a crash of the machine.
     ///
-    /// By default it does nothing, for targets that a crash cannot damage.
+    /// The default does nothing, for targets that a crash cannot damage.
     ///
     /// # Errors
     /// The error of the operating system.
@@ -32,9 +32,9 @@ impl Durable for Stdout {}
 
 impl Durable for Vec<u8> {}
 
-/// A file that gets its name, in place of an earlier file, once it is complete and durable.
+/// A file that gets its name, in place of an earlier file, when the file is complete and durable.
 ///
-/// Until then the file has no name, or a name that no other file has. If the name is a link, the link is replaced.
+/// Until then, the file has no name or a unique name. If the name is a link, the link is replaced.
 pub(crate) struct Whole(AtomicWriteFile);
 
 impl Whole {
@@ -61,7 +61,7 @@ impl Whole {
     }
 }
 
-/// Returns true if the name is free: it belongs to no file, or to an empty one, and to nothing else, such as a link.
+/// Returns true if the name is free: it belongs to no file or to an empty file. A link is not free.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,
@@ -89,7 +89,7 @@ pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     }
 }
 
-/// Renames a file, and waits until its new name would survive a crash of the machine.
+/// Renames a file, and waits until the new name would survive a crash of the machine.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     sync_folder(to)
@@ -113,7 +113,7 @@ pub fn target(path: &Path) -> PathBuf {
     target
 }
 
-/// Empties a file. It does nothing for devices and pipes.
+/// Empties a file. Does nothing for devices and pipes.
 ///
 /// # Errors
 /// The error of the operating system.
@@ -121,7 +121,7 @@ pub fn empty(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }
 
-/// Returns true if there is no file at `path`, or an empty one.
+/// Returns true if there is no file at `path`, or an empty file.
 pub fn is_empty(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
 }
@@ -152,7 +152,7 @@ fn folder_of(path: &Path) -> &Path {
 /// Checks that `file` is still the file at `path`.
 ///
 /// # Errors
-/// [`io::ErrorKind::Other`] if there is no file at `path`, or a different one. Otherwise the error of the operating
+/// [`io::ErrorKind::Other`] if there is no file or a different file at `path`. Otherwise the error of the operating
 /// system.
 pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
     if is_in_place(file, path)? {

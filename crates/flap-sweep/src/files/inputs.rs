@@ -1,4 +1,4 @@
-//! Files that a command reads. The command must not write to them.
+//! Files that a command reads. The command must not write to these files.
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ impl Inputs {
         self
     }
 
-    /// Adds results and the files beside them.
+    /// Adds results and the files that flap stores beside the results.
     pub fn add_results(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.add(what, path);
         for beside in beside::all_of(path) {

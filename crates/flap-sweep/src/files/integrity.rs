@@ -29,7 +29,7 @@ pub enum OnDamage {
     Tolerate,
 }
 
-/// Largest number of ranges in a message. It states the number of further ranges.
+/// Largest number of ranges in a message. The message also states the number of further ranges.
 const MOST_LISTED: usize = 5;
 
 /// Differences between a file and the file that was written.
@@ -42,13 +42,13 @@ pub struct Damage {
     pub header: bool,
     /// Ranges of rows, from 1, in changed blocks.
     ///
-    /// Each contains at least one changed row. After a missing or additional row, all rows count as changed.
+    /// Each block contains at least one changed row. After a missing or additional row, all rows count as changed.
     pub rows: Vec<RangeInclusive<u64>>,
     /// Number of rows in the file and number of written rows, if they differ.
     pub count: Option<(u64, u64)>,
     /// Reason for an unreadable rest of the file.
     pub unreadable: Option<String>,
-    /// True if bytes have changed, even if no row depends on them.
+    /// True if bytes have changed, even if no row depends on the changed bytes.
     pub bytes: bool,
     /// True if unfinished rows differ from the rows that the journal records.
     pub altered: bool,
@@ -140,7 +140,7 @@ pub enum OpenError {
     /// The ending of the name belongs to no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The operating system reports an error, or the file does not have its format.
+    /// The operating system reports an error, or the file does not have the format of its name.
     #[error("cannot read {}: {source}", path.display())]
     Read {
         /// The file.
@@ -151,7 +151,7 @@ pub enum OpenError {
     /// The sidecar cannot be read or is damaged.
     #[error(transparent)]
     Sidecar(#[from] SidecarError),
-    /// The results have changed since they were written.
+    /// The results have changed since flap wrote them.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -164,7 +164,7 @@ pub enum OpenError {
 /// A note about results for the user.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
-    /// The results have changed since they were written.
+    /// The results have changed since flap wrote them.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -213,13 +213,13 @@ fn so_far(done: Option<u64>) -> String {
     }
 }
 
-/// Returns the damage of the complete results at `path`; `None` if there is none, or the sidecar has no checksums.
+/// Returns the damage of the complete results at `path`; `None` if there is no damage, or the sidecar has no checksums.
 ///
 /// The file is read once, and a second time if its bytes have changed.
 ///
 /// # Errors
 /// - [`OpenError::Read`] if the file cannot be read
-/// - [`OpenError::Damaged`] if it is damaged and `on_damage` is [`OnDamage::Refuse`]
+/// - [`OpenError::Damaged`] if the file is damaged and `on_damage` is [`OnDamage::Refuse`]
 pub fn check(
     path: &Path,
     format: Format,
@@ -245,7 +245,7 @@ fn find(path: &Path, format: Format, sidecar: &Sidecar) -> io::Result<Option<Dam
     Ok(Some(damage).filter(|damage| !damage.is_none()))
 }
 
-/// Returns the damage of the rows, located by reading them from the file.
+/// Returns the damage of the rows. All rows are read from the file to locate the damage.
 fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums) -> io::Result<Damage> {
     let (found, read) = sum_up(File::open(path)?, format);
     let rows = sidecar.rows();
@@ -271,7 +271,7 @@ const WAITING: Format = Format::CsvZstd;
 pub struct Opened {
     /// Reader of the rows.
     pub reader: Reader,
-    /// Sidecar, if there is one that belongs to the rows.
+    /// Sidecar, if there is a sidecar that belongs to the rows.
     pub sidecar: Option<Sidecar>,
     /// Notes for the user.
     pub notes: Vec<Note>,
@@ -279,7 +279,7 @@ pub struct Opened {
 
 /// Returns the column names of the results at `path`, complete or not.
 ///
-/// It reads the beginning of the file, or the end of a Parquet file, and checks nothing.
+/// The function reads the beginning of the file, or the end of a Parquet file, and checks nothing.
 ///
 /// # Errors
 /// - [`OpenError::Format`] if the ending of the name belongs to no format
@@ -337,7 +337,7 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     Ok(Opened { reader, sidecar, notes })
 }
 
-/// Returns the sidecar of the results at `path`; `None` if there is none, or it cannot be used.
+/// Returns the sidecar of the results at `path`; `None` if there is no sidecar, or the sidecar cannot be used.
 fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Option<Sidecar>, OpenError> {
     let beside = sidecar_of(path);
     match Sidecar::read(&beside) {
@@ -375,8 +375,8 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
 
 /// Returns the rows of unfinished results up to the last checkpoint.
 ///
-/// All of them must match the journal. If damage is tolerated, it returns all complete rows, and sets `sidecar` to
-/// `None` if it describes other rows.
+/// All rows must match the journal. If damage is tolerated, the function returns all complete rows, and sets `sidecar`
+/// to `None` if the sidecar describes other rows.
 fn unfinished(
     path: &Path,
     format: Format,
@@ -425,18 +425,18 @@ pub enum Integrity {
         /// Number of rows.
         rows: u64,
     },
-    /// The results are unfinished. Their rows are unchanged since they were written.
+    /// The results are unfinished. The rows are unchanged since flap wrote them.
     Unfinished {
         /// Number of finished points, if known.
         done: Option<u64>,
     },
     /// The results cannot be checked.
     Unverified(Unverified),
-    /// The results have changed since they were written.
+    /// The results have changed since flap wrote them.
     Damaged(Damage),
 }
 
-/// Checks the results at `path` completely: every byte of the file, and every row as it is read.
+/// Checks the results at `path` completely: every byte of the file, and every row.
 ///
 /// # Errors
 /// - [`OpenError::Format`] if the ending of the name belongs to no format

@@ -1,6 +1,7 @@
 //! Journal of unfinished results, which records the progress of a run: `<results>.journal`.
 //!
-//! Its first line identifies the run. Every other line is a checkpoint. Each line begins with its checksum. A line is
+//! The first line of a journal identifies the run. Every other line is a checkpoint. Each line begins with the checksum
+//! of the line. A line is
 //! added only when the rows that it counts are safe on disk, and lines are never changed. A crash may leave an
 //! incomplete line at the end, whose checksum is wrong.
 
@@ -29,7 +30,7 @@ pub struct Header {
     format: u32,
     /// Start of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// True if earlier results are kept until the new ones are complete.
+    /// True if earlier results are kept until the new results are complete.
     pub replaces: bool,
     /// Identity of the run's rows.
     pub identity: Identity,
@@ -49,7 +50,7 @@ pub struct Checkpoint {
     pub seconds: f64,
     /// Number and checksum of the bytes written to the file of rows.
     pub file: FileSum,
-    /// Summary of these rows.
+    /// Summary of the rows before the checkpoint.
     pub summary: Summary,
 }
 
@@ -70,7 +71,7 @@ impl Checkpoint {
 pub struct JournalContents {
     /// First line.
     pub header: Header,
-    /// Other lines, each with the number of bytes up to its end.
+    /// All lines after the first line, each with the number of bytes up to the end of the line.
     pub checkpoints: Vec<(Checkpoint, u64)>,
     /// Number of bytes up to the end of the first line.
     pub header_bytes: u64,
@@ -94,7 +95,8 @@ pub fn parse(text: &[u8]) -> Option<JournalContents> {
     Some(JournalContents { header, checkpoints, header_bytes })
 }
 
-/// Reads the journal at `path`. `None` if there is none, or its first line is incomplete: then no row was written.
+/// Reads the journal at `path`. `None` if there is no journal, or if its first line is incomplete: then no row was
+/// written.
 ///
 /// # Errors
 /// The error of the operating system if the file cannot be read.
@@ -106,7 +108,7 @@ pub fn read(path: &Path) -> io::Result<Option<JournalContents>> {
     }
 }
 
-/// Returns the contents of a line, if it is complete.
+/// Returns the contents of a line, if the line is complete.
 fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let line = str::from_utf8(line).ok()?.strip_suffix('\n')?;
     let (checksum, contents) = line.split_once(' ')?;
@@ -150,7 +152,7 @@ impl Journal {
         Ok(Journal(file))
     }
 
-    /// Adds a checkpoint. Its rows must be safe on disk.
+    /// Adds a checkpoint. The rows before the checkpoint must be safe on disk.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -171,11 +173,11 @@ pub(crate) struct IntactRows {
     pub(crate) journal_bytes: u64,
     /// Hash of the rows up to the checkpoint.
     pub(crate) hash: Xxh3Default,
-    /// Number of rows after it that later checkpoints count.
+    /// Number of rows that only later checkpoints count.
     pub(crate) lost: u64,
 }
 
-/// Returns the last checkpoint up to which `file` contains the written bytes; `None` if it contains other bytes.
+/// Returns the last checkpoint up to which `file` contains the written bytes; `None` if `file` contains other bytes.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();
     let mut intact = IntactRows {

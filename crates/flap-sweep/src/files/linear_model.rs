@@ -23,7 +23,7 @@ pub struct LinearInput {
     pub value: f64,
 }
 
-/// A hover model with the point at which it is valid.
+/// A hover model with the operating point at which the model is valid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearModel {
     /// Model.
@@ -59,7 +59,7 @@ impl LinearFormat {
     /// Endings of file names, for messages.
     pub const ENDINGS: &str = ".json, .mat or .py";
 
-    /// Returns the format of a file by the ending of its name; `None` if there is none.
+    /// Returns the format of a file by the ending of its name; `None` if the ending belongs to no format.
     pub fn of(path: &Path) -> Option<LinearFormat> {
         match path.extension()?.to_str()? {
             "json" => Some(LinearFormat::Json),
@@ -188,7 +188,7 @@ fn json(variables: &[(&str, Variable)]) -> String {
     format!("{{\n{}\n}}\n", entries.collect::<Vec<_>>().join(",\n"))
 }
 
-/// Returns a Python module with the variables, which builds a system of python-control where that is installed.
+/// Returns a Python module with the variables, which builds a system of python-control if python-control is installed.
 fn python(variables: &[(&str, Variable)]) -> String {
     const HEAD: &str = "\
 \"\"\"Linear hover model of a flapping-wing vehicle, written by flap. All numbers are in SI units.
@@ -226,7 +226,7 @@ else:
     format!("{HEAD}{}{TAIL}", entries.collect::<String>())
 }
 
-/// Returns the shortest text that reads back as the same number, or `missing` if it is not finite.
+/// Returns the shortest text that reads back as the same number, or `missing` if the number is not finite.
 fn number(value: f64, missing: &str) -> String {
     if value.is_finite() { text::float(value) } else { missing.to_owned() }
 }

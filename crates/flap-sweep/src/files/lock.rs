@@ -1,10 +1,10 @@
 //! Lock of results, so that only one process writes to them.
 //!
 //! The lock is a lock of the operating system on an empty file beside the results. The operating system releases the
-//! lock when the process ends. If a process is killed, its lock file remains, but locks nothing.
+//! lock when the process ends. If a process is killed, its lock file remains without a lock.
 //!
 //! The results themselves are not locked. On Windows, a lock also keeps other handles from reading and writing the
-//! file. Some file systems there cannot replace an open file.
+//! file. Some file systems cannot replace an open file.
 
 use std::fs::{self, File, TryLockError};
 use std::io;

@@ -17,7 +17,7 @@ pub enum Variable {
     Matrix(DMatrix<f64>),
     /// Text: a row of characters.
     Text(String),
-    /// Texts: a cell array with one row.
+    /// Texts, written as a cell array with one row.
     Texts(Vec<String>),
 }
 

@@ -1,4 +1,4 @@
-//! Merges the shards of a sweep into the file that one machine would have written.
+//! Merges the shards of a sweep into one file, which equals the file of a sweep on one machine.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -32,7 +32,7 @@ impl Part {
 /// Error of shards that cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// The parts are not the shards of one sweep, each once. Contains a line for each mistake.
+    /// The parts are not all shards of one sweep, or contain a shard twice. Contains a line for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
     /// The parts were computed by several builds of flap. Contains the first shard of each.
@@ -54,15 +54,15 @@ pub enum MergeError {
 /// Treatment of shards from several builds of flap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnBuilds {
-    /// They are rejected, because rows of different builds may differ.
+    /// Shards of different builds are rejected, because rows of different builds may differ.
     Refuse,
-    /// They are merged, and the sidecar lists all builds.
+    /// Shards of different builds are merged, and the sidecar lists all builds.
     Mix,
 }
 
-/// Checks that `parts` are the complete shards of one sweep, each once.
+/// Checks that `parts` contain each complete shard of one sweep once.
 ///
-/// No model is run, so the shards may come from another build than this one.
+/// No model is run, so another build of flap may have computed the shards.
 ///
 /// # Errors
 /// - [`MergeError::Parts`] with all mistakes
@@ -127,7 +127,7 @@ fn shared(sidecar: &Sidecar) -> Identity {
 
 /// Returns the sidecar of all `parts` together, without checksums; `None` if there are no parts.
 ///
-/// It equals the sidecar of one sweep on one machine, except that it lists all versions and builds.
+/// The result equals the sidecar of one sweep on one machine, except that the result lists all versions and builds.
 pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let all = |name: fn(&Sidecar) -> &String| {
@@ -155,8 +155,9 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
 
 /// Writes the rows of `parts` to `to` in the order of their points.
 ///
-/// `parts` must have passed [`check`]. `whole` is their [`sidecar`]. `readers` read the parts, in the same order. If
-/// a reader is tolerant, its rows that do not belong to the shard are left out.
+/// `parts` must have passed [`check`]. `whole` is the [`sidecar`] of `parts` together. `readers` read the parts, in the
+/// same order. If
+/// a reader is tolerant, rows that do not belong to the shard are left out.
 ///
 /// # Errors
 /// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records

@@ -1,4 +1,4 @@
-//! Result files: formats, and the files beside them that record their origin and the progress of a run.
+//! Result files: formats, and the files beside results that record the origin of the rows and the progress of a run.
 //!
 //! `beside` names the files, `disk` writes them, and [`results`] reads and writes rows. [`journal`] and [`sidecar`]
 //! are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a result file and

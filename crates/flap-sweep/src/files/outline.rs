@@ -44,7 +44,7 @@ pub enum OutlineFileError {
 }
 
 impl OutlineFileError {
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<&'static str> {
         let columns = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
          `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
@@ -63,7 +63,7 @@ pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
     parse(path, &text)
 }
 
-/// Parses an outline from the text of such a file. `path` is its name in messages.
+/// Parses an outline from the text of a CSV file. `path` is the name of the file in messages.
 ///
 /// # Errors
 /// [`OutlineFileError`] if the text contains no outline.

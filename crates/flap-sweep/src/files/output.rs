@@ -19,7 +19,7 @@ pub enum CreateError {
     /// The file is the unfinished result of an interrupted sweep.
     #[error("{} is the unfinished result of an interrupted sweep", .0.display())]
     Unfinished(PathBuf),
-    /// A file has the name of a file that flap would write beside the results.
+    /// Another file has the name of a file that flap would write beside the results.
     #[error("{} exists already: writing {} would overwrite it", path.display(), results.display())]
     InTheWay {
         /// The file.
@@ -61,16 +61,17 @@ pub struct LockedFile {
 
 /// Opens a result file for writing from its beginning.
 ///
-/// A file with contents is an error. If `overwrite` is true, it is opened and its contents stay. The lock of the file
-/// keeps a second run from writing to it. Devices and pipes are neither rejected nor locked.
+/// A file with contents is an error. If `overwrite` is true, the file is opened and the contents are kept. The lock of
+/// the file
+/// keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
 ///
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents
-/// - [`CreateError::Unfinished`] if it or its replacement has a journal
+/// - [`CreateError::Unfinished`] if the file or its replacement has a journal
 /// - [`CreateError::InTheWay`] if there is a sidecar without rows, or a file of another program with the name of the
 ///   lock file. If `overwrite` is true, a sidecar is allowed, and a file of another program with its name is not
-/// - [`CreateError::Busy`] if another run has locked it
-/// - [`CreateError::Io`] if it cannot be opened
+/// - [`CreateError::Busy`] if another run has locked the file
+/// - [`CreateError::Io`] if the file cannot be opened
 pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     let refused = CreateError::io(path);
     let open = || OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(&refused);
@@ -92,7 +93,7 @@ pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
     Ok(LockedFile { file: open()?, lock: Some(lock) })
 }
 
-/// Checks that there is no sidecar, or that it `may` be replaced.
+/// Checks that there is no sidecar, or that the sidecar `may` be replaced.
 fn check_sidecar(results: &Path, may: bool) -> Result<(), CreateError> {
     let sidecar = sidecar_of(results);
     if may || !disk::is_taken(&sidecar) { Ok(()) } else { Err(CreateError::in_the_way(sidecar, results)) }
@@ -115,7 +116,7 @@ pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateE
 /// Opens a result file that an earlier run has begun, for reading and writing from its beginning, and locks it as
 /// [`create`] does.
 ///
-/// If the file was removed, it is created again.
+/// If the file was removed, the function creates the file again.
 ///
 /// # Errors
 /// The errors of [`lock`], and [`CreateError::Io`] if the file cannot be opened.
@@ -125,7 +126,7 @@ pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
     Ok((opened.map_err(CreateError::io(path))?, lock))
 }
 
-/// Locks the results at `path` for this process. They need not exist.
+/// Locks the results at `path` for this process. The results need not exist.
 ///
 /// # Errors
 /// - [`CreateError::Busy`] if another run has locked the results

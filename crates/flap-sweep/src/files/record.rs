@@ -13,9 +13,9 @@ use crate::notation::text;
 /// A quantity in a record.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity<'h> {
-    /// Possible headings of its column, with their factors to SI units.
+    /// Possible headings of the quantity's column, with the factors to SI units.
     pub headings: &'h [(&'h str, f64)],
-    /// Largest accepted magnitude, in SI units. With larger ones, rates and forces would overflow.
+    /// Largest accepted magnitude, in SI units. With larger values, rates and forces would overflow.
     pub most: f64,
 }
 
@@ -47,7 +47,7 @@ pub enum RecordError {
         /// The heading.
         heading: String,
     },
-    /// A column is longer or shorter than the first one.
+    /// A column is longer or shorter than the first column.
     #[error("{name}: columns differ in length: {first} has {other} numbers, {heading} has {length}")]
     Lengths {
         /// Name of the record.
@@ -118,7 +118,7 @@ pub enum RecordError {
         /// Headings in the file.
         headings: Vec<String>,
     },
-    /// Two columns of the same quantity differ.
+    /// Two columns of the same quantity have different values.
     #[error("{name}: columns {first} and {second} contradict each other in row {row}: keep one of them")]
     Contradiction {
         /// The file.
@@ -147,7 +147,7 @@ impl Record {
         }
     }
 
-    /// Parses the text of such a file. `name` is its name in messages.
+    /// Parses the text of a file with a record. `name` is the name of the file in messages.
     ///
     /// # Errors
     /// See [`Record::read`].
@@ -175,7 +175,7 @@ impl Record {
         Ok(Record { name, headings, columns })
     }
 
-    /// Returns a record of columns in memory, each with a heading. `name` is the name in messages.
+    /// Returns a record of columns in memory, each with a heading. `name` is the name of the record in messages.
     ///
     /// # Errors
     /// - [`RecordError::Lengths`] if columns differ in length
@@ -201,11 +201,12 @@ impl Record {
         Ok(Record { name: name.to_owned(), headings, columns })
     }
 
-    /// Returns the column of a quantity in SI units. If several columns agree, it is the first one.
+    /// Returns the column of a quantity in SI units. If several columns of the quantity agree, returns the first of
+    /// these columns.
     ///
     /// # Errors
-    /// - [`RecordError::Missing`] if there is no such column
-    /// - [`RecordError::TooLarge`] if a number in it is too large
+    /// - [`RecordError::Missing`] if no column has this quantity
+    /// - [`RecordError::TooLarge`] if a number in the column is too large
     /// - [`RecordError::Contradiction`] if two columns differ
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
         let found = quantity.headings.iter().filter_map(|(name, factor)| {

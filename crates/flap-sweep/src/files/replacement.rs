@@ -3,12 +3,15 @@
 //! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the
 //! journal beside them, because a journal is begun only if no file has their name.
 //!
-//! With `--restart`, the earlier results keep their names until the new ones are complete. Until then the new results
-//! of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that they are a
+//! With `--restart`, the earlier results keep their names until the new results are complete. Until then the new
+//! results
+//! of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the new
+//! results are a
 //! replacement, so another file of this name is never taken for one.
 //!
 //! Results without a sidecar count as unverified, not as damaged. [`commit`] therefore removes the earlier sidecar,
-//! renames the rows, and then writes the new sidecar. If it is killed at any time, the next call completes its work.
+//! renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call completes the
+//! replacement.
 
 use std::fs;
 use std::io::{self, Write};
@@ -32,7 +35,8 @@ pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
     Ok(journal::read(&journal_of(results))?.is_some())
 }
 
-/// Removes the waiting rows, then the journal. If it is killed in between, the journal still identifies the rows as
+/// Removes the waiting rows, then the journal. If the process is killed in between, the journal still identifies the
+/// rows as
 /// flap's.
 ///
 /// # Errors
@@ -58,7 +62,8 @@ pub(crate) fn remove_companions(results: &Path) -> io::Result<()> {
     remove_progress(results)
 }
 
-/// Returns the unfinished replacement of the results at `results`, such as `rows.new.csv`; `None` if there is none.
+/// Returns the unfinished replacement of the results at `results`, such as `rows.new.csv`; `None` if there is no
+/// replacement.
 pub fn unfinished(results: &Path) -> Option<PathBuf> {
     let new = of(results);
     let past = journal::read(&journal_of(&new)).ok()??;
@@ -71,7 +76,8 @@ pub fn to_resume(results: &Path) -> PathBuf {
     unfinished(results).filter(|new| sidecar_of(new).exists()).unwrap_or_else(|| results.to_owned())
 }
 
-/// Returns the path of a replacement. It is in the folder of the rows, also if `results` is a link to them.
+/// Returns the path of a replacement. The replacement is in the folder of the rows, also if `results` is a link to the
+/// rows.
 pub(crate) fn of(results: &Path) -> PathBuf {
     replacement_of(&disk::target(results))
 }

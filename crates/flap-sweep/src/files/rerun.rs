@@ -9,13 +9,13 @@ use crate::plan::selection::MOST_LISTED;
 /// Selection of rows to be computed again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
-    /// Rows with one of these statuses.
+    /// Selects rows with one of these statuses.
     pub statuses: Vec<Status>,
-    /// Rows with an `error_estimate` above this value.
+    /// Selects rows with an `error_estimate` above this value.
     pub accuracy: Option<f64>,
 }
 
-/// Error of points that cannot be selected.
+/// Error if no points can be selected for a rerun.
 #[derive(Debug, thiserror::Error)]
 pub enum RerunError {
     /// The rows cannot be read, or do not belong to the plan.
@@ -36,7 +36,7 @@ impl Wanted {
         self.statuses.iter().map(|status| status.name()).chain(inaccurate).map(str::to_owned).collect()
     }
 
-    /// Returns true if the selection contains a row with these cells.
+    /// Returns true if the selection contains a row with the given cells.
     fn includes(&self, status: Option<&str>, estimate: Option<&str>) -> bool {
         let estimate = estimate.and_then(|cell| cell.parse::<f64>().ok());
         self.statuses.iter().any(|wanted| status == Some(wanted.name()))

@@ -1,10 +1,12 @@
-//! A run's access to its result file: it writes rows and checkpoints, and continues earlier runs.
+//! Access of a run to its result file. A session writes rows and checkpoints, and continues earlier runs.
 //!
-//! Checkpoints are after rows, or in compressed files at the end of a frame. The bytes up to there do not depend on
-//! later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the same bytes.
+//! Checkpoints are after rows, or in compressed files at the end of a frame. The bytes up to a checkpoint do not depend
+//! on later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the same
+//! bytes.
 //!
-//! A Parquet file can be neither read nor continued before its last byte is written. Its rows are therefore first
-//! written to `<results>.part`, as compressed text like a `.csv.zst` file. They become columns when the run is
+//! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet file are
+//! therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. The rows become columns when
+//! the run is
 //! complete.
 
 use std::fs::File;
@@ -44,7 +46,7 @@ pub struct Session {
     results: File,
     rows: TextRows,
     provenance: Provenance,
-    /// Rows of earlier runs: their file, its format, and the number of bytes that contain them.
+    /// Rows of earlier runs: the file with these rows, the format of the file, and the number of bytes of the rows.
     earlier: Option<(PathBuf, Format, u64)>,
     /// Checksum of a Parquet file, once rows have been converted to columns.
     columns: Option<FileSum>,
@@ -63,7 +65,7 @@ pub struct Resumed {
     pub before: Summary,
     /// Start of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// Number of rows that had been written but are missing in the file.
+    /// Number of rows that were written but are missing in the file.
     pub lost: u64,
     /// Lock of the results.
     pub lock: Lock,
@@ -78,7 +80,7 @@ pub enum ResumeError {
     /// The ending of the name belongs to no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// There is no journal.
+    /// The results have no journal.
     #[error("{} has no journal, so this file is not the result of an interrupted sweep", .0.display())]
     NoJournal(PathBuf),
     /// The remaining rows would differ from the rows of the earlier run.
@@ -97,7 +99,7 @@ pub enum ResumeError {
 impl Session {
     /// Begins to write to `results`, an empty file that [`output::create`] opened at `path`.
     ///
-    /// The journal records the time `started`, and in `replaces` that the results will replace earlier ones.
+    /// The journal records the time `started`, and in `replaces` if the results will replace earlier results.
     ///
     /// # Errors
     /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file of waiting rows
@@ -132,7 +134,7 @@ impl Session {
     /// - [`ResumeError::Create`] if a file cannot be opened
     /// - [`ResumeError::NoJournal`] if there is no journal
     /// - [`ResumeError::Changed`] if the journal belongs to other rows
-    /// - [`ResumeError::Altered`] if the results have changed since they were written
+    /// - [`ResumeError::Altered`] if the results have changed since flap wrote them
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
         let format = Format::of(path)?;
@@ -228,7 +230,8 @@ impl Session {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// Returns the path of the file that contains the rows until they are complete. For a Parquet file it is not the
+    /// Returns the path of the file that contains the rows until they are complete. For a Parquet file, this file is
+    /// not the
     /// result file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
@@ -263,7 +266,7 @@ impl Session {
         &self.path
     }
 
-    /// Makes the rows durable, then adds a checkpoint after them.
+    /// Makes the rows durable, then adds a checkpoint after these rows.
     fn note(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
@@ -315,7 +318,7 @@ impl Sink for Session {
     }
 }
 
-/// Writes the waiting rows in `part` to the empty file `results`, and returns its checksums.
+/// Writes the waiting rows in `part` to the empty file `results`, and returns the checksums of `results`.
 ///
 /// # Errors
 /// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`

@@ -15,17 +15,17 @@ use crate::plan::axes::{Axis, TooManyPoints, Values};
 /// An axis and its position in the file.
 pub(super) struct Placed {
     pub(super) axis: Axis,
-    /// Key of the axis, or header of its `[[zip]]`.
+    /// Key of the axis, or header of the axis's table `[[zip]]`.
     pub(super) span: Range<usize>,
-    /// Keys of its parameters, in the order of the axis.
+    /// Keys of the parameters of the axis, in the order of the axis.
     pub(super) keys: Vec<Range<usize>>,
-    /// For each parameter, true if its values have units, see [`value::has_units`].
+    /// For each parameter, true if the values of the parameter have units, see [`value::has_units`].
     pub(super) with_units: Vec<Option<bool>>,
 }
 
 /// Reads the axes of the section.
 ///
-/// A parameter with wrong values still gives an axis, an empty one, which takes part in later checks.
+/// A parameter with wrong values still gives an axis without values, which takes part in later checks.
 pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let mut axes = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -48,7 +48,8 @@ pub(super) fn none() -> Values {
     Values::List(Vec::new())
 }
 
-/// Returns the values of one parameter along an axis: a list or a range. `None`, with a report, if there are none.
+/// Returns the values of one parameter along an axis: a list or a range. If there are no values, reports a mistake and
+/// returns `None`.
 pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     match entry.value.get_ref() {
         DeValue::Array(list) if list.is_empty() => {
@@ -101,7 +102,7 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
     }
 }
 
-/// Reports that the axes have more points than a plan can have, at the axis that exceeds the limit.
+/// Reports that the axes have more points than a plan can have. The report is at the axis that exceeds the limit.
 pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize>], problems: &mut Problems) {
     let span = spans.get(error.axis).cloned().unwrap_or(0..0);
     let lengths: Vec<String> = error.lengths.iter().map(u64::to_string).collect();
@@ -112,7 +113,7 @@ pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize
         .help("use fewer or shorter axes");
 }
 
-/// Reads one axis per table.
+/// Reads one axis from each table `[[zip]]`.
 pub(super) fn read_zip(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let Some(entry) = entry else {
         return Vec::new();

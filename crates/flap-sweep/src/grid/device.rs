@@ -29,7 +29,7 @@ pub(super) struct Base {
     /// Parameters whose values have units.
     pub(super) with_units: WithUnits,
     pub(super) uncertainty: Uncertainty,
-    /// Devices, the grid's own device first.
+    /// Devices, beginning with the device of the grid.
     pub(super) devices: Vec<Source>,
 }
 
@@ -43,7 +43,7 @@ pub(super) enum DeviceSource<'s> {
 }
 
 impl DeviceSource<'_> {
-    /// Returns the text of a device, or the reason why it cannot be read.
+    /// Returns the text of a device, or the reason why the device cannot be read.
     fn text(self, path: &Path) -> Result<String, String> {
         match self {
             DeviceSource::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
@@ -64,8 +64,8 @@ pub(super) struct Reader<'r> {
 }
 
 impl Reader<'_> {
-    /// Returns the design that the keys `preset` or `device` at the top of a file name. `None`, with a report, if
-    /// there is none.
+    /// Returns the design that the key `preset` or `device` at the top of a file names. If there is no design, reports
+    /// a mistake and returns `None`.
     pub(super) fn base(self, root: &[Entry<'_>], problems: &mut Problems) -> Option<Base> {
         self.of_file(root, &mut Vec::new(), problems)
     }
@@ -168,7 +168,7 @@ impl Base {
 
 /// Reads `[params]` into `base`, the use of units into `with_units`, and standard errors into `errors`.
 ///
-/// Returns the parameters in the section with their positions.
+/// Returns the parameters in the section, with the positions of the parameters in the file.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &mut [Value],
@@ -198,7 +198,7 @@ pub(super) fn read(
 
 type Chosen = (&'static dyn Simulator, &'static Preset);
 
-/// Returns the preset that the file names, and its model.
+/// Returns the preset that the file names, and the model of the preset.
 pub(super) fn read_preset(
     root: &[Entry<'_>],
     models: &[&'static dyn Simulator],

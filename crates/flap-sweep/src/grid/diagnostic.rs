@@ -1,4 +1,4 @@
-//! Mistakes in a grid file: their positions, causes and remedies.
+//! Positions, causes and remedies of mistakes in a grid file.
 
 use std::fmt;
 use std::ops::{Deref, Range};
@@ -27,7 +27,7 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// Advice.
     pub help: Vec<String>,
-    /// True if the mistake is counted but not shown. It needs no help.
+    /// True if the mistake is counted but not shown. A hidden mistake needs no help.
     pub(crate) is_only_counted: bool,
 }
 
@@ -36,7 +36,7 @@ pub struct Diagnostic {
 pub struct Related {
     /// Bytes of the source.
     pub span: Range<usize>,
-    /// A few words at this position.
+    /// A few words that are shown at this position of the file.
     pub label: String,
 }
 
@@ -122,7 +122,7 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// Largest number of mistakes that are shown. A file with more of them usually repeats one mistake.
+    /// Largest number of mistakes that are shown. A file with more mistakes usually repeats one mistake.
     pub const MOST_SHOWN: usize = 20;
 
     /// Returns the first mistakes of `found`, which is in the order of the file, and the number `more` of further

@@ -1,4 +1,4 @@
-//! Expressions in a grid file and their names: the sections `[derived]`, `[where]` and `[measure]`.
+//! Expressions in a grid file, and the names in expressions: the sections `[derived]`, `[where]` and `[measure]`.
 
 use std::ops::Range;
 
@@ -19,16 +19,17 @@ use crate::plan::Value;
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::table::layout::is_fixed;
 
-/// Prefix of a parameter's name for its value in the preset.
+/// Prefix before the name of a parameter, for the value of this parameter in the preset.
 const PRESET: &str = "preset.";
 
-/// Prefix of a parameter's name for its value in the device.
+/// Prefix before the name of a parameter, for the value of this parameter in the device.
 const DEVICE: &str = "device.";
 
-/// Description of a drive frequency that follows the resonance.
+/// Description of a drive frequency that is the resonance of each design.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
-/// Names of parameters, of their values in the preset, and of measures. Values have this order: parameters, the
+/// Names of parameters, of the parameters' values in the preset, and of measures. Values have this order: parameters,
+/// the
 /// model's measures, the user's measures.
 pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
@@ -36,17 +37,17 @@ pub(super) struct Names<'n> {
     pub(super) preset: Vec<Value>,
     /// Values of the device, if the grid starts from one.
     pub(super) device: Option<Vec<Value>>,
-    /// For each parameter without its own value, description of the parameters that it follows.
+    /// For each parameter that is not set, description of the parameters from which it is computed.
     pub(super) unset: Vec<Option<&'static str>>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
-    /// True if the model's measures are allowed. They are unknown before a point is run.
+    /// True if the model's measures are allowed. Measures are unknown before a point is run.
     pub(super) are_measured: bool,
     /// User's measures that are allowed.
     pub(super) own: Vec<OwnMeasure>,
 }
 
-/// Returns the description of the parameters that a parameter follows, if it has no own value.
+/// Returns the description of the parameters from which a parameter is computed, if the parameter is not set.
 pub(super) fn followed(value: Value) -> Option<&'static str> {
     match value {
         Value::Given(_) => None,
@@ -60,7 +61,8 @@ impl Names<'_> {
         Parameter::index(self.parameters, name)
     }
 
-    /// Returns the index of the parameter whose value this one has: an unset parameter of one wing has the value of
+    /// Returns the index of the parameter that gives the value of this parameter. An unset parameter of one wing has
+    /// the value of
     /// all wings.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
@@ -133,7 +135,7 @@ impl Scope for Names<'_> {
 /// Returns the expression of `entry`. It must be of the kind `wanted`, and its value must be known before points are
 /// run.
 ///
-/// `None`, with reports, if there are mistakes.
+/// If there are mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -160,7 +162,7 @@ pub(super) fn read(
     None
 }
 
-/// Returns the expression of `entry`; `None`, with a report, if it is not text.
+/// Returns the expression of `entry`. If the entry is not text, reports a mistake and returns `None`.
 ///
 /// # Errors
 /// Mistakes in the expression, which are not reported yet.
@@ -194,7 +196,7 @@ pub(super) fn report<'p>(
     diagnostic
 }
 
-/// A parameter that is set, and its position.
+/// A parameter that is set, and the position of its entry in the file.
 pub(super) type Place = (usize, Range<usize>);
 
 /// An entry of the section for a parameter.
@@ -203,7 +205,7 @@ pub(super) struct Draft<'t> {
     entry: Entry<'t>,
 }
 
-/// Returns the parameters in the section, with their entries.
+/// Returns the parameters in the section, each with its entry.
 pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> Vec<Draft<'t>> {
     let mut drafts = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -222,7 +224,8 @@ pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<
     drafts
 }
 
-/// Reports derived parameters that are also varied, or set in the way that each list of `set` names.
+/// Reports derived parameters that are also varied or set. Each list in `set` names the way in which its parameters are
+/// set.
 pub(super) fn report_derived_twice(
     drafts: &[Draft<'_>],
     axes: &[Placed],
@@ -244,7 +247,7 @@ pub(super) fn report_derived_twice(
     }
 }
 
-/// Returns the expressions of the section, in an order in which they can be computed.
+/// Returns the expressions of the section, in an order in which the expressions can be computed.
 pub(super) fn read_derived(drafts: &[Draft<'_>], names: &Names<'_>, problems: &mut Problems) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
@@ -271,8 +274,8 @@ fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize
         .collect()
 }
 
-/// Returns the formulas ordered so that each follows its dependencies. Formulas in cycles, and formulas that depend
-/// on them, are left out.
+/// Returns the formulas ordered so that each follows its dependencies. The result leaves out formulas in cycles, and
+/// formulas that depend on cycles.
 fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
     let mut waiting: Vec<usize> = (0..needs.len()).collect();
@@ -287,7 +290,7 @@ fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     }
 }
 
-/// Reports formulas that depend on themselves, each cycle once. `order` contains the other formulas.
+/// Reports formulas that depend on themselves. Each cycle is reported once. `order` contains all other formulas.
 fn report_cycles(needs: &[Vec<usize>], order: &[usize], entries: &[&Entry<'_>], problems: &mut Problems) {
     let mut visited: Vec<usize> = order.to_vec();
     for start in 0..needs.len() {
@@ -330,7 +333,7 @@ pub(super) fn read_conditions(
     conditions
 }
 
-/// Adds the measures of the section to `names`, one by one. Each may use the measures above it.
+/// Adds the measures of the section to `names`, one by one. A measure may use the measures above it in the file.
 ///
 /// Returns the names of all measures, including measures with wrong expressions.
 pub(super) fn read_measures(

@@ -95,7 +95,7 @@ pub(super) fn damping(
     Some(Gradient { of, with_respect_to, per: Per::Unit })
 }
 
-/// Returns the indices of the names in a list. `index` finds each name or reports it.
+/// Returns the indices of the names in a list. `index` returns the index of a name, or reports an unknown name.
 fn listed(
     entry: &Entry<'_>,
     problems: &mut Problems,

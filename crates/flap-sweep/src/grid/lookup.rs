@@ -17,7 +17,7 @@ pub(super) struct Lookup<'l> {
 }
 
 impl<'l> Lookup<'l> {
-    /// Returns the parameter called `name` and its index. An unknown name is reported at `span`.
+    /// Returns the parameter called `name` and the index of this parameter. An unknown name is reported at `span`.
     pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'l Parameter<'l>)> {
         let known = self.simulator.parameters();
         let found = Parameter::index(known, name).map(|index| (index, &known[index]));
@@ -27,7 +27,7 @@ impl<'l> Lookup<'l> {
         found
     }
 
-    /// Returns the parameter of `entry` and its index.
+    /// Returns the parameter of `entry` and the index of this parameter.
     pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'l Parameter<'l>)> {
         self.named(entry.key, entry.key_span.clone())
     }
@@ -64,9 +64,11 @@ impl<'l> Lookup<'l> {
     }
 }
 
-/// Returns the reason why a vehicle with these parameters has none called `name`, if the name shows the intention.
+/// Returns the reason why a vehicle with these parameters has no parameter called `name`, if the name shows the
+/// intention.
 ///
-/// The name may be a choice or the frequency of one wing, a difference of wings on one side, or a phase. `None` if
+/// The name may be a choice or the frequency of one wing, a difference without wings on both sides, or a phase. `None`
+/// if
 /// the parameters do not belong to a vehicle.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {

@@ -1,4 +1,4 @@
-//! Section `[output]`: the file for rows, and its columns.
+//! Section `[output]`: the file for rows, and the columns of this file.
 
 use std::path::PathBuf;
 

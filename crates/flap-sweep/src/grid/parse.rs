@@ -127,7 +127,7 @@ struct Points<'n> {
     resonance: Option<AtResonance>,
     derived: Derived,
     conditions: Vec<Condition>,
-    /// Parameters of all wings that the grid sets, although each wing has its own value.
+    /// Parameters of all wings that the grid sets without effect, because each wing has its own value.
     unreached: Vec<&'static Parameter<'static>>,
     names: Names<'n>,
 }
@@ -194,7 +194,7 @@ fn read_points<'n>(
     Points { base, axes, sample_file, resonance, derived, conditions, unreached, names }
 }
 
-/// Returns the values of parameters that are not sampled. They are the default means of normal distributions.
+/// Returns the values of parameters that are not sampled. These values are the default means of normal distributions.
 ///
 /// An unset parameter of one wing has the value of all wings, unless an axis varies this value.
 fn means(base: &Base, simulator: &dyn Simulator, axes: &[axes::Placed]) -> Vec<Value> {
@@ -254,7 +254,7 @@ impl ReadError {
     }
 }
 
-/// Returns the reason with the path, line and column, in the form that terminals turn into links.
+/// Returns the reason with the path, line and column, in a form that terminals show as a link.
 fn placed(path: &Path, error: &InputError) -> String {
     let path = path.display();
     match error {

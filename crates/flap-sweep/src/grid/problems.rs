@@ -8,7 +8,8 @@ use std::sync::Arc;
 use super::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
 
-/// Largest number of stored diagnostics. Further ones are counted, so that a file with millions of mistakes takes
+/// Largest number of stored diagnostics. Further diagnostics are counted, so that a file with millions of mistakes
+/// takes
 /// little time and memory.
 const MOST_KEPT: usize = 1000;
 
@@ -16,7 +17,7 @@ const MOST_KEPT: usize = 1000;
 pub(super) struct Problems {
     source: Arc<Source>,
     found: Vec<Diagnostic>,
-    /// Last diagnostic that was counted but not stored.
+    /// Latest diagnostic that was counted but not stored.
     last: Option<Diagnostic>,
     only_counted: usize,
 }
@@ -83,7 +84,7 @@ impl Problems {
         Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// Returns all diagnostics: in the order of the file, then about other files.
+    /// Returns all diagnostics: first about the file, in the order of the file, then about other files.
     pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found
@@ -92,7 +93,7 @@ impl Problems {
     }
 }
 
-/// Reports the errors of the TOML parser, at most one per line, because one slip often causes several.
+/// Reports the errors of the TOML parser, at most one per line, because one mistake often causes several errors.
 pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems) {
     let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
     let mut lines = HashSet::new();

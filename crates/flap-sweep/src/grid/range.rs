@@ -14,7 +14,7 @@ pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 /// Tolerance for steps that should end at `to`, as a fraction of a step: 0.1 is not exact in binary.
 const HIT: f64 = 1e-9;
 
-/// The two ends, with their entries for messages.
+/// Both ends of a range, with the entries of the ends for messages.
 struct Ends<'e, 't> {
     from: f64,
     to: f64,
@@ -22,7 +22,7 @@ struct Ends<'e, 't> {
     to_entry: &'e Entry<'t>,
 }
 
-/// Spacing of the values between the ends, with its entry for messages.
+/// Spacing of the values between the ends, with the entry of the spacing for messages.
 enum Spacing<'e, 't> {
     /// Number of values.
     Count(&'e Entry<'t>, u64),
@@ -30,7 +30,7 @@ enum Spacing<'e, 't> {
     Step(&'e Entry<'t>, f64),
 }
 
-/// Returns the values of a range. `None`, with a report, if there are mistakes.
+/// Returns the values of a range. If there are mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     let DeValue::Table(table) = axis.value.get_ref() else {
         return None;
@@ -72,7 +72,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     }
 }
 
-/// Returns `from` or `to`, with its entry.
+/// Returns `from` or `to`, with the entry in the file.
 fn end<'e, 't>(
     parameter: &Parameter,
     key: &str,
@@ -84,7 +84,7 @@ fn end<'e, 't>(
     Some((value, entry))
 }
 
-/// Returns `n` or `step`, with its entry.
+/// Returns `n` or `step`, with the entry in the file.
 fn spacing<'e, 't>(
     parameter: &Parameter,
     entries: &'e [Entry<'t>],
@@ -108,7 +108,7 @@ fn spacing<'e, 't>(
     Some(Spacing::Step(entry, size))
 }
 
-/// Returns the missing keys in words; empty if none is missing.
+/// Returns the missing keys in words; empty if no key is missing.
 fn missing_keys(entries: &[Entry<'_>]) -> String {
     let has = |key: &str| table::find(entries, key).is_some();
     let keys = [

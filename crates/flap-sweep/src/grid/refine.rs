@@ -199,7 +199,7 @@ fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<
     names
 }
 
-/// Checks that rows contain a measure, and that it is a number.
+/// Checks that rows contain a measure, and that the measure is a number.
 fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
     let problems = &mut *lookup.problems;
     let Some(index) = rows.columns.iter().position(|known| known == name) else {
@@ -229,7 +229,7 @@ fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, looku
     }
 }
 
-/// Returns the largest errors: one for all measures, or a list with one for each.
+/// Returns the largest errors: one error for all measures, or a list with one error for each measure.
 fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) -> Vec<Option<Error>> {
     let DeValue::Array(list) = entry.value.get_ref() else {
         return measures.iter().map(|measure| error(measure, entry.value, problems)).collect();
@@ -246,7 +246,7 @@ fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) ->
     measures.iter().zip(list).map(|(measure, item)| error(measure, item, problems)).collect()
 }
 
-/// Returns the largest error of a measure: a share, such as `"1 %"`, or a number in the unit of the column.
+/// Returns the largest error of a measure: a percentage, such as `"1 %"`, or a number in the unit of the column.
 fn error(measure: &str, item: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<Error> {
     let is_share = item.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
     if item.get_ref().as_str().is_some() && !is_share {

@@ -12,7 +12,7 @@ use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// Value of a drive frequency that follows the resonance.
+/// Value of a drive frequency that is the resonance of each design.
 pub(super) const WORD: &str = "resonance";
 
 /// Returns true if `entry` sets the drive frequency to the resonance.

@@ -1,4 +1,4 @@
-//! Section `[sample]`: points spread over the design space, or listed in a file. They form one axis.
+//! Section `[sample]`: points that are spread over the design space, or listed in a file. The points form one axis.
 
 pub(super) mod distribution;
 mod file;
@@ -23,9 +23,10 @@ pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "fi
 /// Allowed values of `of`: samples without a list of parameters.
 pub(super) const OF: [&str; 1] = ["device"];
 
-/// Returns the sample of the section, and the file that lists its points, if there is one.
+/// Returns the sample of the section, and the file that lists the points, if there is such a file.
 ///
-/// `base` contains the standard errors of parameters, `means` the values of parameters that are not sampled. A
+/// `base` contains the standard errors of parameters, and `means` contains the values of parameters that are not
+/// sampled. A
 /// parameter with a wrong distribution still takes part, without values, in later checks.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
@@ -99,7 +100,8 @@ pub(super) fn read(
     Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units }, None))
 }
 
-/// Returns a sample of builds of the device: all parameters with standard errors, and their correlations.
+/// Returns a sample of copies of the device, which vary in all parameters with standard errors, with the correlations
+/// of these parameters.
 fn of_device(
     section: &Entry<'_>,
     of: &Entry<'_>,
@@ -144,7 +146,7 @@ fn of_device(
     Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units })
 }
 
-/// Returns the number of points, or `None` with a report.
+/// Returns the number of points. If there is a mistake, reports the mistake and returns `None`.
 fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let Some(entry) = table::find(entries, "n") else {
         problems
@@ -155,7 +157,7 @@ fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) ->
     value::count("n", Design::MAX_POINTS, entry.value, problems)
 }
 
-/// Returns the seed, if there is one.
+/// Returns the seed, if the section has a seed.
 fn seed(entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let value = table::find(entries, "seed")?.value;
     let integer = value.get_ref().as_integer();

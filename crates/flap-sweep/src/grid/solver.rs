@@ -8,7 +8,7 @@ use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 
-/// Returns the settings, with defaults for settings that are not given.
+/// Returns the solver settings, with defaults for settings that are not given.
 pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> SolverSettings {
     let mut settings = SolverSettings::default();
     let Some(entry) = entry else {

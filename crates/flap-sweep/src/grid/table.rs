@@ -61,7 +61,7 @@ pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-/// Returns the entries of a section such as `[solver]`.
+/// Returns the entries of a section, such as `[solver]`.
 pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Entry<'t>> {
     if let DeValue::Table(table) = entry.value.get_ref() {
         return entries(table);
@@ -86,7 +86,7 @@ pub(super) fn report_unknown_key<'p>(
         .did_you_mean(entry.key, allowed.iter().copied())
 }
 
-/// Reports every key that is not among `allowed`. Returns true if there is none.
+/// Reports every key that is not among `allowed`. Returns true if all keys are allowed.
 pub(super) fn check_keys(
     entries: &[Entry<'_>],
     allowed: &[&str],

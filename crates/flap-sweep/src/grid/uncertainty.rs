@@ -13,9 +13,9 @@ use crate::plan::uncertainty::{Correlation, Uncertainty};
 pub(super) const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
 pub(super) const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
 
-/// Returns the value of an entry of `[params]` and its standard error, if it has one.
+/// Returns the value of an entry of `[params]`, and the standard error if the entry has a standard error.
 ///
-/// The value is `None`, with a report, if there are mistakes.
+/// If there are mistakes, reports the mistakes and returns `None` as the value.
 pub(super) fn of_parameter(
     parameter: &Parameter,
     entry: &Entry<'_>,
@@ -127,7 +127,7 @@ fn report_not_tables(value: &Spanned<DeValue<'_>>, problems: &mut Problems) {
         .help("write [[correlation]] above `between` and `coefficient`, once for each pair");
 }
 
-/// Adds a correlation. Returns its pair, which must not be one of the `earlier` pairs of the file.
+/// Adds a correlation. Returns the pair of parameters, which must not be one of the `earlier` pairs of the file.
 fn correlation(
     table: &DeTable<'_>,
     place: &Spanned<DeValue<'_>>,

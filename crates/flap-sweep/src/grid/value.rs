@@ -86,7 +86,7 @@ fn report_no_text(name: &str, options: &[&str], value: &Value<'_>, problems: &mu
     problems.report(value.span(), message).note(listed(options));
 }
 
-/// Reports text that names none of the options.
+/// Reports text that is not the name of an option.
 fn report_no_option(name: &str, options: &[&str], text: &str, value: &Value<'_>, problems: &mut Problems) {
     problems
         .report(value.span(), format!("`{name}` has no option `{text}`"))
@@ -167,7 +167,7 @@ pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Pro
     None
 }
 
-/// Returns the integer, if it is at most `most`.
+/// Returns the integer, if the integer is at most `most`.
 fn at_most(
     name: &str,
     most: u64,
@@ -234,7 +234,7 @@ fn decimal(text: &str) -> Result<f64, UnitError> {
 
 /// Returns the bytes of the file for the bytes `part` in the text of a TOML string.
 ///
-/// If escapes make the text differ from the file, it returns the bytes of the whole string.
+/// If the text differs from the file because of escapes, returns the position of the whole string.
 pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
     let raw = file.get(span.clone()).unwrap_or_default();
     let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|quotes| raw.starts_with(quotes));

@@ -1,4 +1,4 @@
-//! Section `[vehicle]`: wings, their positions, and their differences.
+//! Section `[vehicle]`: wings, positions of wings, and differences between wings.
 
 use std::ops::Range;
 
@@ -36,13 +36,13 @@ pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
 /// Body axes: last parts of the names of parameters.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Group of the parameters that all wings share with the grid, even if they have their own design.
+/// Group of the parameters that are the same for all wings and the grid, even if wings have their own design.
 const DRIVE: &str = "drive";
 
-/// Results of this section that other sections of a grid file need.
+/// Results of the section `[vehicle]` that other sections of a grid file require.
 #[derive(Default)]
 pub(super) struct VehicleSettings {
-    /// Parameters that the section sets, with their positions.
+    /// Parameters that the section sets, with the positions of their entries.
     pub(super) set: Vec<(usize, Range<usize>)>,
     /// Position of the key `damping` if rows have the damping matrix.
     pub(super) damping: Option<Range<usize>>,
@@ -68,7 +68,8 @@ impl VehicleSettings {
     }
 }
 
-/// Turns the design `base` into a vehicle if the section is present. `None`, with a report, if this is impossible.
+/// Turns the design `base` into a vehicle if the section is present. If a vehicle is impossible, reports a mistake and
+/// returns `None`.
 pub(super) fn read(
     root: &[Entry<'_>],
     base: Base,
@@ -143,7 +144,7 @@ pub(super) fn unreached(
     unreached.map(|(_, parameter)| parameter).collect()
 }
 
-/// Table of a wing, and its entries.
+/// Table of a wing, and the entries of the table.
 type WingTable<'t> = (&'t Spanned<DeValue<'t>>, Vec<Entry<'t>>);
 
 /// Returns the tables of the wings.
@@ -239,7 +240,7 @@ fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
     params.is_some_and(|params| params.contains_key(parameter))
 }
 
-/// Values of a vehicle, to which the values of its wings are added.
+/// Values of a vehicle, to which the values of the wings are added.
 struct Own<'o> {
     vehicle: &'o Vehicle,
     /// Design of all wings, with the values of the vehicle.
@@ -327,7 +328,7 @@ impl Own<'_> {
         }
     }
 
-    /// Reads the preset or device of a wing: all of its numbers except the drive.
+    /// Reads the preset or device of a wing: all numbers except the numbers of the drive.
     fn design(&mut self, index: usize, entries: &[Entry<'_>]) {
         let Some(begin) = table::find(entries, "preset").or_else(|| table::find(entries, "device")) else {
             return;
@@ -390,7 +391,7 @@ impl Own<'_> {
         self.shared.devices.extend(design.devices);
     }
 
-    /// Reads a parameter that belongs to one wing.
+    /// Reads a parameter that applies to one wing only.
     fn own_parameter(&mut self, index: usize, entry: &Entry<'_>) {
         let model = self.vehicle.model();
         let mut lookup = Lookup { simulator: model, models: self.models.models, problems: self.problems };

@@ -18,9 +18,10 @@ const HEAD: &str = "\
 # Parameters that are not listed here have the values of the preset.
 ";
 
-/// Returns the text of a device with all values of a plan before its axes are applied.
+/// Returns the text of a device with all values of a plan, before the axes of the plan are applied.
 ///
-/// Every parameter has a comment with its description and range. Read again, the text gives the same numbers bit for
+/// Every parameter has a comment with the description and the range of the parameter. The text reads back as the same
+/// numbers, bit for
 /// bit.
 ///
 /// ```
@@ -92,7 +93,7 @@ fn wrapped(text: &str) -> String {
     page + &line + "\n"
 }
 
-/// Returns the line of a parameter, as a comment if it has no own value.
+/// Returns the line of a parameter. The line is a comment if the parameter is not set.
 fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
     let Parameter { name, unit, .. } = parameter;
     let Some(value) = value.given() else {

@@ -1,6 +1,6 @@
 //! Expressions of grid files: `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
 //!
-//! An expression is checked once, when it is read: names are looked up, and numbers are distinguished from
+//! An expression is checked once, when the expression is read: names are looked up, and numbers are distinguished from
 //! conditions. The result is a flat list of operations. Elementary functions come from `libm`, so values have the
 //! same bits on every machine. See `docs/reference/grid.md` for the language.
 //!
@@ -44,12 +44,12 @@ impl Expression {
         parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
     }
 
-    /// Returns its type: a number or a condition.
+    /// Returns the type of the expression: a number or a condition.
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
-    /// Returns the indices of the values that it reads, in the order of the text.
+    /// Returns the indices of the values that the expression reads, in the order of the text.
     pub fn reads(&self) -> impl Iterator<Item = usize> + '_ {
         self.operations.iter().filter_map(|operation| match operation {
             Operation::Read(place) => Some(*place),
@@ -57,12 +57,14 @@ impl Expression {
         })
     }
 
-    /// Returns its value for these `values` of names: a number, 1 for true, 0 for false, or NaN for an unknown value.
+    /// Returns the value of the expression for the given `values` of names: a number, 1 for true, 0 for false, or NaN
+    /// for an unknown value.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }
 
-    /// The comparisons of which all must hold, in the order of the text. `None` if the expression is not made of comparisons by
+    /// The comparisons that must all hold, in the order of the text. `None` if the expression is not made of
+    /// comparisons by
     /// `<`, `<=`, `>` and `>=` that are joined with `and`.
     pub(crate) fn comparisons(&self) -> Option<Vec<Comparison>> {
         comparisons(&self.operations)
@@ -72,9 +74,9 @@ impl Expression {
 /// A comparison of two numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Comparison {
-    /// The side that must be smaller.
+    /// The side of the comparison that must be smaller.
     pub(crate) less: Expression,
-    /// The side that must be larger.
+    /// The side of the comparison that must be larger.
     pub(crate) more: Expression,
     /// True if the sides must not be equal.
     pub(crate) is_strict: bool,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::units::{self, UnitError};
 
-/// Words behind a number that are no units.
+/// Words after a number that are not units.
 const WORDS: [&str; 3] = ["and", "or", "not"];
 
 /// A number with a unit in a comparison.
@@ -14,23 +14,23 @@ pub struct Quantity<'t> {
     pub number: Range<usize>,
     /// Bytes of the unit.
     pub unit: Range<usize>,
-    /// The name that it is compared with.
+    /// The name with which the quantity is compared.
     pub with: Option<&'t str>,
 }
 
 /// The reason why a number with a unit cannot stand in a comparison; `E` is the reason why a name is not known.
 #[derive(Debug)]
 pub enum QuantityError<E> {
-    /// This quantity is compared with no column.
+    /// The quantity is compared with no column.
     Alone(String),
-    /// There is no such column.
+    /// The rows have no column of this name.
     Unknown(E),
     /// The quantity does not fit the column of this name.
     Unit(String, Box<UnitError>),
 }
 
 impl<E> QuantityError<E> {
-    /// Message and help; those for names that are not known come from the caller.
+    /// Message and help. The caller gives the message and help for unknown names.
     ///
     /// # Errors
     /// The reason why a name is not known.
@@ -46,11 +46,12 @@ impl<E> QuantityError<E> {
     }
 }
 
-/// The comparison `text` with its numbers in the units of the columns that they are compared with, and without units. `unit_of`
+/// The comparison `text` without units: each number is converted to the unit of the column with which the number is
+/// compared. `unit_of`
 /// finds the unit of a column by its name.
 ///
 /// # Errors
-/// [`QuantityError`] for a number with a unit that is compared with no column, or with a column of another kind.
+/// [`QuantityError`] for a number with a unit that is compared with no column, or with a column of another dimension.
 pub fn without_units<E>(
     text: &str,
     unit_of: impl Fn(&str) -> Result<String, E>,
@@ -101,7 +102,7 @@ pub fn quantities(text: &str) -> Vec<Quantity<'_>> {
     found
 }
 
-/// Bytes of the number that `text` begins with; 0 if it begins with something else.
+/// Number of bytes of the number at the beginning of `text`; 0 if `text` begins with something else.
 fn number(text: &str) -> usize {
     let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
     let mut end = digits(0);
@@ -123,7 +124,7 @@ fn number(text: &str) -> usize {
     end
 }
 
-/// Bytes of the unit that `text` begins with; 0 if it begins with something else.
+/// Number of bytes of the unit at the beginning of `text`; 0 if `text` begins with something else.
 fn unit(text: &str) -> usize {
     let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
     let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));
@@ -134,7 +135,8 @@ fn unit(text: &str) -> usize {
     text.find(|letter| !is_part(letter)).unwrap_or(text.len())
 }
 
-/// The name that the text from `start` to `end` is compared with, on its left or on its right.
+/// The name with which the text from `start` to `end` is compared. The name is on the left or on the right of this
+/// text.
 fn compared(text: &str, start: usize, end: usize) -> Option<&str> {
     let is_sign = |letter: char| "<>=!".contains(letter);
     let left = text[..start].trim_end().trim_end_matches(['-', '+']).trim_end();

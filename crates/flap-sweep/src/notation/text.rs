@@ -8,7 +8,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 /// Returns the shortest decimal text that reads back as the same number.
 ///
-/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), others with an exponent (`1.52e-6`,
+/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), other numbers with an exponent (`1.52e-6`,
 /// `1.43e10`). The text always has a point or an exponent, so that programs that infer column types from the first
 /// rows infer floats. NaN is the empty text, which is an empty cell.
 ///
@@ -38,7 +38,7 @@ pub(crate) fn push_float(text: &mut String, value: f64) {
     }
 }
 
-/// Returns the same text as [`float`] for all numbers, but takes several times longer.
+/// Returns the same text as [`float`] for all numbers, but is several times slower.
 fn float_by_standard_library(value: f64) -> String {
     if value.is_nan() {
         return String::new();
@@ -67,7 +67,8 @@ pub fn count(number: u64, thing: &str) -> String {
 /// Largest number of names in a message.
 const MOST_NAMES: usize = 20;
 
-/// Returns names for a message: at most 20, then the number of further ones and the word `thing`, such as `a, b and 3
+/// Returns names for a message: at most 20 names, then the number of further names and the word `thing`, such as `a, b
+/// and 3
 /// more columns`.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
@@ -133,7 +134,8 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Returns the reason why an unset parameter has no number, if it follows no other parameters.
+/// Returns the reason why an unset parameter has no number. The reason is for parameters that are not computed from
+/// other parameters.
 ///
 /// `follows` is the text of [`Kind::Following`].
 pub(crate) fn no_default(follows: &str) -> Option<String> {
@@ -158,16 +160,17 @@ pub(crate) fn digits(hash: u64) -> String {
     format!("{hash:016x}")
 }
 
-/// Length in bytes above which a name is not compared with others.
+/// Length in bytes above which a name is not compared with other names.
 const LONGEST_NAME: usize = 200;
 
-/// Length in bytes below which a name is not searched for within others, because it occurs in too many.
+/// Length in bytes below which a name is not searched for within other names, because short text occurs in too many
+/// names.
 const SHORTEST_PART: usize = 4;
 
-/// Returns the most similar one of `names`, if any is close to `name`.
+/// Returns the most similar name among `names`, if one of `names` is close to `name`.
 ///
-/// It is the mean of a measure (`lift_mean_mn` for `lift`), the first that begins with `name`, the first that contains
-/// it as a word, or the closest spelling.
+/// The function prefers the mean of a measure (`lift_mean_mn` for `lift`), then the first name that begins with `name`.
+/// Further choices are the first name that contains `name` as a word, and the closest spelling.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // The time of a comparison is proportional to the product of both lengths.
     if name.len() > LONGEST_NAME {

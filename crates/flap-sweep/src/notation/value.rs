@@ -7,7 +7,7 @@ use super::units::{self, UnitError};
 /// A text or number that is not a valid value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueError {
-    /// The text is none of the options.
+    /// The text is not the name of an option.
     NoOption {
         /// The text.
         text: String,

@@ -34,15 +34,16 @@ pub struct Way<'a> {
 pub struct Comparison {
     /// First and last value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
-    /// Rows of the branch up after which it jumps to the motion of the other branch, and the same rows of the branch
+    /// Rows of the branch up after which this branch jumps to the motion of the other branch, and the same rows of the
+    /// branch
     /// down.
     ///
-    /// The branches differ at such a row, and agree at the next.
+    /// The branches differ at each of these rows, and agree at the next row.
     pub jumps: [Vec<usize>; 2],
 }
 
-/// Returns the bands and jumps of the branches up and down, which must have the same parameter values. A single
-/// branch has none.
+/// Returns the bands and jumps of the branches up and down. Both branches must have the same parameter values. A single
+/// branch has no bands and no jumps.
 pub fn compared(up: Way<'_>, down: Way<'_>) -> Comparison {
     if up.x.is_empty() || down.x.is_empty() {
         return Comparison { bands: Vec::new(), jumps: [Vec::new(), Vec::new()] };

@@ -1,12 +1,12 @@
 //! Colours of lines, points and cells.
 
-/// Colours of series that are distinct for any colour vision (Okabe and Ito), the darker ones first.
+/// Colours of series that are distinct for any colour vision (Okabe and Ito), the darker colours first.
 pub const SERIES: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
 
 /// Colour of lines and letters over a picture: fronts, percentiles, unstable orbits.
 pub const DARK: &str = "#222222";
 
-/// Colour of points and bars without an own colour.
+/// Default colour of points and bars.
 pub const PLAIN: &str = "#8FB0C9";
 
 /// Colour of cells and points without a value.
@@ -15,7 +15,7 @@ pub const MISSING: &str = "#c9c9c9";
 /// Colour of bands with two stable motions.
 pub const BISTABLE: &str = "#f3e3b3";
 
-/// Part of the sequential map for lines. Its lightest colours are hard to see on white.
+/// Part of the sequential colour map that is used for lines. The lightest colours of the map are hard to see on white.
 pub const MOST_OF_MAP: f64 = 0.88;
 
 /// Returns the position in the sequential map, from 0 to [`MOST_OF_MAP`], of line `index` of `count` ordered lines.
@@ -27,7 +27,7 @@ pub fn shade(index: usize, count: usize) -> Option<f64> {
 
 /// Returns true if numbers from `low` to `high` have both signs.
 ///
-/// The map is then a diverging one with zero in its middle. The smaller side must be at least 2 % of the larger one.
+/// The colour map is then diverging, with zero in the middle. The smaller side must be at least 2 % of the larger side.
 pub fn is_signed(low: f64, high: f64) -> bool {
     const LEAST: f64 = 0.02;
     low < 0.0 && high > 0.0 && (-low).min(high) > LEAST * (-low).max(high)

@@ -20,7 +20,7 @@ pub fn percentile(values: &[f64], share: f64) -> f64 {
     if difference.is_finite() { low + part * difference } else { low * (1.0 - part) + high * part }
 }
 
-/// Bars of a histogram, and percentiles of its values.
+/// Bars of a histogram, and percentiles of the values of the histogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// Ends of the bars, ascending and equidistant, from the smallest to the largest value.
@@ -31,7 +31,7 @@ pub struct Histogram {
     pub marked: [f64; 3],
 }
 
-/// Returns the histogram of the finite `values`; `None` if there are none.
+/// Returns the histogram of the finite `values`; `None` if no value is finite.
 ///
 /// The width of bars follows the rule of Freedman and Diaconis: twice the interquartile range over the cube root of
 /// the number of values. The number of bars is limited to 5 to 60.
@@ -107,8 +107,8 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 /// Returns the rank correlation of each parameter with a measure, in descending order of magnitude, with the
 /// parameter's index.
 ///
-/// Parameters without a correlation are left out. So are parameters with the same or the reverse order as an earlier
-/// one.
+/// The result leaves out parameters without a correlation. It also leaves out parameters with the same or the reverse
+/// order as an earlier parameter.
 pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
     const SAME: f64 = 1.0 - 1e-9;
     let mut found: Vec<(usize, f64)> = Vec::new();

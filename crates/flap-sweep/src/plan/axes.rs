@@ -1,4 +1,5 @@
-//! Axes: the values of one varied parameter, or of several that move together. Also the parameter that a response
+//! Axes: the values of one varied parameter, or of several parameters that vary together. Also the parameter that a
+//! response
 //! follows.
 //!
 //! Values are computed on demand, so an axis of 10^9 values takes no memory.
@@ -58,7 +59,7 @@ pub enum Values {
         mean: f64,
         /// Standard deviation.
         sd: f64,
-        /// Weights of the independent normal numbers of the first dimensions. The sum of their squares is 1.
+        /// Weights of the independent normal numbers of the first dimensions. The sum of the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -73,7 +74,7 @@ impl Values {
         }
     }
 
-    /// Returns true if there are no values.
+    /// Returns true if the axis has no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -108,11 +109,12 @@ impl Values {
         }
     }
 
-    /// Returns the value at a position along the axis, from 0 to [`Values::len`] less 1. At whole numbers it equals
+    /// Returns the value at a position along the axis, from 0 to [`Values::len`] less 1. At whole numbers the result
+    /// equals
     /// [`Values::get`].
     ///
-    /// Values between others continue the spacing of the axis. Between points of a sample there are none: it returns
-    /// the earlier one.
+    /// A value between two values of the axis has the spacing of the axis. Between points of a sample there are no
+    /// values: the function returns the earlier value.
     pub(crate) fn at(&self, position: f64) -> f64 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -142,7 +144,7 @@ fn decimal(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }
 
-/// One axis: one or several parameters that move together.
+/// One axis: one parameter, or several parameters that vary together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub(super) parameters: Vec<(usize, Values)>,
@@ -159,7 +161,7 @@ impl Axis {
         &self.parameters
     }
 
-    /// Returns the number of positions along the axis: the length of its shortest list of values.
+    /// Returns the number of positions along the axis: the length of the shortest list of values.
     pub fn len(&self) -> u64 {
         self.parameters.iter().map(|(_, values)| values.len()).min().unwrap_or(0)
     }
@@ -194,7 +196,7 @@ impl Axes {
     /// Returns the product of `axes`.
     ///
     /// # Errors
-    /// [`TooManyPoints`] if it has more than [`Axes::MAX_POINTS`] points.
+    /// [`TooManyPoints`] if the product has more than [`Axes::MAX_POINTS`] points.
     pub fn new(axes: Vec<Axis>) -> Result<Axes, TooManyPoints> {
         // An axis without positions counts as one, so that the others are still checked against the limit.
         let mut product = 1_u64;
@@ -211,7 +213,7 @@ impl Axes {
         Ok(Axes { axes, points })
     }
 
-    /// No axes: their product is one point.
+    /// No axes. The product of no axes is one point.
     pub(crate) fn none() -> Axes {
         Axes { axes: Vec::new(), points: 1 }
     }

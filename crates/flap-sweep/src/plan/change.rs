@@ -21,7 +21,7 @@ pub enum ChangeError {
     /// An axis varies the parameter.
     #[error("an axis varies `{0}`")]
     Varied(String),
-    /// The parameter is computed from others.
+    /// The parameter is computed from other parameters.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
     /// The drive frequency is the resonance of each design.
@@ -44,7 +44,7 @@ pub enum ChangeError {
     /// The plan has no point with this index, or the indices are not in ascending order.
     #[error("point {0} is not in the grid, or not in ascending order")]
     NoPoint(u64),
-    /// Rows have no such measure, or it is listed twice.
+    /// Rows have no such measure, or the measure is listed twice.
     #[error("there is no measure `{0}`, or it is listed twice")]
     NoColumn(String),
     /// Rows have no derivatives with respect to this parameter.
@@ -56,7 +56,7 @@ pub enum ChangeError {
     /// Rows at the resonance of each design have neither derivatives nor initial states.
     #[error("each design runs at its own resonance, so rows have neither derivatives nor states")]
     AtResonance,
-    /// The model computes rows alone, for this reason.
+    /// The model computes only rows, for the contained reason.
     #[error("{0}")]
     NoMotions(String),
     /// The number of states differs from the number of points.
@@ -68,10 +68,10 @@ pub enum ChangeError {
 }
 
 impl Plan {
-    /// Returns the plan with these tolerances and limits.
+    /// Returns the plan with the given tolerances and limits of the solver.
     ///
     /// # Errors
-    /// [`ChangeError::Solver`] if a setting is out of its range.
+    /// [`ChangeError::Solver`] if a setting is out of range.
     pub fn with_solver(mut self, solver: SolverSettings) -> Result<Plan, ChangeError> {
         let is_allowed = |setting: &Setting| match setting.kind {
             SettingKind::Number { below, get, .. } => get(&solver) > 0.0 && get(&solver) < below,
@@ -108,7 +108,7 @@ impl Plan {
     /// `names` are names of columns of the model or of the plan's own measures.
     ///
     /// # Errors
-    /// [`ChangeError::NoColumn`] if there is no such column, or it is listed twice.
+    /// [`ChangeError::NoColumn`] if there is no such column, or a column is listed twice.
     pub fn with_columns(mut self, names: &[String]) -> Result<Plan, ChangeError> {
         let known: Vec<&str> = self.measured().collect();
         let mut columns = Vec::with_capacity(names.len());
@@ -194,10 +194,12 @@ impl Plan {
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
-    /// Returns the plan without its preset. Parameters in `given` are set or varied later; others follow them.
+    /// Returns the plan without its preset. Parameters in `given` are set or varied later. Other parameters are
+    /// computed from these parameters.
     ///
     /// # Errors
-    /// [`ChangeError::Missing`] if parameters without a default that follow no others are not in `given`.
+    /// [`ChangeError::Missing`] if `given` lacks a parameter that has no default and is not computed from other
+    /// parameters.
     pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
         let mut missing = Vec::new();
         let parameters = self.space.robot.parameters();
@@ -217,7 +219,7 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan crossed with an axis, before all others, of values from a program.
+    /// Returns the plan combined with an axis of values from a program. The new axis is before all other axes.
     ///
     /// `parameters` contains equally many values for each parameter. All points are run. Values need not be in range:
     /// a point with a value out of range has a row with the status invalid.
@@ -295,10 +297,10 @@ impl Plan {
         self
     }
 
-    /// The plan of one point with these values of the varied parameters. They need not be in range.
+    /// The plan of one point with these values of the varied parameters. The values need not be in range.
     ///
     /// # Errors
-    /// [`ChangeError::TooManyPoints`], which one point is not.
+    /// [`ChangeError::TooManyPoints`], which does not occur for one point.
     pub(crate) fn at(mut self, varied: &[(usize, f64)]) -> Result<Plan, ChangeError> {
         let values = varied.iter().map(|(parameter, value)| (*parameter, Values::Unchecked(vec![*value])));
         self.space.axes = Axes::new(vec![Axis::new(values.collect())])?;
@@ -306,8 +308,8 @@ impl Plan {
         Ok(self.with_new_axes())
     }
 
-    /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A parameter that
-    /// is NaN follows others, as before.
+    /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A
+    /// parameter that is NaN is computed from other parameters, as before.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {
         for (known, value) in self.space.base.iter_mut().zip(values) {
@@ -336,7 +338,7 @@ impl Plan {
         self
     }
 
-    /// Returns the plan with more points after the others, each as a position along each axis.
+    /// Returns the plan with additional points at the end. A point is given as a position along each axis.
     ///
     /// # Errors
     /// [`ChangeError::NoPoint`] with the index of the first point that is outside the axes.
@@ -347,7 +349,7 @@ impl Plan {
         Ok(self.followed_by(more))
     }
 
-    /// Returns the plan with more points, which must be within the axes, after the others.
+    /// Returns the plan with additional points at the end. The points must be within the axes.
     pub(crate) fn followed_by(mut self, more: Vec<Vec<f64>>) -> Plan {
         Arc::make_mut(&mut self.added).extend(more);
         self

@@ -2,17 +2,18 @@
 
 use crate::notation::expression::{Expression, Kind};
 
-/// Parameters computed from others.
+/// Parameters that are computed from other parameters.
 #[derive(Clone, Debug, Default)]
 pub struct Derived {
     /// Indices into the model's parameter table with their expressions, in the order of the file.
     formulas: Vec<(usize, Expression)>,
-    /// Indices of `formulas`, each after the formulas on which it depends.
+    /// Indices of `formulas` in an order in which each formula is after the formulas on which it depends.
     order: Vec<usize>,
 }
 
 impl Derived {
-    /// Returns parameters with these expressions, computed in this `order`. In it, each must follow its dependencies.
+    /// Returns parameters with these expressions, computed in this `order`. In `order`, each expression must be after
+    /// its dependencies.
     pub(crate) fn new(formulas: Vec<(usize, Expression)>, order: Vec<usize>) -> Derived {
         Derived { formulas, order }
     }
@@ -33,7 +34,7 @@ impl Derived {
     }
 }
 
-/// A condition. Points that do not satisfy it are not run.
+/// A condition. Points that do not satisfy the condition are not run.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// Name in the grid file.
@@ -42,7 +43,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Returns true if the point with these values satisfies it; `None` if this is unknown.
+    /// Returns true if the point with these values satisfies the condition; `None` if the result is unknown.
     pub fn holds(&self, values: &[f64]) -> Option<bool> {
         let value = self.expression.value(values);
         (!value.is_nan()).then_some(value != 0.0)
@@ -58,12 +59,13 @@ pub struct OwnMeasure {
 }
 
 impl OwnMeasure {
-    /// Returns the type of its values: a number, or true or false.
+    /// Returns the type of the measure's values: a number, or true or false.
     pub fn kind(&self) -> Kind {
         self.expression.kind()
     }
 
-    /// Returns its value. `values` contains the parameters, the model's measures and the user's measures above it.
+    /// Returns the value of the measure. `values` contains the parameters, the model's measures and the user's measures
+    /// above this measure.
     ///
     /// NaN if the value is not finite or unknown.
     pub(crate) fn value(&self, values: &[f64]) -> f64 {

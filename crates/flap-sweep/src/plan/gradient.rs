@@ -32,7 +32,7 @@ impl Gradient {
         self.of.len() * self.with_respect_to.len()
     }
 
-    /// Returns true if there are none.
+    /// Returns true if there are no derivatives.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -119,18 +119,19 @@ pub enum NoShares {
     /// The parameter is a count.
     #[error("has whole numbers as values, so there is no derivative with respect to it")]
     Whole,
-    /// The parameter is not set. The text describes the parameters that it follows.
+    /// The parameter is not set. The text describes the parameters from which the parameter is computed.
     #[error("is not set: {}", following(.0))]
     Unset(&'static str),
 }
 
-/// Returns a sentence about the parameters that an unset parameter follows, or that it has no default.
+/// Returns a sentence about the parameters from which an unset parameter is computed. Without such parameters, the
+/// sentence says that the parameter has no default.
 fn following(others: &str) -> String {
     text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }
 
 impl NoShares {
-    /// Returns the remedy in a grid file; empty if there is none.
+    /// Returns the remedy in a grid file; empty if there is no remedy.
     pub fn help(self) -> &'static str {
         match self {
             NoShares::Derived => {
@@ -144,13 +145,15 @@ impl NoShares {
 
 /// Share of the largest published value below which a value counts as small.
 ///
-/// It is not larger because robots may be far smaller than the published ones.
+/// The size is not larger because robots may be far smaller than the published robots.
 const SMALL: f64 = 1e-3;
 
-/// Returns the size (SI) to which relative changes of a parameter refer; `None` if it is zero and has no typical
+/// Returns the size (SI) to which relative changes of a parameter refer; `None` if the parameter is zero and has no
+/// typical
 /// size.
 ///
-/// It is the parameter's value. For a value of zero, or so small that changes would be lost in rounding, it is a
+/// The size is the value of the parameter. If the value is zero, or so small that changes would be lost in rounding,
+/// the size is a
 /// typical size.
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
@@ -163,7 +166,7 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
-/// Returns true if a parameter is zero and cannot be negative, so that its differences are one-sided.
+/// Returns true if a parameter is zero and cannot be negative. Differences of such a parameter are one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
     let range = match parameters[index].kind {
         Kind::Number(range) | Kind::Following(range, _) => range,
@@ -172,7 +175,7 @@ pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
-/// Returns a value after a change by a share of its [`size`].
+/// Returns a value after a change by a fraction of its [`size`].
 pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     match size {
         Some(size) if size != value => share.mul_add(size, value),
@@ -182,8 +185,8 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 
 /// Returns the typical size of a parameter (SI).
 ///
-/// For a parameter of one wing or a difference, it is the size of the parameter of all wings. Otherwise it is the
-/// published size, or the size of such quantities in insect-scale robots.
+/// For a parameter of one wing or a difference, the result is the size of the parameter of all wings. Otherwise the
+/// result is the published size, or the size of such quantities in insect-scale robots.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -225,7 +228,7 @@ fn published(simulator: &dyn Simulator, index: usize) -> f64 {
 /// Checks that rows can have derivatives with respect to `parameter`.
 ///
 /// # Errors
-/// [`NoShares`] if they cannot.
+/// [`NoShares`] if rows cannot have these derivatives.
 pub(crate) fn check(
     parameter: &Parameter,
     is_derived: bool,

@@ -1,4 +1,4 @@
-//! Checked design spaces: their points, and the settings for running each point.
+//! Checked design spaces: the points of a design space, and the settings for running each point.
 //!
 //! - [`Plan`]: a checked design space, and methods that change it
 //! - [`axes`]: values of varied parameters

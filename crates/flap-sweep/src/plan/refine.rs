@@ -4,7 +4,8 @@ use flap_core::parameter::{Kind, Parameter, Range};
 
 use super::axes::{Axis, Values};
 
-/// Refinement of a grid: after the points of its axes, points are added where interpolation of their rows errs.
+/// Refinement of a grid: after the points of the axes, points are added where interpolation between rows has a large
+/// error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refine {
     /// Measures whose interpolation error is limited; at least one.
@@ -18,7 +19,7 @@ pub struct Refine {
 }
 
 impl Refine {
-    /// Largest accepted number of points. All of them are held in memory.
+    /// Largest accepted number of points. All points are held in memory.
     pub const MOST_POINTS: u64 = 1_000_000;
 
     /// Largest number of refined axes: a box between axes has 2^6 corners.
@@ -52,19 +53,19 @@ pub enum Error {
 /// Reason why points cannot be added along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotRefined {
-    /// It varies several parameters together.
+    /// The axis varies several parameters together.
     Zip,
-    /// Its values are options.
+    /// The values of the axis are options.
     Choice,
-    /// Its values are whole numbers.
+    /// The values of the axis are whole numbers.
     Whole,
-    /// Its values do not form intervals: there is one, or they neither rise nor fall.
+    /// The values of the axis do not form intervals: there is only one value, or the values neither rise nor fall.
     Order,
-    /// It is a sample.
+    /// The axis is a sample.
     Sample,
 }
 
-/// Returns the reason why points cannot be added along an axis; `None` if they can.
+/// Returns the reason why points cannot be added along an axis; `None` if points can be added.
 pub fn not_refined(axis: &Axis, parameters: &[Parameter<'_>]) -> Option<NotRefined> {
     let [(parameter, values)] = axis.parameters() else { return Some(NotRefined::Zip) };
     match parameters[*parameter].kind {

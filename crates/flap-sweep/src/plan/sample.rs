@@ -1,7 +1,7 @@
-//! Samples of a design space: points spread over it at random or more evenly.
+//! Samples of a design space: points that are spread over the design space at random or more evenly.
 //!
 //! A [`Design`] spreads points over the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
-//! point is computed in constant time and depends on the seed and its index alone.
+//! point is computed in constant time and depends only on the seed and on the index of the point.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};

@@ -1,4 +1,4 @@
-//! Selection of the points of a plan that are run: all points, every n-th, or a list.
+//! Selection of the points of a plan that are run: all points, every n-th point, or a list of points.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,7 +11,7 @@ pub enum Selection {
     /// All points.
     #[default]
     All,
-    /// One machine's points.
+    /// The points of one machine.
     Shard(Shard),
     /// Listed points, in ascending order.
     Listed(Vec<u64>),
@@ -77,7 +77,7 @@ impl Shard {
     /// Largest number of shards of a plan.
     pub const MOST: u64 = 1_000_000;
 
-    /// Returns the number of this shard, from 1.
+    /// Returns the number of this shard, counted from 1.
     pub fn number(self) -> u64 {
         self.number
     }
@@ -114,7 +114,7 @@ impl FromStr for Shard {
     }
 }
 
-/// Returns an ascending list of indices as text, with ranges for consecutive ones: `3,17,20-31`.
+/// Returns an ascending list of indices as text, with ranges for consecutive indices: `3,17,20-31`.
 pub fn list_text(list: &[u64]) -> String {
     let runs = list.chunk_by(|a, b| a + 1 == *b);
     let run = |run: &[u64]| match run {

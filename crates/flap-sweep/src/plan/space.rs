@@ -23,7 +23,7 @@ use crate::resonance::AtResonance;
 
 /// A checked design space, and the settings for running its points.
 ///
-/// [`crate::grid`] makes plans from grid files. Methods that change a plan keep it valid: values are in their ranges,
+/// [`crate::grid`] makes plans from grid files. Methods that change a plan keep the plan valid: values are in range,
 /// and each parameter is set, varied or derived in one place. The selected points are points of the plan.
 #[derive(Clone)]
 pub struct Plan {
@@ -34,7 +34,7 @@ pub struct Plan {
     pub(super) begins: Vec<Option<Vec<f64>>>,
     /// Names of the state's components in rows; empty if rows contain no state.
     pub(super) states: Vec<String>,
-    /// Points that follow the points of the axes: a position along each axis.
+    /// Points after the points of the axes. A point is given as a position along each axis.
     pub(super) added: Arc<Vec<Vec<f64>>>,
 }
 
@@ -51,27 +51,27 @@ pub(crate) struct Space {
     pub(crate) base: Vec<Value>,
     /// Parameters whose values, here or along an axis, have units in the file.
     pub(crate) with_units: WithUnits,
-    /// Standard errors of these values, and their correlations.
+    /// Standard errors of the values, and correlations of the standard errors.
     pub(crate) uncertainty: Uncertainty,
-    /// Devices of the grid: its own device first, then the devices on which this one is based.
+    /// Devices of the grid: first the device of the grid, then the devices on which this device is based.
     pub(crate) devices: Vec<Source>,
     /// Varied parameters.
     pub(crate) axes: Axes,
-    /// Refinement of the grid of the axes, if there is one.
+    /// Refinement of the grid of the axes, if the grid is refined.
     pub(crate) refine: Option<Refine>,
-    /// File that lists the points of the sample, if there is one.
+    /// File that lists the points of the sample, if there is such a file.
     pub(crate) points_file: Option<PointsFile>,
-    /// Parameters computed from others.
+    /// Parameters that are computed from other parameters.
     pub(crate) derived: Derived,
-    /// Conditions. Points that do not satisfy them are not run.
+    /// Conditions. Points that do not satisfy all conditions are not run.
     pub(crate) conditions: Vec<Condition>,
-    /// Columns computed from the model's measures. Each may use the ones before it.
+    /// Columns that are computed from the model's measures. A column may use the columns before it.
     pub(crate) measures: Vec<OwnMeasure>,
     /// Derivatives in rows.
     pub(crate) gradient: Option<Gradient>,
     /// Tolerances and limits of the integration.
     pub(crate) solver: SolverSettings,
-    /// File for rows, and its columns.
+    /// File for rows, and the columns of this file.
     pub(crate) output: Output,
     /// Parameters of all wings that the grid sets or varies, although each wing has its own value.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
@@ -140,12 +140,13 @@ impl Plan {
         self.space.with_units.contain(parameter)
     }
 
-    /// Returns the standard errors of these values, and their correlations.
+    /// Returns the standard errors of the values, and the correlations of the standard errors.
     pub fn uncertainty(&self) -> &Uncertainty {
         &self.space.uncertainty
     }
 
-    /// Returns the devices of the plan as read: the grid's own first, then the devices on which this one is based.
+    /// Returns the devices of the plan as read: first the device of the grid, then the devices on which this device is
+    /// based.
     pub fn devices(&self) -> &[Source] {
         &self.space.devices
     }
@@ -155,39 +156,39 @@ impl Plan {
         &self.space.axes
     }
 
-    /// Returns the refinement of the grid, if there is one. Curves are not refined.
+    /// Returns the refinement of the grid, if the grid is refined. Curves are not refined.
     pub fn refine(&self) -> Option<&Refine> {
         self.space.refine.as_ref().filter(|_| self.followed().is_none())
     }
 
-    /// Returns the points that follow the points of the axes, each as a position along each axis.
+    /// Returns the points after the points of the axes. A point is given as a position along each axis.
     ///
     /// Position 1.5 is between the second and the third value.
     pub fn added(&self) -> &[Vec<f64>] {
         &self.added
     }
 
-    /// Returns the file that lists the points of the sample, if there is one.
+    /// Returns the file that lists the points of the sample, if there is such a file.
     pub fn points_file(&self) -> Option<&PointsFile> {
         self.space.points_file.as_ref()
     }
 
-    /// Returns the parameters computed from others.
+    /// Returns the parameters that are computed from other parameters.
     pub fn derived(&self) -> &Derived {
         &self.space.derived
     }
 
-    /// Returns the conditions. Points that do not satisfy them are not run.
+    /// Returns the conditions. Points that do not satisfy all conditions are not run.
     pub fn conditions(&self) -> &[Condition] {
         &self.space.conditions
     }
 
-    /// Returns the columns computed from the model's measures. Each may use the ones before it.
+    /// Returns the columns that are computed from the model's measures. A column may use the columns before it.
     pub fn measures(&self) -> &[OwnMeasure] {
         &self.space.measures
     }
 
-    /// Returns the derivatives in rows, if there are any. Rows of curves have none.
+    /// Returns the derivatives in rows, if rows have derivatives. Rows of curves have no derivatives.
     pub fn gradient(&self) -> Option<&Gradient> {
         self.space.gradient.as_ref().filter(|_| self.followed().is_none())
     }
@@ -197,7 +198,7 @@ impl Plan {
         &self.space.solver
     }
 
-    /// Returns the file for rows, and its columns.
+    /// Returns the file for rows, and the columns of this file.
     pub fn output(&self) -> &Output {
         &self.space.output
     }
@@ -238,7 +239,7 @@ impl Plan {
         self.refine().map_or(0, |refine| refine.max_points).max(self.len())
     }
 
-    /// Returns true if there are no points.
+    /// Returns true if the plan has no points.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -250,8 +251,8 @@ impl Plan {
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
-    /// Returns the values of point number `index` with one parameter `moved`, and the derived parameters computed
-    /// from it.
+    /// Returns the values of point number `index` with one parameter `moved`, and the derived parameters that are
+    /// computed from the moved parameter.
     pub(crate) fn changed(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
         self.values(index, Some((parameter, &moved)))
     }
@@ -282,7 +283,7 @@ impl Plan {
 
     /// Returns the indices of the parameters that differ between points, in the order of their columns.
     ///
-    /// These are the varied parameters in the order of the axes, then the derived ones.
+    /// The indices are first the varied parameters in the order of the axes, then the derived parameters.
     pub fn differing(&self) -> impl Iterator<Item = usize> + '_ {
         self.axes().varied().chain(self.derived().parameters())
     }
@@ -320,7 +321,7 @@ impl Robot {
         }
     }
 
-    /// Returns the vehicle, if there is one.
+    /// Returns the vehicle, if the plan is a vehicle.
     pub fn vehicle(&self) -> Option<&Vehicle> {
         match self {
             Robot::Wing(_) => None,
@@ -340,10 +341,10 @@ impl Deref for Robot {
     }
 }
 
-/// File for rows, and its columns.
+/// File for rows, and the columns of this file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
-    /// Path in the grid file, relative to the working directory; `None` if the file names none.
+    /// Path in the grid file, relative to the working directory; `None` if the grid file has no path.
     pub path: Option<PathBuf>,
     /// Indices in the requested order: into the model's columns, followed by the plan's own measures and the columns
     /// about the run. `None` for all columns.
@@ -355,7 +356,7 @@ pub struct Output {
 pub struct PointsFile {
     /// Path, relative to the working directory.
     pub path: PathBuf,
-    /// 64-bit XXH3 hash of its text.
+    /// 64-bit XXH3 hash of the text of the file.
     pub xxh3: u64,
 }
 

@@ -1,11 +1,12 @@
-//! Standard errors of parameters, and correlations between them.
+//! Standard errors of parameters, and correlations between parameters.
 
 use nalgebra::DMatrix;
 
-/// Standard errors of parameters, and correlations between them.
+/// Standard errors of parameters, and correlations between parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uncertainty {
-    /// Indices into the model's parameter table, ascending, each with its standard error in the parameter's SI unit.
+    /// Indices into the model's parameter table in ascending order, each with the standard error in the parameter's SI
+    /// unit.
     errors: Vec<(usize, f64)>,
     correlations: Vec<Correlation>,
 }
@@ -25,7 +26,8 @@ impl Uncertainty {
         self.errors.is_empty()
     }
 
-    /// Returns indices of parameters, ascending, each with its standard error in its SI unit.
+    /// Returns the indices of parameters in ascending order, each with the standard error of the parameter in its SI
+    /// unit.
     pub fn errors(&self) -> &[(usize, f64)] {
         &self.errors
     }
@@ -35,12 +37,13 @@ impl Uncertainty {
         &self.correlations
     }
 
-    /// Returns the standard error of a parameter in its SI unit, if it has one.
+    /// Returns the standard error of a parameter in its SI unit, if the parameter has a standard error.
     pub fn error(&self, parameter: usize) -> Option<f64> {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
     }
 
-    /// Sets or removes the standard error of a parameter. Its correlations belong to the earlier value and are
+    /// Sets or removes the standard error of a parameter. The correlations of the parameter belong to the earlier value
+    /// and are
     /// removed.
     pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
         self.errors.retain(|(index, _)| *index != parameter);
@@ -49,7 +52,7 @@ impl Uncertainty {
         self.errors.sort_by_key(|(index, _)| *index);
     }
 
-    /// Sets the correlation of two parameters, in place of an earlier one.
+    /// Sets the correlation of two parameters, in place of an earlier correlation.
     pub(crate) fn correlate(&mut self, correlation: Correlation) {
         let [one, other] = correlation.between;
         self.correlations.retain(|old| old.between != [one, other] && old.between != [other, one]);

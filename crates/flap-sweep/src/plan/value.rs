@@ -10,7 +10,7 @@ use flap_core::simulate::Simulator;
 pub enum Value {
     /// A number in SI units, or the index of an option.
     Given(f64),
-    /// The parameter is not set. The text describes the parameters that it follows.
+    /// The parameter is not set. The text describes the parameters from which the parameter is computed.
     Follows(&'static str),
     /// The drive frequency is set to the resonance of each design.
     Resonance,
@@ -31,7 +31,7 @@ impl Value {
         values.map(value).collect()
     }
 
-    /// Returns the number, if one is given.
+    /// Returns the number, if a number is given.
     pub fn given(self) -> Option<f64> {
         match self {
             Value::Given(value) => Some(value),

@@ -1,9 +1,9 @@
 //! Estimates of the error of linear interpolation along an edge of a box.
 
-/// A point on a line: its coordinate and its measure, NaN if unknown.
+/// A point on a line: the coordinate and the measure of the point. An unknown measure is NaN.
 pub(super) type Sample = (f64, f64);
 
-/// Largest allowed error of a measure, and the range of the measure over all rows, in its unit.
+/// Largest allowed error of a measure, and the range of the measure over all rows, both in the unit of the measure.
 pub(super) struct Tolerance {
     pub(super) error: f64,
     pub(super) range: f64,
@@ -12,7 +12,7 @@ pub(super) struct Tolerance {
 /// Ratio of the errors of two parabolas above which only one of them contains a jump or a kink.
 const MOST_APART: f64 = 8.0;
 
-/// An edge of a box, with the nearest points on its line.
+/// An edge of a box, with the nearest points on the line through the edge.
 pub(super) struct Edge {
     pub(super) before: Option<Sample>,
     pub(super) ends: [Sample; 2],
@@ -24,13 +24,14 @@ pub(super) struct Edge {
 impl Edge {
     /// Returns the estimated error of linear interpolation between the ends, relative to the allowed error.
     ///
-    /// If the measure is known at one end only, the estimate is half of the range of the measure. If it is unknown at
-    /// both ends, there is nothing to interpolate.
+    /// If the measure is known at one end only, the estimate is half of the range of the measure. If the measure is
+    /// unknown at both ends, there is nothing to interpolate.
     ///
     /// The estimate is the error of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two
-    /// such parabolas, and the mean of their errors counts. Beside a jump or a kink, only one parabola contains it. The
+    /// such parabolas, and the estimate is the mean of both errors. Beside a jump or a kink, only one parabola contains
+    /// the jump or kink. The
     /// larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges the larger error counts,
-    /// because nothing between their ends is known.
+    /// because nothing between the ends is known.
     ///
     /// If the measure changes more than twice as much as beside the edge, it may jump: the estimate is half of the
     /// change.
@@ -75,9 +76,10 @@ impl Edge {
 }
 
 /// Returns the axis along which a box is halved, from its `errors` along the axes relative to the allowed error;
-/// `None` if it is halved along none.
+/// `None` if the box is not halved.
 ///
-/// Halving leaves a quarter of the error along its axis. The error of a jump stays. A box is therefore also halved
+/// Halving leaves a quarter of the error along the halved axis. The error of a jump stays. A box is therefore also
+/// halved
 /// along the other axes that a jump crosses: each earlier halving counts as half of the error.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;

@@ -1,4 +1,4 @@
-//! Boxes between points: their corners, their halving, and the choice of the next points.
+//! Boxes between points: corners of boxes, halving of boxes, and the choice of the next points.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -8,7 +8,7 @@ use super::estimate::{self, Edge, Tolerance};
 /// Coordinates along a refined axis, in which rows are interpolated.
 #[derive(Clone, Debug)]
 pub(super) enum Side {
-    /// Equidistant coordinates, also for a constant ratio of values. Contains their number.
+    /// Equidistant coordinates, also for values with a constant ratio. Contains the number of coordinates.
     Even(u64),
     /// Listed values.
     Listed(Vec<f64>),
@@ -43,12 +43,12 @@ impl Side {
 pub(super) struct Place {
     /// Number of the combination of the axes that are not refined.
     pub(super) map: u64,
-    /// Along each refined axis, the number of smallest steps from its first value.
+    /// Along each refined axis, the number of smallest steps from the first value of the axis.
     pub(super) at: Vec<u64>,
 }
 
 impl Place {
-    /// Returns the place with another position along one axis.
+    /// Returns the place after a change of the position along one axis.
     fn moved(&self, axis: usize, to: u64) -> Place {
         let mut place = self.clone();
         place.at[axis] = to;
@@ -64,7 +64,7 @@ struct Cell {
     halvings: Vec<u32>,
 }
 
-/// Points with their measures, and the boxes between them.
+/// Points with their measures, and the boxes between the points.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     sides: Vec<Side>,
@@ -75,7 +75,8 @@ pub(super) struct Mesh {
     measured: Vec<f64>,
     /// Number of each point.
     numbers: HashMap<Place, usize>,
-    /// For each axis the lines along it, by their place at position 0: the points on the line by their position.
+    /// For each axis, the lines along the axis. The key of a line is its place at position 0, and the key of a point on
+    /// the line is its position.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,
 }
@@ -112,7 +113,7 @@ impl Mesh {
         Mesh { sides, most, measures, measured: Vec::new(), numbers: HashMap::new(), lines, cells }
     }
 
-    /// Adds a point with its measures. NaN is unknown.
+    /// Adds a point with its measures. An unknown measure is NaN.
     pub(super) fn add(&mut self, place: Place, measures: &[f64]) {
         let number = self.numbers.len();
         for (axis, lines) in self.lines.iter_mut().enumerate() {
@@ -122,7 +123,7 @@ impl Mesh {
         self.numbers.insert(place, number);
     }
 
-    /// Returns for each measure the difference between its largest and its smallest value; zero if there are none.
+    /// Returns the difference between the largest and the smallest value of each measure; zero if there are no values.
     pub(super) fn ranges(&self) -> Vec<f64> {
         let range = |measure: usize| {
             let values = self.measured.iter().skip(measure).step_by(self.measures);
@@ -135,9 +136,10 @@ impl Mesh {
         (0..self.measures).map(range).collect()
     }
 
-    /// Halves boxes whose estimated error is larger than the allowed one, in the order of their [`Halving::gain`]. Returns the middles of their edges that are not points yet, in ascending order.
+    /// Halves boxes whose estimated error is larger than the allowed error, in the order of [`Halving::gain`]. Returns
+    /// the middles of the edges of halved boxes that are not yet points, in ascending order.
     ///
-    /// It ends at the first number that is at least `wanted`, and returns at most `room` places.
+    /// The halving ends when there are at least `wanted` places, and returns at most `room` places.
     pub(super) fn next_round(&mut self, tolerances: &[Tolerance], (wanted, room): (u64, u64)) -> Vec<Place> {
         let mut places = BTreeSet::new();
         loop {
@@ -167,7 +169,8 @@ impl Mesh {
         }
     }
 
-    /// Returns the number of boxes, of boxes with too large an estimated error, and of those among them that can be
+    /// Returns the number of boxes, of boxes with too large an estimated error, and of boxes with too large an error
+    /// that can be
     /// halved.
     pub(super) fn count(&self, tolerances: &[Tolerance]) -> [u64; 3] {
         let errors = self.cells.iter().map(|cell| self.errors(cell, tolerances).iter().sum::<f64>());

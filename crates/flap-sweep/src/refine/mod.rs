@@ -24,16 +24,16 @@ use crate::table::layout::Layout;
 use estimate::Tolerance;
 use mesh::{Mesh, Place, Side};
 
-/// The rows of a refined grid so far, and the choice of the points after them.
+/// The rows of a refined grid so far, and the choice of the next points.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     refine: Refine,
-    /// For each axis of the plan its length, and its index among the refined axes.
+    /// For each axis of the plan, the length of the axis, and the index of the axis among the refined axes.
     axes: Vec<(u64, Option<usize>)>,
     /// Columns of the measures in a row.
     columns: Vec<usize>,
     mesh: Mesh,
-    /// Points without a row, in their order.
+    /// Points without a row, in the order of the points.
     waiting: VecDeque<Place>,
     points: u64,
     rounds: u64,
@@ -57,7 +57,8 @@ pub struct Refined {
 impl Refinement {
     /// Returns the refinement of `plan` before its first row.
     ///
-    /// `None` if the plan has none, selects only part of its points, or leaves a measure out of its rows.
+    /// `None` if the plan has no refinement, selects only part of its points, or leaves a measure of the refinement out
+    /// of its rows.
     pub fn of(plan: &Plan) -> Option<Refinement> {
         let refine = plan.refine().filter(|_| *plan.selection() == Selection::All)?.clone();
         let names = Layout::of(plan).names();
@@ -76,7 +77,8 @@ impl Refinement {
         Some(refinement)
     }
 
-    /// Receives the row of the next point. `cell` returns the number in a column; NaN if it is unknown or the point is
+    /// Receives the row of the next point. `cell` returns the number in a column; NaN if the number is unknown or the
+    /// point is
     /// excluded.
     pub(crate) fn add(&mut self, cell: impl Fn(usize) -> f64) {
         let measures: Vec<f64> = self.columns.iter().map(|&column| cell(column)).collect();
@@ -87,7 +89,7 @@ impl Refinement {
 
     /// Returns the points of the next round, each as a position along each axis.
     ///
-    /// There are none if the refinement has ended, or a row of the earlier points is missing.
+    /// There are no points if the refinement has ended, or a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {
         if !self.waiting.is_empty() {
             return Vec::new();

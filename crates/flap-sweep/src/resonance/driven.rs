@@ -41,7 +41,7 @@ pub struct DrivenPeaks {
     pub range: [f64; 2],
     /// Peaks inside the range, the highest first; at most two.
     pub peaks: Vec<DrivenPeak>,
-    /// End of the range (Hz) at which the stroke is larger than at every peak, if there is one.
+    /// End of the range (Hz) at which the stroke is larger than at every peak, if there is such an end.
     pub larger_at: Option<f64>,
     /// Number of points run.
     pub points: usize,
@@ -58,7 +58,7 @@ pub struct Gap {
     pub to: f64,
     /// Number of frequencies.
     pub points: usize,
-    /// Status of the motion at all of these frequencies.
+    /// Status of the motion at all frequencies of the gap.
     pub status: Status,
 }
 
@@ -67,7 +67,7 @@ pub struct Gap {
 /// Stroke and pitch of a peak belong to the motion from rest.
 ///
 /// # Errors
-/// - [`SearchError::Unfinished`] if it is interrupted, or the values are impossible together
+/// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible
 /// - another [`SearchError`] if the search is impossible
 pub fn search(
     model: &'static dyn Simulator,
@@ -153,7 +153,7 @@ impl LargeImpulse {
     pub const HELP: &str = "give at most 180 deg, such as \"20 deg\"";
 }
 
-/// Returns the amplitude (rad) of an impulse, if it is at most 180°. With a larger one the wing would pass through
+/// Returns the amplitude (rad) of an impulse, if it is at most 180°. With a larger impulse, the wing would pass through
 /// the body.
 ///
 /// # Errors

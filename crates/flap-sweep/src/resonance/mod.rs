@@ -3,9 +3,9 @@
 //! - [`AtResonance`]: rows of designs, each at its own resonance
 //! - [`driven`]: highest peaks of one design, and with [`impulse()`] the size of an impulse for the analysis of free
 //!   motions
-//! - `search`: search for both, and for the maximum of one peak
+//! - `search`: search for the resonance and for all peaks, and for the maximum of one peak
 //! - `target`: quantity to maximise, and range of the search
-//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier ones
+//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier points
 
 pub mod driven;
 mod rows;

@@ -24,13 +24,14 @@ pub const RESONANCE_HZ: &str = "resonance_hz";
 /// Column with the distance of the resonance from the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
-/// Returns the measures that rows of a simulator can have: its own, then measures about the resonance.
+/// Returns the measures that rows of a simulator can have: first the measures of the simulator, then measures about the
+/// resonance.
 pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
     let of = Range::default().of;
     if places(simulator, of).is_some() { columns(simulator, of) } else { simulator.columns().to_vec() }
 }
 
-/// Returns the measures of rows at the resonance: the model's, then measures about the resonance.
+/// Returns the measures of rows at the resonance: first the measures of the model, then measures about the resonance.
 fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
     let of = of.name();
     let margin = &*format!(
@@ -60,7 +61,7 @@ fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
 }
 
 impl AtResonance {
-    /// Returns the resonances of designs of `model`; `None` if it has no drive frequency or does not measure the
+    /// Returns the resonances of designs of `model`; `None` if the model has no drive frequency or does not measure the
     /// objective.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
         Some(AtResonance { target: Target::new(model, range)?, columns: columns(model, range.of) })

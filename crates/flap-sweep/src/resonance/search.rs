@@ -1,10 +1,11 @@
 //! Search for the resonance of one design.
 //!
-//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest ones. Each probe begins at the
+//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest peaks. Each probe begins at the
 //! orbit of its nearest neighbour, which takes half the time of a start from rest.
 //!
-//! The row belongs to the motion from rest, like every row. If this motion differs from the motion of the search
-//! there, the design has more than one orbit. The peaks are then located again with all probes from rest.
+//! The row belongs to the motion from rest, like every row. If this motion differs from the motion that the search
+//! found at the same frequency, the design has more than one orbit. The peaks are then located again with all probes
+//! from rest.
 
 use flap_core::simulate::{Point, Row, Status};
 
@@ -23,24 +24,26 @@ const MOST_TOPS: usize = 4;
 /// Peaks to locate, and peaks to run from rest at the end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peaks {
-    /// Largest difference between the vertex of a peak's parabola and the highest one, relative to the highest.
+    /// Largest difference between the vertex of a peak's parabola and the highest vertex, relative to the highest
+    /// vertex.
     contender: f64,
     /// Number of peaks to run from rest, the highest first.
     from_rest: usize,
 }
 
 impl Peaks {
-    /// The highest peak, and peaks that may turn out to be higher.
+    /// The highest peak, and other peaks that may be higher.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
     /// All peaks.
     pub(super) const ALL: Peaks = Peaks { contender: 1.0, from_rest: MOST_TOPS };
 }
 
-/// Largest difference of a second peak from the highest, relative to the highest, at which rows report it.
+/// Largest difference between the second peak and the highest peak, relative to the highest peak, for which rows report
+/// the second peak.
 const SECOND: f64 = 0.05;
 
-/// Largest relative difference of two values of the same orbit.
+/// Largest relative difference between two computed values of the same orbit.
 const SAME: f64 = 1e-3;
 
 /// Search for the resonance of one design.
@@ -65,7 +68,7 @@ pub(super) struct Search<'a> {
 enum Stage {
     /// Running the grid.
     Grid,
-    /// Locating peaks. The peaks with the indices `asking` wait for one value each.
+    /// Locating peaks. Each peak with an index in `asking` waits for one value.
     Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
     /// Running the highest of these peaks, each `[frequency, value]`, from rest.
     Last { tops: Vec<[f64; 2]>, from_rest: bool },
@@ -73,12 +76,12 @@ enum Stage {
     Done { tops: Vec<[f64; 2]> },
 }
 
-/// A point that was run.
+/// A point of the search that was run.
 pub(super) struct Seen {
     pub(super) frequency: f64,
     /// Quantity to maximise; minus infinity if the motion is not periodic.
     value: f64,
-    /// State on its orbit; `None` if the motion is not periodic.
+    /// State on the orbit of the point; `None` if the motion is not periodic.
     state: Option<Vec<f64>>,
     pub(super) status: Status,
 }
@@ -109,7 +112,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the design's index and its row.
+    /// Returns the index of the design and the row of the design.
     pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
         let first = (!self.rows.is_empty()).then(|| self.rows.swap_remove(0));
@@ -141,7 +144,7 @@ impl<'a> Search<'a> {
     /// Returns the result of the search and all points that were run.
     ///
     /// # Errors
-    /// - [`SearchError::Range`] or [`SearchError::Prescribed`] if there is no range
+    /// - [`SearchError::Range`] or [`SearchError::Prescribed`] if the design has no range of frequencies to search
     /// - [`SearchError::Design`] if the design is impossible
     /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
@@ -178,7 +181,7 @@ impl<'a> Search<'a> {
         self.rhs_evals += row.rhs_evals;
     }
 
-    /// Returns the peaks of the grid, whose points are the first ones in `seen`.
+    /// Returns the peaks of the grid, whose points are the first points in `seen`.
     fn tops(&self, grid: usize) -> Vec<Maximum> {
         let grid: Vec<[f64; 2]> = self.seen[..grid].iter().map(|seen| [seen.frequency, seen.value]).collect();
         let mut tops: Vec<(f64, [[f64; 2]; 3])> = Vec::new();
@@ -303,7 +306,8 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Search for a maximum between two bounds.
 ///
-/// Steps go to the vertex of the parabola through the three best points while they shrink fast enough, otherwise by
+/// Steps go to the vertex of the parabola through the three best points while the steps shrink fast enough, otherwise
+/// by
 /// golden sections (R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
 /// are minus infinity.
 #[derive(Clone, Debug)]
@@ -311,7 +315,7 @@ pub(super) struct Maximum {
     bounds: [f64; 2],
     /// The best, second best and third best point: position and value.
     best: [[f64; 2]; 3],
-    /// The latest step, and the one before it.
+    /// The latest step, and the step before the latest step.
     steps: [f64; 2],
     tolerance: f64,
 }
@@ -320,7 +324,7 @@ impl Maximum {
     /// Returns a search from three points `[place, value]` in ascending order, of which the middle one is the
     /// highest.
     ///
-    /// At an end of the range it is one of the others.
+    /// At an end of the range, the best point is one of the other two points.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {
         let [low, top, high] = points;
         let [second, third] = if low[1] > high[1] { [low, high] } else { [high, low] };

@@ -1,4 +1,4 @@
-//! Sequences of points. Each point is chosen depending on the rows of earlier ones.
+//! Sequences of points. The rows of earlier points determine the next point.
 //!
 //! Many sequences are open at once, so the lanes stay full while each sequence waits for its own rows.
 
@@ -9,19 +9,19 @@ use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 pub trait PointSequence {
     /// Returns the points to run next, with any indices; none if the sequence has ended.
     ///
-    /// It is called again after [`PointSequence::take`] has received their rows.
+    /// The function is called again after [`PointSequence::take`] has received the rows of these points.
     fn probes(&mut self) -> Vec<Point>;
 
-    /// Receives the rows of the latest probes, in their order.
+    /// Receives the rows of the latest points, in the order of the points.
     fn take(&mut self, rows: Vec<Row>);
 }
 
-/// Source of sequences and receiver of finished ones.
+/// Source of sequences, and receiver of finished sequences.
 pub trait SequenceSource {
     /// Type of a sequence.
     type Sequence: PointSequence;
 
-    /// Returns the next sequence, or `None` if there is none at present.
+    /// Returns the next sequence, or `None` if no sequence is available at present.
     ///
     /// If `idle` is true, nothing is running: the call may wait, and `None` means that there are no more sequences.
     fn next(&mut self, idle: bool) -> Option<Self::Sequence>;
@@ -36,7 +36,7 @@ pub trait SequenceSource {
 /// Largest number of open sequences without a point to run.
 const MOST_OPEN: usize = 256;
 
-/// Runs the sequences of `source` on the lanes of `backend` until none are left.
+/// Runs the sequences of `source` on the lanes of `backend` until no sequences are left.
 pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, source: &mut impl SequenceSource) {
     rows.run(backend, solver, &mut Interleaved { source, open: Vec::new() });
 }
@@ -105,7 +105,7 @@ impl<D: SequenceSource> Interleaved<'_, D> {
         None
     }
 
-    /// Opens another sequence. Returns false if there is none at present.
+    /// Opens another sequence. Returns false if no sequence is available at present.
     fn open_another(&mut self, idle: bool) -> bool {
         loop {
             let Some(sequence) = self.source.next(idle) else { return false };

@@ -72,7 +72,7 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Returns the target for designs of `model`; `None` if it has no drive frequency or does not measure the
+    /// Returns the target for designs of `model`; `None` if the model has no drive frequency or does not measure the
     /// objective.
     pub(super) fn new(model: &'static dyn Simulator, range: Range) -> Option<Target> {
         let [frequency, objective] = places(model, range.of)?;
@@ -140,7 +140,7 @@ pub enum SearchError {
         /// Highest frequency (Hz).
         to: f64,
     },
-    /// No motion of the design is periodic. Contains the reason for one of them.
+    /// No motion of the design is periodic. Contains the reason for one of the motions.
     #[error("{0}")]
     Design(String),
     /// The natural frequencies cannot be computed, or the search was interrupted.

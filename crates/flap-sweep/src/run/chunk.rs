@@ -1,7 +1,7 @@
-//! Rows computed by another process.
+//! A chunk: the rows of a range of points, computed by another process.
 //!
-//! A cluster passes ranges of a plan to its workers. Each computes its rows with [`chunk`]. The requesting process
-//! writes them in order, with the same bytes as a run on one machine.
+//! A cluster passes ranges of a plan to its workers. Each worker computes the rows of a range with [`chunk`]. The
+//! requesting process writes the rows in order, with the same bytes as a run on one machine.
 
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ pub struct Chunk {
 
 /// Runs the points at these `positions` among the selected points.
 ///
-/// `stop` is called several times a second. After it returns true, the chunk contains only the first points.
+/// `stop` is called several times a second. After `stop` returns true, the chunk contains only the first points.
 ///
 /// # Errors
 /// [`RunError`] if a worker fails.
@@ -73,10 +73,11 @@ impl Chunk {
         }
     }
 
-    /// Returns the outcomes of its points, which must be points of `plan` beginning at position `next`.
+    /// Returns the outcomes of the points of the chunk. The points must be points of `plan` beginning at position
+    /// `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if they are not.
+    /// [`RunError::Chunk`] if the points are not these points.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

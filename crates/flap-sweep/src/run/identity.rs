@@ -32,9 +32,9 @@ pub struct Identity {
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
-    /// Hash of the texts of the grid's devices, if there are any.
+    /// Hash of the texts of the grid's devices, if the grid has devices.
     pub devices: Option<String>,
-    /// Hash of the file that lists the points of the sample, if there is one.
+    /// Hash of the file that lists the points of the sample, if there is such a file.
     pub points_file: Option<String>,
     /// Selected points, in words.
     pub selection: String,
@@ -66,7 +66,7 @@ impl Identity {
         self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
-    /// Returns the differences to `other`, in words; none if the rows are equal.
+    /// Returns the differences to `other` in words. The list is empty if the rows are equal.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
@@ -105,7 +105,7 @@ impl Identity {
     }
 }
 
-/// Returns the hash of the texts of devices; `None` if there are none.
+/// Returns the hash of the texts of devices; `None` if there are no devices.
 pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
@@ -113,7 +113,7 @@ pub(crate) fn devices(devices: &[Source]) -> Option<String> {
 
 /// Returns the followed parameter, in words.
 ///
-/// The command line may set parameters that the grid file does not, so the hash covers them too.
+/// The command line may set parameters that the grid file does not set, so the hash also contains these parameters.
 fn followed(plan: &Plan, along: &Along) -> String {
     let base = plan.base().iter().map(|value| value.in_point());
     let numbers = along.values.iter().copied().chain([along.tolerance]).chain(base);

@@ -1,9 +1,10 @@
-//! The parallel runner: it runs units on all cores and returns their outcomes in order.
+//! The parallel runner, which runs units on all cores and returns the outcomes of the units in order.
 //!
 //! A unit is a point of a plan with its row, or a design with the rows of its response. Each worker is one lane
 //! ensemble for the whole run, so its lanes stay full until the end of the run. Units finish in any order.
 //!
-//! A bounded window puts them back in order. Memory therefore does not grow with the number of units, and the output
+//! A bounded window puts the outcomes back in order. Memory therefore does not grow with the number of units, and the
+//! output
 //! does not depend on the number of threads.
 //!
 //! ```no_run
@@ -46,7 +47,7 @@ pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink, Written};
 
-/// Options of a run. They do not change the output, except for the arithmetic class of the instruction set.
+/// Options of a run. Only the arithmetic class of the instruction set changes the output; all other options do not.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
     /// Instruction set of the lanes.
@@ -55,7 +56,8 @@ pub struct RunOptions {
     pub threads: NonZeroUsize,
     /// Largest number of rows between the last returned row and the last started point.
     ///
-    /// A slow point delays the rows after it. With a wider window, the other points can continue longer meanwhile. A
+    /// A slow point delays the rows after it. With a wider window, the other points can continue longer while the slow
+    /// point runs. A
     /// row of 40 measures takes about half a kilobyte.
     pub window: usize,
     /// Time for running points after the run is stopped. Points that take longer are dropped.

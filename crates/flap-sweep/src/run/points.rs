@@ -16,7 +16,7 @@ use crate::plan::{Admission, Plan};
 pub enum Outcome<T = Row> {
     /// A row, or a curve of rows.
     Ran(T),
-    /// The conditions with these indices are not satisfied. There is no row.
+    /// The point does not satisfy the conditions with these indices, so the point has no row.
     Excluded(Vec<usize>),
 }
 
@@ -27,7 +27,7 @@ pub fn rows(plan: &Plan, options: &RunOptions, first: u64) -> Run<Outcome> {
     rows_of(plan, options, first..plan.selected())
 }
 
-/// Returns the rows of the points at these positions among the selected points.
+/// Returns the rows of the points at the given positions among the selected points.
 pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) -> Run<Outcome> {
     let few = (positions.end - positions.start).div_ceil(options.threads.get() as u64) <= FEW;
     let (plan, run_options) = (Arc::new(plan.clone()), *options);
@@ -43,7 +43,8 @@ pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) 
 
 /// Returns the rows of the selected points of `plan`, computed one after another on the calling thread, on scalars.
 ///
-/// The rows equal the rows of [`rows`]. For a few points this is faster, because no thread starts and no lanes stay
+/// The rows equal the rows of [`rows`]. For a few points, scalars are faster, because no thread starts and no lanes
+/// stay
 /// empty. The iterator ends when the run is `interrupted`.
 pub fn alone<'a>(
     plan: &'a Plan,
@@ -64,7 +65,7 @@ pub fn alone<'a>(
     })
 }
 
-/// Returns the point at `position` among the selected points, or its outcome if it is not run.
+/// Returns the point at `position` among the selected points, or the outcome of the point if the point is not run.
 fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     let point = plan.selected_point(position);
     match plan.judge(&point.values) {
@@ -75,7 +76,8 @@ fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     }
 }
 
-/// Returns the outcome of a point with the row of the model, `None` if it was interrupted, or the model's mistake.
+/// Returns the outcome of a point with the row of the model; `None` if the run was interrupted. The error is a mistake
+/// of the model.
 fn completed(
     plan: &Plan,
     options: &RunOptions,
@@ -156,7 +158,7 @@ const OWN_SHARE: f64 = 1e-5;
 /// Adds the derivatives of the plan to the measures of the row of `point`, which already contain the plan's own.
 ///
 /// The last added value contains the reasons for missing derivatives, as a sum of powers of two by their index in
-/// [`NoSlope::ALL`]. It is NaN if none is missing. Returns false if the run was interrupted.
+/// [`NoSlope::ALL`]. The sum is NaN if no derivative is missing. Returns false if the run was interrupted.
 fn add_gradient(
     plan: &Plan,
     options: &RunOptions,
@@ -195,14 +197,15 @@ fn add_gradient(
     true
 }
 
-/// Returns the size to which relative changes of a parameter refer; `None` if it is unknown. Zero has no per cent.
+/// Returns the size to which relative changes of a parameter refer; `None` if the size is unknown. Zero has no relative
+/// change.
 fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
 }
 
-/// Returns the values of a point with one parameter increased by a share of its size.
+/// Returns the values of a point with one parameter increased by a fraction of its size.
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
     let size = size_at(plan, per, point, parameter);
     let shared = standing(plan.parameters(), &point.values, parameter);

@@ -1,12 +1,14 @@
 //! Queue between workers and the thread that collects outcomes: units to run, outcomes in order, and the end of the
 //! run.
 //!
-//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. Then the next outcome
-//! is either present, so collecting it makes room, or its unit is running on another worker, which therefore does not
-//! wait. A worker leaves the queue when it ends, also after a panic. If it ends with unfinished units, the run fails.
+//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. Then the next outcome is
+//! either present, so collecting this outcome makes room. Otherwise the unit of the next outcome is running on another worker,
+//! which does not wait. A worker leaves the queue when it ends, also after a panic. If a worker ends with unfinished
+//! units,
+//! the run fails.
 //! Collecting waits only while there are workers, and a dropped run aborts its workers.
 //!
-//! After a stop, workers have a short time to finish their units. Units that still run after it are dropped.
+//! After a stop, workers have a short time to finish their units. Units that still run after this time are dropped.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -16,13 +18,13 @@ use std::time::{Duration, Instant};
 
 use super::{RunError, RunOptions};
 
-/// Shortest and longest time that collecting a batch waits for outcomes.
+/// Shortest and longest time for which the collection of a batch waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
 /// Number of available outcomes at which collecting ends early.
 const BATCH: usize = 64;
 
-/// Largest number of outcomes in a batch. It is limited so that the window gets room in time.
+/// Largest number of outcomes in a batch. The number is limited so that the window gets room in time.
 const MOST_AT_ONCE: usize = 1024;
 
 /// Units to run, and their outcomes.
@@ -65,12 +67,12 @@ impl<T> Queue<T> {
         }
     }
 
-    /// The code in the lock leaves a valid state even if it panics, so a poisoned lock is usable.
+    /// The code that holds the lock leaves a valid state even if the code panics, so a poisoned lock is usable.
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the next unit to run. If `may_wait` is false, it returns `None` for a full window.
+    /// Returns the next unit to run. If `may_wait` is false, returns `None` for a full window.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -173,13 +175,13 @@ impl<T> State<T> {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }
 
-    /// Stores the failure, unless there is an earlier one.
+    /// Stores the failure, unless an earlier failure is stored.
     fn fail(&mut self, error: RunError) {
         self.failure.get_or_insert(error);
     }
 }
 
-/// Units between the last one written and the last one assigned, at most `capacity` of them.
+/// Units after the last written unit, up to the last assigned unit: at most `capacity` units.
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
@@ -187,8 +189,8 @@ impl<T> State<T> {
 ///      │ written    │ still running      │ begun
 /// ```
 ///
-/// Units are numbered in the order of assignment. For points, this is their position among the selected points, not
-/// their index in the plan.
+/// Units are numbered in the order of assignment. For points, the number is the position among the selected points, not
+/// the index in the plan.
 pub(super) struct Window<T> {
     capacity: u64,
     total: u64,
@@ -219,7 +221,7 @@ impl<T> Window<T> {
         self.handed_out == self.total
     }
 
-    /// Returns the next unit to run, unless there is none or the window is full.
+    /// Returns the next unit to run, unless no unit is left or the window is full.
     pub(super) fn hand_out(&mut self) -> Option<u64> {
         if self.is_exhausted() || self.is_full() {
             return None;
@@ -242,7 +244,7 @@ impl<T> Window<T> {
         }
     }
 
-    /// Returns true if an outcome can be taken, and either `enough` are present or the window is full.
+    /// Returns true if an outcome can be taken, and either `enough` outcomes are present or the window is full.
     pub(super) fn is_worth_taking(&self, enough: usize) -> bool {
         let next_is_here = matches!(self.units.front(), Some(Some(_)));
         next_is_here && (self.waiting >= enough || self.is_full())
@@ -252,7 +254,7 @@ impl<T> Window<T> {
         self.handed_out - self.written >= self.capacity
     }
 
-    /// Moves consecutive outcomes after the last one taken to `batch`, at most `limit` of them.
+    /// Moves at most `limit` consecutive outcomes after the last taken outcome to `batch`.
     pub(super) fn take(&mut self, batch: &mut Vec<T>, limit: usize) {
         while batch.len() < limit
             && let Some(Some(_)) = self.units.front()

@@ -9,13 +9,13 @@ use crate::plan::Plan;
 use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 
-/// Number of rows with each status. In files it is a table.
+/// Number of rows with each status. In files, the numbers are a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
 
 impl Counts {
-    /// Returns the number of rows with this status.
+    /// Returns the number of rows with the given status.
     pub fn of(&self, status: Status) -> u64 {
         self.0[status as usize]
     }
@@ -67,7 +67,7 @@ pub struct InvalidPoint {
     pub reason: String,
 }
 
-/// Summary of the rows written so far. Journals and sidecars record it in this form.
+/// Summary of the rows written so far. Journals and sidecars record the summary in this form.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Summary {
     /// Number of points to run in total; for a response, number of designs.
@@ -76,9 +76,9 @@ pub struct Summary {
     pub ran: u64,
     /// Number of written rows of the next point, for a response curve that is partly written.
     pub begun: u64,
-    /// Number of rows written: of the first selected points, except excluded ones.
+    /// Number of written rows: the rows of the first selected points, except excluded points.
     pub rows: u64,
-    /// Number of excluded points among them, which have no row.
+    /// Number of excluded points among the finished points. Excluded points have no row.
     pub excluded: u64,
     /// Number of right-hand sides evaluated in total.
     pub rhs_evals: u64,
@@ -86,9 +86,9 @@ pub struct Summary {
     pub cycles: u64,
     /// Number of rows by status.
     pub statuses: Counts,
-    /// Numbers of rows that need care.
+    /// Numbers of rows that users must treat with care.
     pub warnings: Warnings,
-    /// Conditions of the plan, in its order.
+    /// Conditions of the plan, in the order of the plan.
     pub unsatisfied: Vec<Unsatisfied>,
     /// The first few invalid points.
     pub invalid: Vec<InvalidPoint>,
@@ -111,7 +111,7 @@ impl Summary {
         Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), ..before }
     }
 
-    /// Returns the number of finished points, which are the first selected ones.
+    /// Returns the number of finished points, which are the first selected points.
     pub fn done(&self) -> u64 {
         self.ran.saturating_add(self.excluded)
     }

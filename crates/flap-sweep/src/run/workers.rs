@@ -11,13 +11,13 @@ use super::queue::Queue;
 use super::{Progress, RunError, RunOptions};
 use crate::notation::text::count;
 
-/// Work of one thread: it runs units until the queue is empty.
+/// Work of one thread, which runs units until the queue is empty.
 type Work<T> = dyn Fn(&mut Worker<'_, T>) + Send + Sync;
 
 /// Outcomes of units, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
 ///
-/// Threads start when the first outcome is requested. They run at most [`RunOptions::window`] units ahead, and end
-/// when the run is dropped. The iterator ends after an error. The outcomes before it belong to the first units.
+/// Threads start when the first outcome is requested. The threads run at most [`RunOptions::window`] units ahead, and
+/// end when the run is dropped. The iterator ends after an error. The outcomes before it belong to the first units.
 pub struct Run<T> {
     queue: Arc<Queue<T>>,
     work: Arc<Work<T>>,
@@ -120,7 +120,8 @@ impl<T> Drop for Run<T> {
     }
 }
 
-/// Access of a worker to the queue: it requests units, passes on their outcomes, and counts missing outcomes.
+/// Access of a worker to the queue. The access requests units, passes on the outcomes of units, and counts missing
+/// outcomes.
 pub(crate) struct Worker<'a, T> {
     queue: &'a Queue<T>,
     /// Number of assigned units without an outcome.
@@ -130,7 +131,7 @@ pub(crate) struct Worker<'a, T> {
 }
 
 impl<T> Worker<'_, T> {
-    /// Returns the position of the next unit to run, or `None` if there is none at present.
+    /// Returns the position of the next unit to run, or `None` if no unit is available at present.
     ///
     /// If `idle` is true, the worker runs nothing: the call may wait, and `None` ends the work.
     pub(crate) fn next(&mut self, idle: bool) -> Option<u64> {
@@ -176,7 +177,7 @@ fn run_worker<T>(queue: &Queue<T>, work: &Work<T>) {
     queue.leave(outcome);
 }
 
-/// Returns the text of a panic, if it is a string.
+/// Returns the text of a panic, if the panic has a text.
 fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref().map(String::as_str));
     text.unwrap_or("no message").to_owned()

@@ -1,4 +1,4 @@
-//! Writes the rows of a run to a sink, in order, and computes their summary.
+//! Writes the rows of a run to a sink in order, and computes the summary of the rows.
 
 use std::borrow::Cow;
 use std::io;
@@ -17,18 +17,19 @@ use crate::table::layout::{Cell, Layout};
 /// The order of calls is `begin`, then any number of `write`, `done` and `flush`, then `finish`. There are no calls
 /// after an error.
 pub trait Sink {
-    /// Writes the header, if the sink has one.
+    /// Writes the header, if the sink has a header.
     ///
     /// # Errors
-    /// The error of writing it.
+    /// The error of the write operation.
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Returns the rows that earlier runs have written, as text, in their order. A refinement needs them.
+    /// Returns the rows that earlier runs have written, as text, in the order of the rows. A refinement requires these
+    /// rows.
     ///
     /// # Errors
-    /// The error of opening them.
+    /// The error of opening the file with the rows.
     fn written(&self) -> io::Result<Written> {
         Ok(Box::new(std::iter::empty()))
     }
@@ -36,14 +37,14 @@ pub trait Sink {
     /// Writes the next row: one cell per column.
     ///
     /// # Errors
-    /// The error of writing it.
+    /// The error of the write operation.
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
     /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed
     /// there.
     ///
     /// # Errors
-    /// The error of storing it.
+    /// The error of storing the rows.
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {
         let _ = so_far;
         Ok(())
@@ -67,7 +68,7 @@ pub trait Sink {
     }
 }
 
-/// Rows as text, in their order.
+/// Rows as text, in the order of the rows.
 pub type Written = Box<dyn Iterator<Item = io::Result<StringRecord>>>;
 
 /// Writer of the rows of a plan to a sink, which also counts them. Its errors are [`RunError::Sink`].
@@ -111,7 +112,8 @@ impl<'a> RowWriter<'a> {
 
     /// Adds the points of the next round of the refinement to the plan, after the rows of all its points are written.
     ///
-    /// Returns false if there are none: the plan has no refinement, the refinement has ended, or rows are missing.
+    /// Returns false if there are no further points: the plan has no refinement, the refinement has ended, or rows are
+    /// missing.
     pub fn next_round(&mut self) -> bool {
         let Some(refinement) = &mut self.refinement else { return false };
         if self.summary.is_interrupted() || self.summary.refined.is_some() {
@@ -130,7 +132,7 @@ impl<'a> RowWriter<'a> {
         &self.layout
     }
 
-    /// Returns the number of finished points, which is the position of the next one.
+    /// Returns the number of finished points, which is the position of the next point.
     pub fn done(&self) -> u64 {
         self.summary.done()
     }
@@ -138,7 +140,7 @@ impl<'a> RowWriter<'a> {
     /// Writes the row of the next point, or counts an excluded point.
     ///
     /// # Errors
-    /// [`RunError::Sink`] if it cannot be written.
+    /// [`RunError::Sink`] if the row cannot be written.
     pub fn write(&mut self, outcome: &Outcome) -> Result<(), RunError> {
         match outcome {
             Outcome::Ran(row) => {
@@ -180,7 +182,7 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.done(&self.summary)?)
     }
 
-    /// Counts the next unit as excluded by the conditions with these indices. It has no row.
+    /// Counts the next unit as excluded by the conditions with these indices. An excluded unit has no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
         Ok(self.sink.done(&self.summary)?)
@@ -189,7 +191,7 @@ impl<'a> RowWriter<'a> {
     /// Passes the rows so far to the operating system.
     ///
     /// # Errors
-    /// [`RunError::Sink`] if they cannot be written.
+    /// [`RunError::Sink`] if the rows cannot be written.
     pub fn flush(&mut self) -> Result<(), RunError> {
         Ok(self.sink.flush()?)
     }
@@ -208,7 +210,7 @@ impl<'a> RowWriter<'a> {
     }
 }
 
-/// Returns the number in a cell; NaN if there is none.
+/// Returns the number in a cell; NaN if the cell has no number.
 fn number(cell: &Cell<'_>) -> f64 {
     if let Cell::Number(number) = cell { *number } else { f64::NAN }
 }

@@ -27,13 +27,13 @@ const DIFFERENCE: &str = "_difference";
 /// Input of a vehicle: one of its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// Name as given: a parameter, or a word such as `bias_difference`.
+    /// Name as the user gives it: a parameter, or a word such as `bias_difference`.
     pub name: String,
     /// Index in the vehicle's parameter table.
     pub parameter: usize,
     /// Unit for display, such as `V` or `deg`; may be empty.
     pub unit: &'static str,
-    /// Factor from this unit to SI.
+    /// Factor from the display unit to SI.
     pub factor: f64,
 }
 
@@ -51,11 +51,12 @@ pub enum ControlInputError {
 impl Input {
     /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
     ///
-    /// A word alone applies to all wings, after a wing's name to this wing (`left_bias`), and before `_difference` to
+    /// A word alone applies to all wings. After the name of a wing, a word applies to this wing (`left_bias`), and
+    /// before `_difference` to
     /// the left-right difference.
     ///
     /// # Errors
-    /// If there is no such input.
+    /// An error if the vehicle has no such input.
     pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
         let parameters = parameters(vehicle);
         let unknown = || ControlInputError::Unknown(name.to_owned());
@@ -76,9 +77,9 @@ impl Input {
         Ok(Input { name: name.to_owned(), parameter: index, unit, factor })
     }
 
-    /// Returns the default inputs of a vehicle: amplitude, bias and, if its drive has harmonics, the second harmonic.
+    /// Returns the default inputs of a vehicle: amplitude, bias and, if the drive has harmonics, the second harmonic.
     ///
-    /// Each applies to all wings and, if there are wings on both sides, also to the difference.
+    /// Each word applies to all wings and, if there are wings on both sides, also to the difference.
     pub fn usual(vehicle: &Vehicle, has_harmonics: bool) -> Vec<Input> {
         let words = ["amplitude", "bias", "second_harmonic"];
         let words = if has_harmonics { &words[..] } else { &words[..2] };
@@ -98,7 +99,7 @@ impl Input {
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
     }
 
-    /// Returns the size of its parameter (SI), to which relative changes refer; `None` if it is unknown.
+    /// Returns the size (SI) of the input's parameter, to which relative changes refer; `None` if the size is unknown.
     fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
         gradient::size(vehicle, values, self.parameter).map(f64::abs)
     }
@@ -134,14 +135,15 @@ fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
 /// Largest number of steps of Newton's iteration.
 const MOST_STEPS: usize = 40;
 
-/// Relative tolerance of a target. If the error of the motion allows no better, it is relative to the largest
+/// Relative tolerance of a target. If the error of the motion is larger than this tolerance, the tolerance is relative
+/// to the largest
 /// component.
 const TOLERANCE: f64 = 1e-6;
 
-/// Largest change of the inputs in a step, in their typical sizes.
+/// Largest change of the inputs in a step, as a multiple of the typical size of each input.
 const LARGEST_STEP: f64 = 0.2;
 
-/// Smallest fraction of a step that is tried.
+/// Smallest fraction of a Newton step that the search tries.
 const SMALLEST_PART: f64 = 1e-3;
 
 /// A target value of a component.
@@ -198,10 +200,11 @@ fn nearest(at: &Effectiveness, targets: &[Target]) -> String {
 
 /// Returns the inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives.
 ///
-/// If there are more inputs than targets, each step is the smallest one, in typical sizes of the inputs.
+/// If there are more inputs than targets, each step is the smallest possible step, relative to the typical sizes of the
+/// inputs.
 ///
 /// # Errors
-/// If there are fewer inputs than targets, the initial motion is not periodic, or the targets are not reached.
+/// An error if there are fewer inputs than targets, the initial motion is not periodic, or the targets are not reached.
 pub fn trim(
     flight: &Flight<'_>,
     values: &[f64],
@@ -275,14 +278,14 @@ fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
 }
 
-/// Returns the size of each target: its magnitude, or the largest magnitude if it is zero.
+/// Returns the size of each target: the magnitude of the target, or the largest magnitude if the target is zero.
 fn own_sizes(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
     let largest = largest(wrench, targets);
     let own = targets.iter().map(|target| if target.value == 0.0 { largest } else { target.value.abs() });
     DVector::from_iterator(targets.len(), own)
 }
 
-/// Returns true if all targets are met within a small share of these sizes.
+/// Returns true if the error of each target is a small fraction of the size of the target.
 fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
     missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
 }
@@ -290,7 +293,7 @@ fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
 /// Components of force and torque: columns of rows.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
 
-/// Smallest effect of an input, relative to the largest effect of an input. Smaller effects count as none.
+/// Smallest effect of an input, relative to the largest effect of an input. A smaller effect counts as no effect.
 const IDLE: f64 = 1e-9;
 
 /// Reason for a missing control effectiveness.
@@ -299,7 +302,7 @@ pub enum ControlError {
     /// The motion of a wing has no derivatives.
     #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason.as_deref()))]
     NotPeriodic {
-        /// Status of its row.
+        /// Status of the row of the motion.
         status: Status,
         /// Reason of an invalid row.
         reason: Option<String>,
@@ -341,7 +344,7 @@ pub struct Flight<'f> {
 pub struct Effectiveness {
     /// Inputs, in the order of the columns.
     pub inputs: Vec<Input>,
-    /// Values of the inputs, in their units.
+    /// Values of the inputs, each in the unit of the input.
     pub values: Vec<f64>,
     /// Mean force (mN) and torque (uN·m), see [`COMPONENTS`].
     pub wrench: [f64; 6],
@@ -363,7 +366,8 @@ pub struct Mode {
 }
 
 impl Flight<'_> {
-    /// Returns the row at these values of the vehicle's parameters, from the state `begin` if it is given.
+    /// Returns the row at these values of the vehicle's parameters. If `begin` is given, the motion starts from the
+    /// state `begin`.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
         let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
         self.vehicle.run_point(&run, begin)
@@ -466,7 +470,7 @@ impl Flight<'_> {
 
     /// Returns the central differences of the components with respect to an input.
     ///
-    /// They replace exact derivatives where the lift jumps strip by strip, in the four-bar model.
+    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps strip by strip.
     fn differences(
         &self,
         values: &[f64],
@@ -513,7 +517,7 @@ impl Effectiveness {
         values
     }
 
-    /// Returns the effectiveness without inputs of negligible effect, unless none would be left.
+    /// Returns the effectiveness without inputs of negligible effect, unless no input would be left.
     pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
             let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
@@ -530,9 +534,9 @@ impl Effectiveness {
         self
     }
 
-    /// Returns the combinations of inputs that produce force and torque, the strongest first.
+    /// Returns the combinations of inputs that produce force and torque, beginning with the strongest combination.
     ///
-    /// They are the singular value decomposition of the matrix.
+    /// The combinations are the singular value decomposition of the matrix.
     pub fn modes(&self) -> Vec<Mode> {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Deviations of a plan from its preset, which reveal a forgotten unit prefix.
+//! Deviations of a plan from its preset. Large deviations reveal a forgotten unit prefix.
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 
@@ -11,16 +11,16 @@ use crate::plan::{Plan, Value};
 /// Factor from the preset's value above which a value is probably a mistake.
 pub const FAR: f64 = 100.0;
 
-/// A parameter whose value, or one of whose values, differs from the preset.
+/// A parameter that differs from the preset, in its value or in one of its values.
 #[derive(Clone, Debug)]
 pub struct Deviation<'p> {
     /// Parameter.
     pub parameter: &'p Parameter<'p>,
-    /// Its value, or the first and the last value of an axis.
+    /// Value of the parameter, or the first and the last value of an axis.
     pub values: Vec<f64>,
-    /// Value in the preset; NaN if the preset sets none.
+    /// Value in the preset; NaN if the preset sets no value.
     pub preset: f64,
-    /// True if its values have units in the file.
+    /// True if the values of the parameter have units in the file.
     pub has_unit: bool,
 }
 
@@ -106,14 +106,15 @@ impl Deviation<'_> {
         self.text(self.preset)
     }
 
-    /// Returns the ratio to the preset's value; empty if it is not finite.
+    /// Returns the ratio to the preset's value; empty if the ratio is not finite.
     pub fn ratio(&self) -> String {
         let ratios: Vec<String> =
             self.values.iter().filter_map(|value| self.ratio_of(*value)).map(short).collect();
         ratios.join(" to ")
     }
 
-    /// Returns a warning if a value is far from the preset's, with the value that was probably intended.
+    /// Returns a warning if a value is far from the preset's value. The warning has the value that was probably
+    /// intended.
     ///
     /// A value with a unit causes no warning.
     pub fn warning(&self) -> Option<String> {

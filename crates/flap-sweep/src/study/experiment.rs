@@ -1,4 +1,4 @@
-//! Experiments on single points with limits on their length and finite results: chirps, and forces along an imposed
+//! Experiments on single points, with limits on the length and with finite results: chirps, and forces along an imposed
 //! motion.
 
 use flap_core::simulate::{
@@ -58,7 +58,7 @@ pub enum ExperimentError {
 }
 
 impl ExperimentError {
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<String> {
         match self {
             ExperimentError::Unfinished(_) => None,

@@ -1,9 +1,11 @@
-//! Flight of a vehicle over time: the coupled motion of wings and body, or the linear model about hover.
+//! Simulation of the flight of a vehicle over time: the coupled motion of wings and body, or the linear model about
+//! hover.
 //!
 //! The body is rigid, with the wrench of the air on the wings at each instant. The wings respond to velocity and rates
-//! of the body, but not to its acceleration. The body does not feel the inertia of the wings, which are light.
+//! of the body, but not to the acceleration of the body. The inertial forces of the light wings do not act on the body.
 //!
-//! A feedback of the states changes the inputs at the beginning of each wing beat. It uses means over the last beat.
+//! A feedback of the states changes the inputs at the beginning of each wing beat. The feedback uses means over the
+//! last beat.
 
 use core::f64::consts::TAU;
 
@@ -31,7 +33,8 @@ pub struct FlightRequest {
     pub disturbance: [f64; FED_BACK],
     /// Inputs, which are columns of the record.
     pub inputs: Vec<Input>,
-    /// Gains K of a feedback: the inputs are their values at the point minus K x. Inputs × [`FED_BACK`], in SI units.
+    /// Gains K of a feedback: the inputs are the values at the point minus K x. Shape: inputs × [`FED_BACK`], in SI
+    /// units.
     pub gains: Option<DMatrix<f64>>,
     /// True for the linear model about hover in place of the coupled motion.
     pub is_averaged: bool,
@@ -44,7 +47,7 @@ pub struct FlightRequest {
 pub struct FlightRecord {
     /// Names of the columns: time, states, inputs, and force and torque.
     pub columns: Vec<String>,
-    /// One row for each beat, at its middle, or for each sample.
+    /// One row for each beat, at the middle of the beat, or one row for each sample.
     pub rows: Vec<Vec<f64>>,
     /// Reason for an early end; `None` if the flight reaches its duration.
     pub end: Option<String>,
@@ -96,7 +99,7 @@ impl From<Unfinished> for FlightError {
 ///
 /// # Errors
 /// If the request is impossible, mass properties are missing, the point has a moving body, or the motion of the wings is
-/// not periodic. A flight that fails later has a record that ends early.
+/// not periodic. If a flight fails later, its record ends early.
 pub fn fly(
     flight: &Flight<'_>,
     values: &[f64],
@@ -191,16 +194,16 @@ trait Motion {
     /// Returns the duration of the current beat (s).
     fn period(&self) -> f64;
 
-    /// Advances the motion between two times within the beat (s), or returns the reason for its end.
+    /// Advances the motion between two times within the beat (s), or returns the reason for the end of the flight.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String>;
 
     /// Returns the state at a time within the beat (s), up to which the motion has advanced.
     fn state(&mut self, time: f64) -> BodyState;
 
-    /// Ends the beat and returns its means.
+    /// Ends the beat and returns the means over the beat.
     fn end_beat(&mut self) -> BodyState;
 
-    /// Changes the inputs (SI) for the next beat, or returns the reason why they are impossible.
+    /// Changes the inputs (SI) for the next beat, or returns the reason why the new inputs are impossible.
     fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String>;
 }
 
@@ -292,9 +295,10 @@ impl<'a> Coupled<'a> {
         self.y.resize(self.integrator.scale.len(), 0.0);
     }
 
-    /// Returns the mean of velocities, rates and angles over the first beat that is due to vibration alone.
+    /// Returns the part of the mean velocities, rates and angles over the first beat that vibration alone causes.
     ///
-    /// It is the mean over a beat that begins at rest, less the mean of a steady change to the state at its end.
+    /// The part is a difference of two means: over a beat that begins at rest, minus over a linear change to the same
+    /// end.
     fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
         let period = self.period();
         self.advance(0.0, period)?;
@@ -406,7 +410,7 @@ struct Integrator {
     atol: f64,
     /// Largest number of steps of an integration.
     most_steps: u32,
-    /// Typical size of each state; infinite if its error does not count.
+    /// Typical size of each state; infinite if the error of the state does not count.
     scale: Vec<f64>,
     /// Next step (s).
     step: f64,
@@ -482,7 +486,7 @@ struct Averaged {
     state: DVector<f64>,
     /// Integral of the states since the beginning of the beat.
     integral: DVector<f64>,
-    /// Drive frequency (Hz), and its place among the inputs.
+    /// Drive frequency (Hz), and the index of the drive frequency among the inputs.
     frequency: f64,
     frequency_input: Option<usize>,
 }

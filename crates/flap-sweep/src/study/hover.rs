@@ -59,10 +59,10 @@ const LONGITUDINAL: [usize; 6] = [0, 2, 4, 7, 9, 11];
 /// A motion with a smaller share of the participation is not part of a mode's name.
 const NAMED_SHARE: f64 = 0.2;
 
-/// A mode is longitudinal or lateral if the states of the other plane have at most this share.
+/// Largest participation of the states of the other plane in a longitudinal or lateral mode.
 const COUPLED_SHARE: f64 = 0.1;
 
-/// An eigenvalue with a smaller magnitude, relative to the largest one, counts as zero.
+/// Magnitude of an eigenvalue, relative to the largest eigenvalue, below which the eigenvalue counts as zero.
 const NEUTRAL: f64 = 1e-10;
 
 /// Largest residual of a trim, as a share of the weight.
@@ -145,7 +145,7 @@ pub fn check(body: &MassProperties) -> Result<(), HoverError> {
 /// Checks that velocity and rates of the body are zero.
 ///
 /// # Errors
-/// The first one that is not zero.
+/// The first velocity or rate that is not zero.
 pub fn at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<(), HoverError> {
     let index = |name: &str| Parameter::index(vehicle.parameters(), name);
     let is_moving = |name: &&&str| index(name).is_some_and(|index| values[index] != 0.0);
@@ -169,7 +169,8 @@ pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Mat
     Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
 }
 
-/// Returns the targets of a trim to hover: the upward force is the weight, and there is no torque; `None` if the mass is not
+/// Returns the targets of a trim to hover: the upward force is the weight, and all torques are zero; `None` if the mass
+/// is not
 /// set.
 pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let weight = body.mass * body.gravity;
@@ -202,7 +203,7 @@ pub struct HoverModel {
     pub a: DMatrix<f64>,
     /// Input matrix: one column for each input.
     pub b: DMatrix<f64>,
-    /// Modes, those with the largest real part first.
+    /// Modes, in falling order of the real part.
     pub modes: Vec<HoverMode>,
 }
 
@@ -313,7 +314,7 @@ impl HoverModel {
         &STATES[..self.a.nrows()]
     }
 
-    /// Returns all eigenvalues, those with the largest real part first, and pairs together.
+    /// Returns all eigenvalues in falling order of the real part, with the eigenvalues of a pair together.
     pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
         let each = self.modes.iter().flat_map(|mode| {
             let pair = (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.conj());
@@ -322,7 +323,7 @@ impl HoverModel {
         each.collect()
     }
 
-    /// Returns the force (N) and torque (N·m) that are not balanced: the wrench, less the weight.
+    /// Returns the force (N) and torque (N·m) that are not balanced: the wrench minus the weight.
     pub fn residual(&self) -> [f64; 6] {
         let mut residual = self.wrench;
         residual[2] -= self.body.mass * self.body.gravity;
@@ -379,7 +380,7 @@ pub(super) fn inertia(body: &MassProperties) -> Matrix3<f64> {
     inertia
 }
 
-/// Returns the inverse of the matrix of mass and inertia; `None` if there is none.
+/// Returns the inverse of the matrix of mass and inertia; `None` if the matrix has no inverse.
 pub(super) fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
     let mut inverse = Matrix6::from_diagonal(&Vector6::repeat(1.0 / body.mass));
     inverse.fixed_view_mut::<3, 3>(3, 3).copy_from(&inertia(body).try_inverse()?);
@@ -388,7 +389,8 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
 
 /// Returns the modes of the state matrix.
 ///
-/// Heading and position do not act back on the other states. Each adds an eigenvalue of zero, in which it takes part
+/// Heading and position do not act back on the other states. Each of these states adds an eigenvalue of zero, in which
+/// the state takes part
 /// alone, so only the other eight states need eigenvectors.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
@@ -456,7 +458,8 @@ impl HoverMode {
 
     /// Returns the moving states and the kind of motion, such as `pitch and forward velocity (longitudinal oscillation)`.
     ///
-    /// A motion is listed if its states have a fifth of the participation. A real negative eigenvalue is a subsidence,
+    /// A motion is listed if the participation of its states is at least a fifth. A real negative eigenvalue is a
+    /// subsidence,
     /// a positive one a divergence, and an eigenvalue of zero is neutral.
     pub fn name(&self) -> String {
         let share = |states: &[usize]| -> f64 {

@@ -4,20 +4,20 @@ use flap_core::parameter::{Parameter, Preset};
 
 use crate::plan::{Plan, Value};
 
-/// A parameter that stays the same while parameters vary with which it scales.
+/// A parameter that stays the same, although a parameter varies with which this parameter should scale.
 #[derive(Clone, Debug)]
 pub struct Linked<'p> {
     /// The parameter that stays the same.
     pub parameter: &'p Parameter<'p>,
-    /// Its value in SI units.
+    /// Value of the parameter in SI units.
     pub value: f64,
     /// Names of the varied parameters.
     pub varied: Vec<&'p str>,
-    /// Formula for `[derived]` by which the parameter scales with the varied ones.
+    /// Formula for `[derived]` by which the parameter scales with the varied parameters.
     pub formula: String,
 }
 
-/// Returns the linked parameters of a plan, in the order of the model's table; none for a vehicle.
+/// Returns the linked parameters of a plan, in the order of the model's table. The list is empty for a vehicle.
 ///
 /// A parameter is linked if it is neither varied nor derived, is not zero, and scales with a parameter that is varied
 /// or derived.
@@ -44,8 +44,8 @@ pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     linked
 }
 
-/// Returns the value of a parameter before the axes are applied, as a formula reads it: `preset.NAME` if it is the
-/// preset's, else the number. Returns `None` for a value that is zero or not set.
+/// Returns the value of a parameter before the axes are applied, as text for a formula: `preset.NAME` for the value of
+/// the preset, otherwise the number. Returns `None` for a value that is zero or not set.
 fn reference(plan: &Plan, preset: Option<&Preset>, index: usize) -> Option<String> {
     let value = plan.base()[index].in_point();
     if value == 0.0 || value.is_nan() {

@@ -9,7 +9,8 @@ use crate::plan::gradient::{moved, size};
 /// Derivatives of a measure with respect to all parameters that can change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slopes {
-    /// Indices of parameters, the largest effect first. Each has the change of the measure, in its unit, per relative
+    /// Indices of parameters in falling order of the effect. Each index has the change of the measure, in its unit, per
+    /// relative
     /// change of the parameter.
     pub known: Vec<(usize, f64)>,
     /// Indices of parameters with missing derivatives, each with the reason.

@@ -1,4 +1,4 @@
-//! Survey of a plan without running it: points that its conditions exclude, and points spread over it.
+//! Survey of a plan without a run: points that the conditions exclude, and points that are spread over the plan.
 
 use crate::plan::{Admission, Plan};
 use crate::run::Unsatisfied;
@@ -6,17 +6,18 @@ use crate::run::Unsatisfied;
 /// Counts of the points that the conditions of a plan exclude.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exclusions {
-    /// Number of examined points: all points of the plan, or some that are spread over it.
+    /// Number of examined points: all points of the plan, or some points that are spread over the plan.
     pub looked_at: u64,
-    /// Number of excluded points among them.
+    /// Number of excluded points among the examined points.
     pub excluded: u64,
-    /// Conditions of the plan, with numbers of these points.
+    /// Conditions of the plan, each with the number of excluded points.
     pub unsatisfied: Vec<Unsatisfied>,
 }
 
 /// Counts the points that the conditions of `plan` exclude.
 ///
-/// It examines all points or, if there are more than `most`, this number of points spread over the plan.
+/// The survey examines all points. If there are more than `most` points, the survey examines `most` points that are
+/// spread over the plan.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let conditions = plan.conditions().iter();
     let unsatisfied =
@@ -36,7 +37,7 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
 
 /// Returns the index of point `number` of an endless sequence spread over a plan of `points` points.
 ///
-/// The indices are multiples of the golden ratio. They leave no large gaps and are not periodic along any axis.
+/// The indices are multiples of the golden ratio. Such indices leave no large gaps and are not periodic along any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
     let share = number.wrapping_mul(GOLDEN);

@@ -65,7 +65,8 @@ impl Effect {
 
 /// Returns the effect of each term on the design of `run`, the term alone.
 ///
-/// A term that the design leaves out is switched on with a typical size, other terms are switched off. Derived parameters of the
+/// A term that the design leaves out is switched on with a typical size. A term that the design has is switched off.
+/// Derived parameters of the
 /// plan are updated.
 pub fn effects(plan: &Plan, run: &PointRun<'_>) -> Vec<Effect> {
     let simulator = plan.robot().model();

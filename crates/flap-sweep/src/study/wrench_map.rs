@@ -1,4 +1,4 @@
-//! Quadratic map of a vehicle's mean force and torque over its inputs, for model-predictive controllers.
+//! Quadratic map from the inputs of a vehicle to its mean force and torque, for model-predictive controllers.
 //!
 //! ```text
 //! W_i = c_0 + Σ c_j s_j + Σ_{j≤k} c_jk s_j s_k,   s = (input − centre) / half range
@@ -16,28 +16,28 @@ use crate::plan::sample::{Design, Distribution, Method};
 use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
 
-/// One row of this many is left out of the fit.
+/// Number of rows of which one row is left out of the fit.
 const LEFT_OUT: usize = 5;
 
 /// Smallest number of samples, so that at least two rows are left out.
 const FEWEST_SAMPLES: usize = 10;
 
-/// Smallest singular value of the fit, relative to the largest one.
+/// Smallest singular value of the fit, relative to the largest singular value.
 const SMALLEST_SINGULAR: f64 = 1e-9;
 
-/// A component whose changes are smaller than this share of the largest component is constant, to the rows' error.
+/// Relative size below which the changes of a component count as zero: the changes divided by the largest component.
 const CONSTANT: f64 = 1e-6;
 
 /// A component with a smaller coefficient of determination has a poor map.
 const POOR: f64 = 0.99;
 
-/// Beyond this Floquet multiplier, a motion is near a steep flank of its response.
+/// Floquet multiplier above which a motion is near a steep part of its response.
 const STEEP: f64 = 0.7;
 
 /// Seed of the sample.
 const SEED: u64 = 0;
 
-/// An input of a map, with its range.
+/// An input of a map, with the range of the input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapInput {
     /// Name as given, see [`Input::of`].
@@ -79,13 +79,13 @@ pub enum WrenchMapError {
     /// The plan has one wing.
     #[error("a wrench map needs a vehicle, not one wing")]
     NoVehicle,
-    /// There are no inputs, or too many.
+    /// The map has no inputs, or too many inputs.
     #[error("a wrench map needs 1 to {most} inputs, not {0}", most = WrenchMap::MOST_INPUTS)]
     Inputs(usize),
     /// Two inputs change the same parameter.
     #[error("`{0}` is named twice")]
     Twice(String),
-    /// The parameter is computed from others.
+    /// The parameter is computed from other parameters.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
     /// The range is empty or upside down.
@@ -93,10 +93,10 @@ pub enum WrenchMapError {
     Range {
         /// Name of the input.
         name: String,
-        /// True if both ends are equal.
+        /// True if both ends of the range are equal.
         is_empty: bool,
     },
-    /// There are too few samples.
+    /// The number of samples is too small for the map.
     #[error(
         "{samples} samples are too few for {terms} coefficients per component: at least {needed} are needed"
     )]
@@ -108,7 +108,7 @@ pub enum WrenchMapError {
         /// Smallest number of samples.
         needed: usize,
     },
-    /// There are too few periodic rows.
+    /// The number of periodic rows is too small for the map.
     #[error(
         "{} rows are periodic, too few for {terms} coefficients per component: {}{}",
         of_rows(*periodic, *samples),
@@ -139,7 +139,7 @@ pub enum WrenchMapError {
 }
 
 impl WrenchMapError {
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<&'static str> {
         match self {
             WrenchMapError::NoVehicle => {
@@ -195,7 +195,7 @@ pub struct WrenchMap {
     pub left_out: usize,
     /// Numbers of rows without a periodic motion by status, which are not used.
     pub unused: Vec<(Status, usize)>,
-    /// Largest Floquet multiplier of the rows in modulus; NaN if it is unknown.
+    /// Largest magnitude of the Floquet multipliers of the rows; NaN if unknown.
     pub floquet_max: f64,
 }
 
@@ -257,7 +257,7 @@ impl WrenchMap {
             .ok_or(WrenchMapError::Undetermined)
     }
 
-    /// Returns the map that fits these wrenches at these points (SI), with every fifth point left out of the fit.
+    /// Returns the map that fits the given wrenches at the given points (SI). Every fifth point is left out of the fit.
     fn fitted_to(inputs: Vec<MapInput>, points: &[Vec<f64>], wrenches: &[[f64; 6]]) -> Option<WrenchMap> {
         let is_left_out = |place: &usize| place % LEFT_OUT == LEFT_OUT - 1;
         let (tested, fitted): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_left_out);
@@ -297,7 +297,7 @@ impl WrenchMap {
         Some(map)
     }
 
-    /// Returns mean force (mN) and torque (uN·m) at these values of the inputs (SI), one per input.
+    /// Returns mean force (mN) and torque (uN·m) at the given values of the inputs (SI), with one value per input.
     ///
     /// Outside the ranges of the inputs, the map is an extrapolation.
     pub fn evaluate(&self, inputs: &[f64]) -> [f64; 6] {
@@ -396,7 +396,8 @@ impl WrenchMap {
     }
 }
 
-/// Returns the terms of a quadratic polynomial in this number of inputs, each as the inputs that it multiplies.
+/// Returns the terms of a quadratic polynomial in this number of inputs. A term is given as the inputs that are
+/// multiplied.
 ///
 /// The order is 1, s1, s2 and so on, s1², s1 s2, s1 s3 and so on, s2², s2 s3 and so on.
 pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
@@ -405,7 +406,7 @@ pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
     std::iter::once(Vec::new()).chain(linear).chain(quadratic).collect()
 }
 
-/// Returns the smallest number of rows that a map with this number of terms needs.
+/// Returns the smallest number of rows for a map with this number of terms.
 fn needed(terms: usize) -> usize {
     // Of each LEFT_OUT rows, LEFT_OUT - 1 are in the fit.
     (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
@@ -438,7 +439,7 @@ fn check(plan: &Plan, inputs: &[MapInput], samples: u32) -> Result<(), WrenchMap
     Ok(())
 }
 
-/// Returns the parameters of the inputs, each with its values at the samples.
+/// Returns the parameters of the inputs, each with the values of the parameter at the samples.
 fn sampled(inputs: &[MapInput], samples: u32) -> Vec<(usize, Vec<f64>)> {
     let design = Design::new(Method::Sobol, SEED, samples.into(), inputs.len());
     let values = |dimension: usize, input: &MapInput| {

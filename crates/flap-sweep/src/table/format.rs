@@ -38,7 +38,8 @@ impl Format {
         }
     }
 
-    /// Returns true if a file contains whole columns. Its rows wait beside it, as compressed text, until all are
+    /// Returns true if a file contains whole columns. The rows wait in another file, as compressed text, until all rows
+    /// are
     /// present.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
@@ -53,7 +54,7 @@ impl Format {
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
     }
 
-    /// Returns the name of a file without the ending of its format, and this ending.
+    /// Returns the name of a file without the ending of the format, and the ending.
     pub fn split_ending(name: &str) -> (&str, &str) {
         let found = NAMED.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending));
         // The endings are ASCII, so they have as many bytes in the name.
@@ -69,7 +70,7 @@ impl Format {
 /// Error of a name whose format is unknown or unavailable.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
-    /// The name has another ending, or none.
+    /// The name has another ending or no ending.
     #[error("{name}: the file name must end in {allowed}")]
     Unknown {
         /// The file.

@@ -14,7 +14,7 @@ use crate::plan::gradient;
 pub struct Label {
     /// Name in words, without the unit: `Lift, mean`.
     pub words: String,
-    /// Unit for display: `N·m/rad`, `°`; empty for none.
+    /// Unit for display, such as `N·m/rad` or `°`; empty for a column without a unit.
     pub unit: String,
     /// Preferred direction of a measure; `None` for columns that are neither a benefit nor a cost.
     pub better: Option<Direction>,
@@ -36,7 +36,8 @@ impl Label {
     }
 }
 
-/// Returns the label of a column whose values have `unit`, as in tables of parameters: `N*m/rad`; empty for none.
+/// Returns the label of a column whose values have `unit`, as in tables of parameters: `N*m/rad`; empty for a column
+/// without a unit.
 ///
 /// ```
 /// use flap_sweep::table::labels::{self, Direction};
@@ -49,10 +50,10 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
     Label { words: words(column, unit), unit: printed(unit), better: better(column) }
 }
 
-/// Returns the unit of a column; empty for none.
+/// Returns the unit of a column; empty for a column without a unit.
 ///
-/// It is the unit of the parameter or measure with this name in one of the `models`, or of a derivative between two
-/// of them. Otherwise it follows from the ending of the name.
+/// If one of the `models` has a parameter, a measure or a derivative of this name, the result is its unit. For other
+/// names, the ending of the name determines the unit.
 pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
     let of_model = |name| unit_in_models(name, models);
     let derivative = gradient::parts(column).and_then(|(of, by, per)| {
@@ -72,7 +73,7 @@ fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'sta
     })
 }
 
-/// Returns the words, and the printed unit in parentheses if there is one.
+/// Returns the words of the label. If there is a unit, the printed unit follows in parentheses.
 pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
@@ -90,7 +91,8 @@ const BETTER: [(&str, Direction); 9] = [
     ("force", Direction::Smaller),
 ];
 
-/// Returns the preferred direction of a column, from the first words of its name; `None` if it is neither a benefit
+/// Returns the preferred direction of a column, from the first words of its name; `None` if the column is neither a
+/// benefit
 /// nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
     // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
@@ -214,7 +216,7 @@ pub struct Scale {
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("µ", -6), ("n", -9), ("p", -12)];
 
-/// Units that take a prefix. Units of measures, such as mN, already have one.
+/// Units that take a prefix. Units of measures, such as mN, already have a prefix.
 const SYMBOLS: [&str; 13] = ["m", "s", "N", "Pa", "V", "F", "kg", "Hz", "W", "A", "J", "Ohm", "C"];
 
 /// Returns the scale for values in `unit` whose largest magnitude is `largest`, with the prefix that brings it to

@@ -1,4 +1,4 @@
-//! Columns of a result file: order, description and cells. Also the columns that all models share.
+//! Columns of a result file: order, description and cells. Also the columns that all models have.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -12,17 +12,17 @@ use crate::plan::gradient::{self, column_name, meaning};
 
 /// Columns of the rows of a plan.
 ///
-/// They are `point`, the varied parameters, the derived parameters, `status`, the measures, and then `cycles`,
+/// The columns are `point`, the varied parameters, the derived parameters, `status`, the measures, and then `cycles`,
 /// `residual`, `period`, `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may select columns after
 /// `status`.
 ///
-/// Rows of curves begin with `curve` in place of `point`. They have `branch` and the followed parameter before
-/// `status`, and `bistable` after it.
+/// Rows of curves begin with `curve` in place of `point`. Rows of curves have `branch` and the followed parameter
+/// before `status`, and `bistable` after `status`.
 #[derive(Debug)]
 pub struct Layout<'p> {
     /// Varied parameters, then derived parameters, each with its index in the model's parameter table.
     pub varied: Vec<(usize, &'p Parameter<'p>)>,
-    /// Followed parameter, if there is one.
+    /// Followed parameter, if the plan follows a parameter.
     pub followed: Option<&'p Parameter<'p>>,
     /// Columns after `status`.
     behind: Vec<Behind>,
@@ -34,7 +34,7 @@ enum Behind {
     Measure(Measure),
     /// A column about the run.
     Run(&'static Fixed),
-    /// A component of the state at the beginning of the motion's period, with its index.
+    /// A component of the state at the beginning of the motion's period, with the index of the component.
     State(usize, String),
 }
 
@@ -45,9 +45,9 @@ pub struct Place {
     pub branch: &'static str,
     /// Value of the followed parameter.
     pub value: f64,
-    /// True if the branches up and down have different motions at this value.
+    /// True if the motions of the branches up and down differ at this value of the followed parameter.
     ///
-    /// `None` if neither is periodic with the drive, and for unstable orbits.
+    /// `None` if neither motion is periodic with the drive, and for unstable orbits.
     pub bistable: Option<bool>,
 }
 
@@ -61,7 +61,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Returns the value in a row's measures; NaN if they are empty.
+    /// Returns the value in the measures of a row; NaN if the row has no measures.
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
     }
@@ -133,7 +133,8 @@ impl<'p> Layout<'p> {
 
     /// Returns one cell per column. Unknown values are empty cells.
     ///
-    /// These are the measures of a point that is not periodic, and the residual of a point that completed no period.
+    /// Unknown values are the measures of a point that is not periodic, and the residual of a point that completed no
+    /// period.
     /// Without an orbit, multiplier and stability are unknown too.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'static>> {
         self.cells_at(point, None, row)
@@ -246,7 +247,7 @@ enum Entry<'l> {
     /// Flag that is true where a curve is bistable.
     Bistable,
     Measure(&'l Measure),
-    /// A component of the state at the beginning of the motion's period, with its index.
+    /// A component of the state at the beginning of the motion's period, with the index of the component.
     State(usize, &'l str),
 }
 
@@ -312,7 +313,7 @@ const ENDINGS: [(&str, &str); 30] = [
     ("_m", "m"),
 ];
 
-/// Returns a column's name without its unit, and this unit; empty if there is none.
+/// Returns the name of a column without the unit, and the unit. The unit is empty if the name has no unit.
 ///
 /// ```
 /// assert_eq!(flap_sweep::table::layout::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
@@ -326,13 +327,13 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
 /// Description of a column of a result file, for tables with types and units.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Name, with its unit for a measure.
+    /// Name of the column. The name of a measure includes the unit.
     pub name: String,
-    /// Unit in words; empty if there is none.
+    /// Unit as text; empty for a column without a unit.
     pub unit: Cow<'static, str>,
-    /// Type of its cells. Any cell may be empty.
+    /// Type of the cells of the column. Any cell may be empty.
     pub kind: CellKind,
-    /// Description in one line.
+    /// Description of the column in one line.
     pub doc: String,
 }
 

@@ -1,7 +1,8 @@
 //! Rows as lines of comma-separated values.
 //!
-//! Nearly all cells are numbers, which need no quotes. Appending them directly takes half the instructions of the csv
-//! crate, which checks every byte. Reading uses this crate.
+//! Nearly all cells are numbers, which need no quotes. Appending numbers directly takes half the instructions of the
+//! csv
+//! crate, which checks every byte. Only reading uses the csv crate.
 
 use std::io::{self, BufWriter, Write};
 
@@ -11,7 +12,7 @@ use crate::table::layout::Cell;
 /// Writer of lines to `W`.
 pub(crate) struct Lines<W: Write> {
     target: BufWriter<W>,
-    /// Current line; kept to reuse its memory.
+    /// Current line. The string is kept to reuse its memory.
     line: String,
 }
 
@@ -42,7 +43,7 @@ impl<W: Write> Lines<W> {
         self.end()
     }
 
-    /// Writes the line. Its end replaces the last comma.
+    /// Writes the line. The end of the line replaces the last comma.
     fn end(&mut self) -> io::Result<()> {
         end_line(&mut self.line);
         let written = self.target.write_all(self.line.as_bytes());
@@ -61,7 +62,7 @@ impl<W: Write> Lines<W> {
     }
 }
 
-/// Appends the line of text cells, without its end.
+/// Appends the line of text cells, without the end of the line.
 fn push_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
     for cell in cells {
         push_word(line, cell.as_ref());
@@ -75,7 +76,7 @@ fn end_line(line: &mut String) {
     line.push('\n');
 }
 
-/// Sets `line` to the line of these cells, with its end.
+/// Sets `line` to the line of the given cells, with the end of the line.
 #[cfg(feature = "parquet")]
 pub(crate) fn set_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
     line.clear();

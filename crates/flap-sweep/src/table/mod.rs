@@ -1,4 +1,4 @@
-//! Tables of rows: their columns, rows as text, and the formats of their files.
+//! Tables of rows: columns, rows as text, and formats of files.
 
 pub mod format;
 pub mod labels;

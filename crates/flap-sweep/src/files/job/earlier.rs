@@ -1,4 +1,5 @@
-//! Jobs with earlier results under the same name: a job continues them, or compares them with its own rows.
+//! Jobs with earlier results under the same name. A job continues the earlier results, or compares them with its own
+//! rows.
 
 use std::path::Path;
 
@@ -78,7 +79,8 @@ impl<'a> Job<'a> {
 
     /// Ends the job if the sidecar of the results at `place` has the state complete.
     ///
-    /// `has_journal` is true only for a run that was killed at its very end. Its last steps are then repeated;
+    /// `has_journal` is true only for a run that was killed at its very end. The last steps of the run are then
+    /// repeated;
     /// otherwise nothing is written.
     fn is_complete<'b>(
         &self,
@@ -117,7 +119,7 @@ impl<'a> Job<'a> {
         self.plan.refine().is_some() && *self.plan.selection() == Selection::All && !is_refined
     }
 
-    /// Returns the sidecar of complete results without the points of the refinement, if the results are such.
+    /// Returns the sidecar of complete results, if the results lack the points of the refinement.
     fn without_refinement(&self) -> Option<Sidecar> {
         let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok()?;
         (sidecar.state == State::Complete && self.lacks_refinement(&sidecar)).then_some(sidecar)
@@ -126,7 +128,7 @@ impl<'a> Job<'a> {
     /// Begins at the first point of the refinement, after the rows of complete results that contain the points of the
     /// axes.
     ///
-    /// The rows are copied into a file that replaces the results in the end.
+    /// The rows are copied into a file that replaces the results when it is complete.
     fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
         self.compared(&self.out, sidecar)?;
         let format = Format::of(&self.out)?;

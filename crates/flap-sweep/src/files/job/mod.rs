@@ -44,7 +44,8 @@ pub struct Job<'a> {
 pub enum Begin {
     /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Other rows are an error.
     Continue,
-    /// Existing results are replaced when the new ones are complete. Until then the new results have [another
+    /// Existing results are replaced when the new results are complete. Until the new results are complete, they have
+    /// [another
     /// name](replacement::unfinished).
     Restart,
 }
@@ -64,10 +65,10 @@ pub enum Begun<'a> {
 pub struct Writing<'a> {
     job: &'a Job<'a>,
     target: Target,
-    /// Summary of the rows of earlier runs. The next row belongs to the point after them.
+    /// Summary of the rows of earlier runs. The next row belongs to the point after these rows.
     pub before: Summary,
     /// Number of rows that earlier runs had written but that are missing in the file, if the job continues a run.
-    /// They are computed again.
+    /// The job computes these rows again.
     pub lost: Option<u64>,
     /// Locks of the results and of their replacement, until the end of the job.
     locks: Vec<Lock>,
@@ -78,7 +79,7 @@ pub struct Writing<'a> {
 enum Target {
     /// A regular file with its journal and sidecar.
     Session(Box<Session>, Box<Sidecar>),
-    /// A device or a pipe, without files beside it. It cannot be resumed.
+    /// A device or a pipe. A device or pipe has no files beside it, so the run cannot be resumed.
     Stream(CsvSink<File>),
 }
 
@@ -139,7 +140,8 @@ impl<'a> Job<'a> {
         Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into())
     }
 
-    /// Begins with an empty file beside the earlier results, which gets their name in the end. Adds its lock to `locks`.
+    /// Begins with an empty file beside the earlier results. When the file is complete, it gets the name of the
+    /// results. Adds the lock of the file to `locks`.
     fn start_beside(&self, format: Format, locks: &mut Vec<Lock>) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
         let created = output::create(&new, false).map_err(|error| match error {
@@ -152,7 +154,8 @@ impl<'a> Job<'a> {
         self.start_at((&new, format), created.file, true)
     }
 
-    /// Begins with the empty `file` at `place`. If it `replaces` earlier results, it gets their name in the end.
+    /// Begins with the empty `file` at `place`. If the file `replaces` earlier results, it gets the name of the results
+    /// when it is complete.
     fn start_at(
         &self,
         (place, format): (&Path, Format),
@@ -173,7 +176,7 @@ impl<'a> Job<'a> {
         Ok(Target::Session(Box::new(session), Box::new(sidecar)))
     }
 
-    /// Returns the sidecar of a sweep that `started` at this time.
+    /// Returns the sidecar of a sweep that started at the time `started`.
     fn sidecar(&self, started: String) -> Sidecar {
         Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
     }
@@ -183,7 +186,7 @@ impl<'a> Job<'a> {
         Writing { job: self, target, before, lost: None, locks: Vec::new(), begun: Instant::now() }
     }
 
-    /// Gives the complete results at `place` their final name, and removes the files that they do not need.
+    /// Gives the complete results at `place` their final name, and removes the files that complete results do not need.
     fn complete(&self, place: &Path) -> Result<(), JobError> {
         let completed = if place == self.out {
             replacement::remove_progress(place)
@@ -281,7 +284,7 @@ pub enum JobError {
     Exists {
         /// The file.
         path: PathBuf,
-        /// Differences between its rows and the rows of the job, in words; empty if unknown.
+        /// Differences between the rows of the file and the rows of the job, in words; empty if unknown.
         changes: Vec<String>,
         /// First line of the grid file that differs, in words.
         changed: Option<String>,
@@ -296,7 +299,7 @@ pub enum JobError {
         /// True if the sweep that began the rows can be continued from its sidecar.
         continues: bool,
     },
-    /// The results are complete, but they or their sidecar are damaged or unreadable.
+    /// The results are complete, but the results or the sidecar are damaged or unreadable.
     #[error(transparent)]
     Open(OpenError),
     /// A file beside the results cannot be written, or the results cannot be completed.
@@ -314,7 +317,7 @@ pub enum JobError {
     Run {
         /// The reason.
         error: RunError,
-        /// True if the run can be resumed, because its rows are in a file.
+        /// True if the rows are in a file, so that the run can be resumed.
         resumable: bool,
     },
 }

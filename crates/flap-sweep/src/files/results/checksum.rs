@@ -1,6 +1,7 @@
 //! Checksums of rows, which detect and locate damage.
 //!
-//! They are computed from the rows as text, which is the same in every format, so a converted file keeps them. Lines
+//! The checksums are computed from the rows as text. The text is the same in every format, so a converted file keeps
+//! its checksums. Lines
 //! are counted from the first one of the file, so threads and interruptions do not change checksums.
 
 use std::fmt::Write as _;
@@ -32,9 +33,10 @@ pub struct Checksums {
     pub header: String,
     /// Number of rows in each block except the last.
     pub block_rows: u32,
-    /// Lower half of the XXH3 of every block of rows. It is sufficient to locate damage that `text` detects.
+    /// Lower half of the XXH3 of every block of rows. Half of the hash is sufficient to locate damage that `text`
+    /// detects.
     pub blocks: String,
-    /// Checksum of the file's own bytes; `None` if the file was not written from undamaged rows.
+    /// Checksum of the bytes of the file; `None` if the file was not written from undamaged rows.
     pub file: Option<FileSum>,
 }
 
@@ -60,14 +62,14 @@ impl FileSum {
 }
 
 impl Checksums {
-    /// Returns the checksums of header and blocks; `None` if they do not have flap's format.
+    /// Returns the checksums of header and blocks; `None` if the checksums do not have flap's format.
     pub(crate) fn parts(&self) -> Option<Vec<u32>> {
         let words = std::iter::once(self.header.as_str()).chain(self.blocks.split_whitespace());
         words.map(|word| u32::from_str_radix(word, 16).ok()).collect()
     }
 }
 
-/// Computes the checksums of a file's text, which it receives in pieces of any size.
+/// Computes the checksums of a file's text from pieces of any size.
 #[derive(Clone)]
 pub(crate) struct TextDigest {
     whole: Xxh3Default,

@@ -16,12 +16,12 @@ use crate::table::layout::{Column, Layout};
 
 /// Columns of a file and the origin of its rows.
 ///
-/// It is independent of time, machine and number of threads, so equal rows give equal files.
+/// The origin is independent of time, machine and number of threads, so equal rows give equal files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Provenance {
     /// Columns, from left to right.
     pub columns: Vec<Column>,
-    /// Keys with their texts.
+    /// Entries, as pairs of a key and a text.
     pub entries: Vec<(String, String)>,
 }
 
@@ -73,7 +73,7 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the parameters before the axes are applied, without parameters that follow others.
+/// Returns the parameters before the axes are applied, without parameters that are computed from other parameters.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),
@@ -101,12 +101,12 @@ impl<'a> Recorded<'a> {
         entries.contains_key("flap").then_some(Recorded(entries))
     }
 
-    /// Returns the unit of each column that has one.
+    /// Returns the unit of each column that has a unit.
     pub fn units(&self) -> BTreeMap<String, String> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
     }
 
-    /// Returns the plan of these rows, which may contain only some of its points.
+    /// Returns the plan of the rows. The rows may contain only some points of the plan.
     ///
     /// `None` if the grid file belongs to another version of flap, its devices were not recorded, or a file of points
     /// has moved or changed.

@@ -10,11 +10,11 @@ use super::{Format, TextDigest, text, text_sum};
 use crate::files::csv_sink::cause;
 use crate::notation::text::count;
 
-/// Longest line, or lines without a row: 16 MiB. A line of results has some hundred bytes, with ten thousand columns
-/// less than 1 MiB.
+/// Longest line, or lines without a row: 16 MiB. A usual line of results has some hundred bytes. A line with ten
+/// thousand columns has less than 1 MiB.
 const LONGEST_LINE: usize = 16 << 20;
 
-/// A reader that fails within a line that is too long. A few compressed bytes can expand to a line of any length.
+/// A reader that returns an error if a line is too long. A few compressed bytes can expand to a line of any length.
 pub struct Bounded<R> {
     source: R,
     since_line: usize,
@@ -26,7 +26,7 @@ impl<R: Read> Bounded<R> {
         Bounded { source, since_line: 0 }
     }
 
-    /// Begins a new line, after the previous line was read to its end.
+    /// Begins a new line. The previous line must have been read to its end.
     pub fn begin_line(&mut self) {
         self.since_line = 0;
     }
@@ -93,7 +93,7 @@ impl Reader {
     /// Returns a reader at the beginning of `file`.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the file does not have this format
+    /// - [`io::ErrorKind::InvalidData`] if the file does not have the expected format
     /// - [`io::ErrorKind::Other`] if flap was built without Parquet
     /// - the error of the operating system if the file cannot be read
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
@@ -116,7 +116,7 @@ impl Reader {
         Ok(Reader { names, rows: Rows::Text(rows), missed: None })
     }
 
-    /// Makes the reader tolerant: from now on it leaves out unreadable rows instead of returning an error.
+    /// Makes the reader tolerant: after this call, the reader leaves out unreadable rows instead of returning an error.
     pub(crate) fn tolerate(&mut self) {
         self.missed = Some(Missed::default());
     }
@@ -126,7 +126,7 @@ impl Reader {
         self.missed.is_some()
     }
 
-    /// Returns the rows that were left out, if there are any.
+    /// Returns the rows that the reader left out, if it left out rows.
     pub fn missed(&self) -> Option<&Missed> {
         self.missed.as_ref().filter(|missed| !missed.is_none())
     }
@@ -151,7 +151,7 @@ impl Reader {
         }
     }
 
-    /// Reads the next row into `row`. Returns false if there is none left.
+    /// Reads the next row into `row`. Returns false after the last row.
     ///
     /// # Errors
     /// - [`io::ErrorKind::InvalidData`] if the row does not match the header, or is damaged

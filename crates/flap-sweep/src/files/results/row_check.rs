@@ -35,7 +35,7 @@ pub enum RowError {
     Width {
         /// Number of the row.
         row: u64,
-        /// Number of its cells.
+        /// Number of cells in the row.
         cells: usize,
         /// Number of columns.
         columns: usize,
@@ -74,12 +74,12 @@ pub enum RowError {
         /// Index of the point.
         point: u64,
     },
-    /// A point between the previous row and this one has no row.
+    /// A point between the previous row and the next row has no row.
     #[error("row {row} belongs to point {point}: the row of point {missing} is missing")]
     Gap {
         /// Number of the row.
         row: u64,
-        /// Index of its point.
+        /// Index of the point of the row.
         point: u64,
         /// Index of the point without a row.
         missing: u64,
@@ -122,7 +122,7 @@ impl RowCheck {
         names.iter().eq(self.columns.iter().map(|column| &column.name))
     }
 
-    /// Allows missing rows from now on, for a reader that leaves out unreadable rows.
+    /// Allows missing rows after this call, for a reader that leaves out unreadable rows.
     pub fn allow_gaps(&mut self) {
         self.is_dense = false;
         self.rows = None;
@@ -189,7 +189,7 @@ impl RowCheck {
     }
 }
 
-/// A reader that checks its rows. If it is tolerant, it leaves out rows that fail the check.
+/// A reader that checks its rows. A tolerant reader leaves out rows that fail the check.
 pub(crate) struct Checked<'a> {
     reader: &'a mut Reader,
     check: RowCheck,

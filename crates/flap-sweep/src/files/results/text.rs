@@ -37,7 +37,7 @@ impl TextRows {
     /// Returns a writer that continues after `bytes` bytes of `file`, which have the hash `hash` and contain the rows
     /// `text`.
     ///
-    /// These bytes must end where a row and a frame end.
+    /// The existing bytes must end at the end of a row and of a frame.
     pub(crate) fn after(
         file: File,
         format: Format,
@@ -92,7 +92,8 @@ impl TextRows {
         Ok(())
     }
 
-    /// Passes rows to the operating system, except in compressed files, where this would change the bytes.
+    /// Passes rows to the operating system. For compressed files the function does nothing, because a flush would
+    /// change the bytes.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -108,12 +109,12 @@ impl TextRows {
         self.lines.flush()
     }
 
-    /// Returns true if a run resumed at this row produces the same bytes as an uninterrupted run.
+    /// Returns true if a run that is resumed at this row produces the same bytes as an uninterrupted run.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
-    /// Returns number and checksum of the written bytes. If the file may be cut here, they contain all rows after
+    /// Returns number and checksum of the written bytes. If the file may be cut here, the bytes contain all rows after
     /// [`TextRows::flush`].
     pub(crate) fn extent(&self) -> FileSum {
         self.lines.target().file.sum()

@@ -40,7 +40,7 @@ impl Writer {
     /// Writes a row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if a cell does not match its column
+    /// - [`io::ErrorKind::InvalidData`] if a cell does not match the type of its column
     /// - the error of the operating system if the file cannot be written
     pub fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
         match &mut self.0 {
@@ -50,7 +50,7 @@ impl Writer {
         }
     }
 
-    /// Completes the file, makes it durable, and returns its checksums.
+    /// Completes the file, makes the file durable, and returns the checksums of the file.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.

@@ -1,8 +1,8 @@
 //! The sidecar, which records the origin of results: `<results>.meta.toml`.
 //!
-//! It is written when a sweep starts, with `state = "running"`, and again when it ends. Each time it is replaced as a
-//! whole, so a reader never gets an incomplete sidecar. It contains everything for running the sweep again and
-//! checking the results. Its first line is the checksum of the other lines.
+//! The sidecar is written when a sweep starts, with `state = "running"`, and again when the sweep ends. Each time, the
+//! sidecar is replaced as a whole, so a reader never gets an incomplete sidecar. The sidecar contains everything for
+//! running the sweep again and checking the results. The first line is the checksum of the other lines.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -51,7 +51,8 @@ pub struct Sidecar {
     pub threads: usize,
     /// Instruction set of the lanes.
     pub instructions: String,
-    /// Path of the file that lists the points of the sample, relative to the working directory, if there is one.
+    /// Path of the file that lists the points of the sample, relative to the working directory, if there is such a
+    /// file.
     pub points_file: Option<String>,
     /// Build, settings and hashes that determine the rows.
     pub identity: Identity,
@@ -61,7 +62,7 @@ pub struct Sidecar {
     pub rerun: Option<Rerun>,
     /// Followed parameter, if the points are designs with response curves.
     pub followed: Option<Followed>,
-    /// Parameters before the axes are applied, without parameters that follow others.
+    /// Parameters before the axes are applied, without parameters that are computed from other parameters.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.
     varied: Vec<Unit>,
@@ -69,7 +70,7 @@ pub struct Sidecar {
     columns: Vec<Unit>,
     /// Grid file.
     pub grid: Source,
-    /// Devices of the grid: its own device first, then the devices on which this one is based.
+    /// Devices of the grid: first the device of the grid, then the devices on which this device is based.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub devices: Vec<Source>,
     /// Checksums of complete results.
@@ -95,7 +96,7 @@ pub enum State {
 pub struct Origin {
     /// Result file.
     pub of: String,
-    /// Statuses of the points there.
+    /// Statuses of the points in the earlier results.
     pub statuses: Vec<String>,
 }
 
@@ -216,7 +217,7 @@ fn followed(plan: &Plan) -> Option<Followed> {
     Some(Followed { parameter, values, tolerance, unstable })
 }
 
-/// Beginning of the first line. It is TOML too, so other readers need not treat it specially.
+/// Beginning of the first line. The first line is valid TOML, so other TOML readers need no special code.
 const CHECKSUM: &str = "checksum = \"";
 
 /// Error of a file that cannot be used as a sidecar.
@@ -272,9 +273,9 @@ impl Sidecar {
     /// Reads the file.
     ///
     /// # Errors
-    /// - [`SidecarError::Io`] if it cannot be read
-    /// - [`SidecarError::Format`] if it is not a sidecar
-    /// - [`SidecarError::Damaged`] if it does not match its checksum
+    /// - [`SidecarError::Io`] if the file cannot be read
+    /// - [`SidecarError::Format`] if the file is not a sidecar
+    /// - [`SidecarError::Damaged`] if the file does not match its checksum
     pub fn read(path: &Path) -> Result<Sidecar, SidecarError> {
         Sidecar::read_as(path, Sidecar::parse)
     }
@@ -282,8 +283,8 @@ impl Sidecar {
     /// Reads the file without requiring a correct checksum.
     ///
     /// # Errors
-    /// - [`SidecarError::Io`] if it cannot be read
-    /// - [`SidecarError::Format`] if it is not a sidecar
+    /// - [`SidecarError::Io`] if the file cannot be read
+    /// - [`SidecarError::Format`] if the file is not a sidecar
     pub fn read_damaged(path: &Path) -> Result<Sidecar, SidecarError> {
         Sidecar::read_as(path, Sidecar::parse_damaged)
     }
@@ -308,8 +309,8 @@ impl Sidecar {
     /// Parses the bytes of the file.
     ///
     /// # Errors
-    /// - [`ParseError::Format`] if they are not a sidecar
-    /// - [`ParseError::Damaged`] if they do not match their checksum
+    /// - [`ParseError::Format`] if the bytes are not a sidecar
+    /// - [`ParseError::Damaged`] if the bytes do not match their checksum
     pub fn parse(bytes: &[u8]) -> Result<Sidecar, ParseError> {
         if let Some(rest) = bytes.strip_prefix(CHECKSUM.as_bytes())
             && let Some(end) = memmem::find(rest, b"\"\n")
@@ -331,10 +332,10 @@ impl Sidecar {
             .map_err(|error| ParseError::Format(error.message().to_owned()))
     }
 
-    /// Writes the file. It replaces an earlier one.
+    /// Writes the file, which replaces an earlier sidecar.
     ///
     /// # Errors
-    /// The error of the operating system if it cannot be written.
+    /// The error of the operating system if the file cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         self.prepare(path)?.commit()
     }

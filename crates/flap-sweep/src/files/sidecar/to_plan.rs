@@ -37,11 +37,11 @@ pub enum PlanError {
 }
 
 impl Sidecar {
-    /// Returns the plan of these rows, with the presets of `models`.
+    /// Returns the plan of the recorded rows, with the presets of `models`.
     ///
     /// # Errors
     /// - [`PlanError::GridText`] if the recorded grid file was edited
-    /// - [`PlanError::Grid`] if it has mistakes, because it belongs to another version of flap
+    /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap
     /// - [`PlanError::Solver`] if the solver settings are outside the limits of a grid file
     /// - [`PlanError::PointsFile`] if the file of points has changed
     /// - [`PlanError::Parameters`] if the model of a response does not have a recorded parameter or option
@@ -74,7 +74,7 @@ impl Sidecar {
 
     /// Returns the plan whose points are designs with response curves.
     ///
-    /// It lacks the axis of the followed parameter, and contains the parameters of the command line.
+    /// The plan lacks the axis of the followed parameter, and contains the parameters of the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameter = Parameter::index(plan.parameters(), &followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);

@@ -16,7 +16,7 @@ const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// Returns the distribution of `parameter`. `None`, with a report, if there are mistakes.
+/// Returns the distribution of `parameter`. If there are mistakes, reports the mistakes and returns `None`.
 ///
 /// `base` is the parameter's value without sampling.
 pub(super) fn read(
@@ -56,10 +56,10 @@ pub(super) fn read(
     if has("mean") || has("sd") || has("relative_sd") { reader.normal(base) } else { reader.uniform() }
 }
 
-/// Reader of one distribution. Its methods return `None`, with a report, if there are mistakes.
+/// Reader of one distribution. If there are mistakes, the methods report the mistakes and return `None`.
 struct Reader<'a, 't> {
     parameter: &'a Parameter<'a>,
-    /// Entry of the parameter.
+    /// Entry of the sampled parameter in the file.
     whole: &'a Entry<'t>,
     /// Entries of the distribution.
     entries: &'a [Entry<'t>],
@@ -67,7 +67,7 @@ struct Reader<'a, 't> {
 }
 
 impl Reader<'_, '_> {
-    /// Returns an end of the range, if it is given; `Err`, with a report, if it is wrong.
+    /// Returns an end of the range, if the end is given. If the end is wrong, reports a mistake and returns `Err`.
     fn end(&mut self, key: &str) -> Result<Option<f64>, ()> {
         match table::find(self.entries, key) {
             Some(entry) => {
@@ -149,7 +149,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Returns the distribution, if it has values.
+    /// Returns the distribution, if the distribution has values.
     fn sound(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }

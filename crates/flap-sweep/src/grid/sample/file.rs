@@ -63,11 +63,12 @@ pub(super) fn read(
 struct Column<'t, 'p> {
     index: usize,
     parameter: &'p Parameter<'p>,
-    /// Unit in the heading. Numbers in cells have this unit.
+    /// Unit in the heading of a column. Numbers in the cells of the column have this unit.
     unit: Option<&'t str>,
 }
 
-/// Returns the values of the parameters, each with true if its heading has a unit. Also returns true if there are no
+/// Returns the values of the parameters, each with true if the heading of its column has a unit. Also returns true if
+/// there are no
 /// mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
@@ -157,7 +158,7 @@ fn heading<'t, 'p>(
     Some(Column { index, parameter, unit })
 }
 
-/// Returns name and unit of a heading; `None` if its brackets are not a pair at the end.
+/// Returns name and unit of a heading; `None` if the brackets of the heading are not a pair at the end.
 fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     let Some((name, rest)) = heading.split_once('[') else {
         return (!heading.contains(']')).then_some((heading, None));
@@ -166,14 +167,14 @@ fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     (!name.contains(']') && !unit.contains(['[', ']'])).then(|| (name.trim(), Some(unit.trim())))
 }
 
-/// Returns the value of a cell, or its mistake and advice.
+/// Returns the value of a cell, or the mistake in the cell and advice.
 fn value(column: &Column<'_, '_>, text: &str) -> Result<f64, (String, Option<String>)> {
     let unit = column.unit.map_or(UnitOf::TextOrSi, UnitOf::Column);
     value::of_text(column.parameter, text, unit)
         .map_err(|error| (error.message(column.parameter.name, text), error.help()))
 }
 
-/// A cell: its text without surrounding blanks and quotes, and its bytes in the file.
+/// A cell: the text without surrounding blanks and quotes, and the position of its bytes in the file.
 type Cell<'t> = (&'t str, Range<usize>);
 
 /// Returns the lines of a CSV file that are not blank.

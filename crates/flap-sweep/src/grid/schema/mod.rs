@@ -1,4 +1,5 @@
-//! JSON schema of grid files, from the tables that their check uses. Editors use it to complete keys and show
+//! JSON schema of grid files, from the tables that the check of grid files uses. Editors use the schema to complete
+//! keys and show
 //! mistakes.
 //!
 //! The schema accepts every grid that the check accepts. It rejects unknown keys, options and types. It does not
@@ -72,8 +73,8 @@ fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
 
 /// Returns the rules of the model whose preset the grid names.
 ///
-/// The preset of a device is unknown. A grid that starts from a device has the rules of the `only` model, if there is
-/// one.
+/// The preset of a device is unknown. A grid that starts from a device has the rules of the model `only`, if `only` is
+/// given.
 fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };

@@ -18,7 +18,8 @@ use crate::plan::sample::Design;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
-/// Returns the definitions that all parameters share: of the numbers that describe axes and distributions.
+/// Returns the definitions of numbers that describe axes and distributions. These definitions are the same for all
+/// parameters.
 pub(super) fn shared() -> Map<String, Value> {
     let keys = ["n", "step", "scale", "sd", "relative_sd", "source"];
     sections::properties(keys, |key| match key {

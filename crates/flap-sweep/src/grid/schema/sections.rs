@@ -1,4 +1,4 @@
-//! Schemas of sections that are equal for all models, and small schemas for use in larger ones.
+//! Schemas of sections that are equal for all models, and small schemas for use in larger schemas.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings};
 use flap_core::vehicle::MOST_WINGS;
@@ -23,7 +23,7 @@ pub(super) fn properties<'k>(
     keys.into_iter().map(|key| (key.to_owned(), schema(key))).collect()
 }
 
-/// Returns the schema of a table with these keys and no others.
+/// Returns the schema of a table with the given keys and no other keys.
 pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value {
     json!({
         "description": description,
@@ -33,7 +33,7 @@ pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value 
     })
 }
 
-/// Returns the schema of one of some options.
+/// Returns the schema of a text that must be one of the given options.
 pub(super) fn choice(description: &str, options: &[&str]) -> Value {
     json!({"description": description, "enum": options})
 }

@@ -28,7 +28,7 @@ pub enum ExpressionProblem {
     /// A character without meaning.
     #[error("`{}` is not allowed in an expression", .0.escape_debug())]
     Character(char),
-    /// Text that begins like a number but is none, such as `2x`.
+    /// Text that begins like a number but is not a number, such as `2x`.
     #[error("`{0}` is not a number")]
     BadNumber(String),
     /// A number above the largest 64-bit float.
@@ -82,22 +82,22 @@ pub enum ExpressionProblem {
         /// Options of the choice.
         options: &'static [&'static str],
     },
-    /// A comparison of a choice with text that is none of its options.
+    /// A comparison of a choice with text that is not the name of an option of this choice.
     #[error("`{name}` has no option `{option}`")]
     UnknownOption {
         /// Name of the choice.
         name: String,
-        /// Text with which it is compared.
+        /// Text with which the choice is compared.
         option: String,
         /// Options of the choice.
         options: &'static [&'static str],
     },
-    /// A number that is not set and follows others.
+    /// A parameter that is not set and is computed from other parameters.
     #[error("`{name}` is not set")]
     Unset {
         /// Name of the parameter.
         name: String,
-        /// Description of the parameters that it follows.
+        /// Description of the parameters from which the value is computed.
         follows: &'static str,
     },
 }
@@ -113,7 +113,7 @@ impl ExpressionError {
         self.problem.to_string()
     }
 
-    /// Returns allowed forms or advice, if there are any.
+    /// Returns the allowed forms or advice, if there are allowed forms or advice for this mistake.
     pub fn help(&self) -> Option<String> {
         let did_you_mean = |name: &str| format!("did you mean `{name}`?");
         match &self.problem {

@@ -24,7 +24,8 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     pop(&mut stack)
 }
 
-/// Returns the operations of both operands of a binary operator, which follows `operations`; `None` if there are not two operands.
+/// Returns the operations of both operands of a binary operator that follows `operations`; `None` if there are not two
+/// operands.
 pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
     // Operands that are still to be found on the way back to the beginning of the right one.
     let mut missing = 1;
@@ -99,9 +100,9 @@ pub(super) enum Operation {
     Unary(Unary),
     /// Replaces the two topmost numbers.
     Binary(Binary),
-    /// Replaces the topmost number by a function of it.
+    /// Replaces the topmost number on the stack by a function of this number.
     Apply(fn(f64) -> f64),
-    /// Replaces the two topmost numbers by a function of them.
+    /// Replaces the two topmost numbers on the stack by a function of both numbers.
     Apply2(fn(f64, f64) -> f64),
 }
 
@@ -189,7 +190,7 @@ pub(super) fn constants() -> impl Iterator<Item = &'static str> {
     CONSTANTS.iter().map(|(name, _)| *name)
 }
 
-/// Returns the smaller number. Unlike [`f64::min`], it is NaN if either is NaN.
+/// Returns the smaller number. Unlike [`f64::min`], the result is NaN if one of the numbers is NaN.
 fn min(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -200,7 +201,7 @@ fn min(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Returns the larger number. Unlike [`f64::max`], it is NaN if either is NaN.
+/// Returns the larger number. Unlike [`f64::max`], the result is NaN if one of the numbers is NaN.
 fn max(a: f64, b: f64) -> f64 {
     -min(-a, -b)
 }

@@ -1,4 +1,5 @@
-//! Parser of expressions: from text to tokens, and to operations after their operands (Pratt's operator precedence).
+//! Parser of expressions: the text becomes tokens, and tokens become operations in postfix order (Pratt's operator
+//! precedence).
 
 use std::ops::Range;
 
@@ -52,7 +53,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
 
 /// An operand between two operators.
 struct Operand {
-    /// `None` after a mistake, so that it is not reported twice.
+    /// `None` after a mistake, so that the mistake is not reported twice.
     kind: Option<Kind>,
     span: Range<usize>,
 }
@@ -114,7 +115,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Parses everything from here on that binds at least as tightly as `least`.
+    /// Parses the rest of the text as far as operators bind at least as tightly as `least`.
     fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
         self.nested += 1;
         if self.nested > MOST_NESTED {
@@ -193,7 +194,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
 
-    /// Returns the operand that the last name represents.
+    /// Returns the operand that the latest name represents.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let constant = || evaluate::constant(name).map(Meaning::Constant);
         let (kind, operation) = match self.scope.meaning(name).or_else(constant) {
@@ -329,7 +330,7 @@ pub(super) enum Token<'t> {
     End,
 }
 
-/// Signs. Longer signs precede their prefixes.
+/// Signs. A longer sign precedes the signs that are its prefixes.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
 /// Operators of other languages, with the operators to use instead.
@@ -347,7 +348,7 @@ impl<'t> Tokens<'t> {
         Tokens { text, at: 0 }
     }
 
-    /// Returns the next token with its bytes; after the last token always [`Token::End`].
+    /// Returns the next token with the position of its bytes. After the last token, always returns [`Token::End`].
     pub(super) fn next(&mut self) -> Result<(Token<'t>, Range<usize>), ExpressionError> {
         self.at = self.text.len() - self.text[self.at..].trim_start().len();
         let rest = &self.text[self.at..];
@@ -365,7 +366,7 @@ impl<'t> Tokens<'t> {
         Ok((token, span))
     }
 
-    /// Shifts an error at the beginning of the rest to its position in the text.
+    /// Shifts the position of an error from the rest of the text to the whole text.
     fn place(&self, (length, problem): (usize, ExpressionProblem)) -> ExpressionError {
         ExpressionError { span: self.at..self.at + length, problem }
     }

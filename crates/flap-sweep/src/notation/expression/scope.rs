@@ -20,13 +20,13 @@ pub enum Meaning {
     Choice(usize, &'static [&'static str]),
     /// Constant.
     Constant(f64),
-    /// Number that is not set. The text describes the parameters that it follows.
+    /// Number that is not set. The text describes the parameters from which the number is computed.
     Unset(&'static str),
 }
 
 /// Names that an expression may use.
 pub trait Scope {
-    /// Returns the meaning of `name`, if it has one.
+    /// Returns the meaning of `name`, if the name has a meaning.
     fn meaning(&self, name: &str) -> Option<Meaning>;
 
     /// Returns all names, for suggestions after a misspelling.

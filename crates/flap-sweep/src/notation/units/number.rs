@@ -20,7 +20,7 @@ pub struct UnitError {
 pub enum UnitProblem {
     /// The text does not start with a number.
     NoNumber,
-    /// Text that begins like a number but is none, such as `1e-3e`.
+    /// Text that begins like a number but is not a number, such as `1e-3e`.
     BadNumber(String),
     /// The number is infinite or not a number.
     NotFinite(String),
@@ -32,7 +32,7 @@ pub enum UnitProblem {
     NoUnit {
         /// Expected SI unit.
         wanted: String,
-        /// Usual ways to write it.
+        /// Usual ways to write the quantity.
         usual: Vec<String>,
     },
     /// The unit is unknown.
@@ -61,7 +61,7 @@ pub enum UnitProblem {
         measures: String,
         /// Expected SI unit; empty for a pure number.
         wanted: String,
-        /// Usual ways to write it; empty for a pure number.
+        /// Usual ways to write the quantity; empty for a pure number.
         usual: Vec<String>,
     },
 }
@@ -186,7 +186,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
-/// Returns the exponent. A value beyond `i64` overflows a float like any other large one.
+/// Returns the exponent. A value beyond `i64` overflows a float like any other large value.
 fn read_exponent(text: &str) -> i64 {
     const BEYOND: i64 = 1_000_000_000_000;
     let limit = if text.starts_with('-') { -BEYOND } else { BEYOND };

@@ -48,9 +48,9 @@ fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     (format!("{prefix}{symbol}{rest}"), ten * power - kilo)
 }
 
-/// Returns `value` with the prefix that brings it closest to `usual`: 0.017 for 17 m if 0.0165 m is usual.
+/// Returns `value` with the prefix that brings the value closest to `usual`: 0.017 for 17 m if 0.0165 m is usual.
 ///
-/// `None` if no prefix brings it within a factor of ten.
+/// `None` if no prefix brings the value within a factor of ten.
 pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::number::{UnitError, UnitProblem};
 
-/// A unit: its dimension and its conversion to SI.
+/// A unit: the dimension of the unit, and the conversion to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub(super) dimension: Dimension,
@@ -181,7 +181,7 @@ pub(super) struct Dimension {
 }
 
 impl Dimension {
-    /// Returns the dimension of metres, kilograms, seconds and amperes to these powers.
+    /// Returns the dimension of a product of metres, kilograms, seconds and amperes to the given powers.
     pub(super) const fn base(metre: i32, kilogram: i32, second: i32, ampere: i32) -> Dimension {
         Dimension { base: [metre, kilogram, second, ampere], radian: 0, hertz: 0 }
     }
@@ -192,7 +192,7 @@ impl Dimension {
     /// Cycles per second.
     pub(super) const FREQUENCY: Dimension = Dimension { base: [0, 0, -1, 0], radian: 0, hertz: 1 };
 
-    /// Returns the dimension of a product of this quantity with another one to the given power.
+    /// Returns the dimension of the product of this quantity and another quantity to the given power.
     pub(super) fn times(self, other: Dimension, power: i32) -> Dimension {
         // Saturating: with absurd exponents the dimension does not match.
         let add = |a: i32, b: i32| a.saturating_add(b.saturating_mul(power));
@@ -211,7 +211,7 @@ impl Dimension {
     }
 }
 
-/// Prints the dimension in words if it has a name (`a voltage`), otherwise in base units.
+/// Prints the dimension in words if the dimension has a name (`a voltage`), otherwise in base units.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| *dimension == *self) {
@@ -266,7 +266,7 @@ const NAMES: &[(Dimension, &str)] = &[
     (Dimension::base(2, 1, -3, -2), "a resistance"),
 ];
 
-/// A unit with its own symbol.
+/// A unit that has a symbol.
 #[derive(Debug)]
 pub(super) struct Symbol {
     /// Symbol.
@@ -276,7 +276,7 @@ pub(super) struct Symbol {
     pub(super) shift: i32,
     /// Factor to SI after `shift`: 1 for decimal units.
     pub(super) factor: f64,
-    /// True if it allows prefixes.
+    /// True if the unit allows prefixes.
     prefixes: bool,
     /// Usual forms, the SI form first, for messages.
     usual: &'static [&'static str],

@@ -16,7 +16,7 @@ pub enum Distribution {
     },
     /// Uniform distribution on a logarithmic scale between two values of the same sign.
     LogUniform {
-        /// One end.
+        /// One end of the distribution.
         from: f64,
         /// Other end.
         to: f64,

@@ -2,12 +2,13 @@
 
 use flap_core::simulate::{NoSlope, Row};
 
-/// The result of a search for an optimum in one word.
+/// The result of a search for an optimum, as a status of one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
     /// The derivatives show that no small change of the design is better.
     Optimal,
-    /// The best point that was found. Derivatives do not confirm it: some are missing, or the search ended early.
+    /// The best point that was found. The derivatives do not confirm this point, because some are missing or the search
+    /// ended early.
     Approximate,
     /// No point satisfies all conditions. The point has the smallest violation of the conditions.
     Infeasible,
@@ -17,7 +18,7 @@ impl Status {
     /// All statuses.
     pub const ALL: [Status; 3] = [Status::Optimal, Status::Approximate, Status::Infeasible];
 
-    /// The word for it.
+    /// The word for this value.
     pub fn name(self) -> &'static str {
         match self {
             Status::Optimal => "optimal",
@@ -39,7 +40,7 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// The word for it.
+    /// The word for this value.
     pub fn name(self) -> &'static str {
         match self {
             Edge::Limit => "limit",
@@ -49,14 +50,14 @@ impl Edge {
     }
 }
 
-/// A bound or limit that holds the optimum back.
+/// A bound or limit that restricts the optimum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Active {
-    /// Its kind.
+    /// The kind of the bound or limit.
     pub edge: Edge,
     /// The condition, or the parameter of the axis.
     pub name: String,
-    /// The number that the condition compares with, or the end of the axis in SI units.
+    /// The number in the condition, or the value at the end of the axis in SI units.
     pub limit: f64,
     /// The multiplier: the change of the optimal number per unit of the limit.
     pub per_unit: f64,
@@ -69,61 +70,61 @@ pub struct Active {
 pub struct LimitAt {
     /// The comparison as the user wrote it, or the name of a condition of the grid.
     pub text: String,
-    /// The side that must be smaller, and the side that must be larger.
+    /// The values of the side that must be smaller, and of the side that must be larger.
     pub sides: [f64; 2],
-    /// The share of the limit by which it is exceeded; zero if it holds.
+    /// The amount by which the limit is exceeded, as a fraction of the limit; zero if the condition holds.
     pub excess: f64,
 }
 
-/// An optimum that some starts end at.
+/// An optimum at which one or more searches end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Other {
-    /// The number there.
+    /// The value of the goal at this optimum.
     pub goal: f64,
     /// The varied parameters and their values.
     pub varied: Vec<(usize, f64)>,
-    /// True if all conditions hold there.
+    /// True if all conditions hold at this optimum.
     pub is_feasible: bool,
-    /// The number of starts that end there.
+    /// The number of searches that end at this optimum.
     pub starts: usize,
 }
 
 /// The best point.
 #[derive(Clone, Debug)]
 pub struct Optimum {
-    /// The result in one word.
+    /// The status of the result, as one word.
     pub status: Status,
-    /// The number that is largest or smallest.
+    /// The value of the goal at the best design.
     pub goal: f64,
     /// One value per parameter.
     pub values: Vec<f64>,
-    /// The row there: the model's measures, then the plan's own.
+    /// The row of the best design: the measures of the model, then the measures of the plan.
     pub row: Row,
     /// The varied parameters and their values.
     pub varied: Vec<(usize, f64)>,
-    /// The parameters among them that are at an end of their axis, with the smallest and the largest value there.
+    /// The varied parameters whose value is at an end of the axis, with the smallest and the largest value of the axis.
     pub at_end: Vec<(usize, [f64; 2])>,
-    /// The bounds and limits that hold it back.
+    /// The bounds and limits that restrict the best design.
     pub active: Vec<Active>,
     /// All conditions.
     pub limits: Vec<LimitAt>,
-    /// All optima that the starts end at, the best first.
+    /// All optima at which the searches end, beginning with the best optimum.
     pub optima: Vec<Other>,
-    /// Starts that were refined.
+    /// Number of starts from which a search ran.
     pub starts: usize,
-    /// Points of the grid, and points of it that were computed.
+    /// Number of points of the grid, and number of grid points that were computed.
     pub points: u64,
     /// See [`Optimum::points`].
     pub computed: u64,
     /// Rows computed in all.
     pub rows: u64,
-    /// Rows with derivatives among them.
+    /// Number of computed rows with derivatives.
     pub sloped: u64,
     /// The reasons why derivatives were missing.
     pub missing: Vec<NoSlope>,
     /// True if the search ended with a pattern search, which needs no derivatives.
     pub is_polished: bool,
-    /// The gain that the derivatives promise along an axis, as a share of the number per width of the axis.
+    /// The gain that the derivatives predict along an axis, as a fraction of the goal per width of the axis.
     pub left_over: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::run::{Outcome, RunError, RunOptions, alone};
 /// The step of differences of rows, in coordinates, where a row lacks a derivative.
 const STEP: f64 = 2e-3;
 
-/// The same for designs at their resonance, whose frequency has an error.
+/// The same setting for designs at their resonance, because the resonance frequency has an error.
 const STEP_AT_RESONANCE: f64 = 2e-2;
 
 /// A point of the region with its row.
@@ -20,13 +20,13 @@ const STEP_AT_RESONANCE: f64 = 2e-2;
 pub(super) struct Trial {
     pub(super) coordinates: Vec<f64>,
     pub(super) row: Row,
-    /// The number that is to be largest or smallest.
+    /// The goal: the number that must be largest or smallest.
     pub(super) goal: f64,
-    /// Both sides of each limit: the smaller and the larger one.
+    /// Both sides of each limit: first the side that must be smaller, then the side that must be larger.
     pub(super) sides: Vec<[f64; 2]>,
     /// The largest share by which a limit is exceeded; zero if all hold, infinite if the point has no periodic motion.
     pub(super) excess: f64,
-    /// Derivatives per coordinate of the number, then of the distance from each limit.
+    /// Derivatives with respect to each coordinate: of the goal, then of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,
 }
 
@@ -51,7 +51,7 @@ impl Trial {
         Trial { coordinates, row, goal, sides, excess, slopes: Vec::new() }
     }
 
-    /// True if it is better than another one: feasible with a better number, or closer to it.
+    /// True if the point is better than another point: the point is feasible with a better goal, or closer to feasible.
     pub(super) fn is_better(&self, problem: &Problem, other: &Trial) -> bool {
         if self.excess > 0.0 || other.excess > 0.0 {
             return self.excess < other.excess;
@@ -59,21 +59,22 @@ impl Trial {
         problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
     }
 
-    /// The distance from a limit in units of its size; negative where it is exceeded.
+    /// The distance from a limit, divided by the size of the limit. The distance is negative where the limit is
+    /// exceeded.
     pub(super) fn margin(&self, problem: &Problem, number: usize) -> f64 {
         let sides = self.sides[number];
         (sides[1] - sides[0]) / problem.limits[number].scale(sides)
     }
 }
 
-/// The rows of one refinement: all of one choice.
+/// The rows of one refinement, which all belong to the same choice.
 pub(super) struct Evaluator<'p> {
     pub(super) problem: &'p Problem,
     options: &'p RunOptions,
     choice: Vec<f64>,
     interrupted: Interrupt<'p>,
     known: RefCell<Vec<Rc<Trial>>>,
-    /// Rows computed, and rows with derivatives among them.
+    /// Number of computed rows, and number of computed rows with derivatives.
     pub(super) rows: Cell<u64>,
     pub(super) sloped: Cell<u64>,
     /// Reasons for missing derivatives, as bits by their places in [`NoSlope::ALL`].
@@ -104,28 +105,28 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// The reasons for derivatives that were missing.
+    /// The reasons for missing derivatives.
     pub(super) fn missing(&self) -> Vec<NoSlope> {
         let set = self.missing.get();
         (0..).zip(NoSlope::ALL).filter(|(place, _)| set >> place & 1 == 1).map(|(_, reason)| reason).collect()
     }
 
-    /// The error that ended the work, if one did.
+    /// The error that ended the work, if an error ended the work.
     pub(super) fn failure(&self) -> Option<RunError> {
         self.failure.take()
     }
 
-    /// The varied parameters with their values at these coordinates.
+    /// The varied parameters with the values at the given coordinates.
     pub(super) fn varied(&self, coordinates: &[f64]) -> Vec<(usize, f64)> {
         self.problem.region.varied(coordinates, &self.choice)
     }
 
-    /// The point at these coordinates.
+    /// The point at the given coordinates.
     pub(super) fn at(&self, coordinates: &[f64]) -> Rc<Trial> {
         self.find(coordinates, false)
     }
 
-    /// The point at these coordinates, with derivatives if its motion is periodic.
+    /// The point at the given coordinates, with derivatives if the motion of the point is periodic.
     pub(super) fn with_slopes(&self, coordinates: &[f64]) -> Rc<Trial> {
         self.find(coordinates, true)
     }
@@ -152,7 +153,7 @@ impl<'p> Evaluator<'p> {
         trial
     }
 
-    /// The row at these coordinates; an invalid one for a point that a condition excludes.
+    /// The row at the given coordinates. The row of a point that a condition excludes is invalid.
     fn row(&self, plan: &Plan, coordinates: &[f64]) -> Row {
         self.rows.set(self.rows.get() + 1);
         let excluded = || Row::invalid("a condition of the grid excludes the point");
@@ -172,7 +173,8 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// Returns the derivatives per coordinate, from the row or else from differences of rows.
+    /// Returns the derivatives per coordinate, from the row or, if the row has no derivatives, from differences of
+    /// rows.
     fn slopes(&self, trial: &Trial, is_sloped: bool) -> Vec<Vec<f64>> {
         let Trial { coordinates, row, .. } = trial;
         let variables = &self.problem.region.variables;
@@ -221,7 +223,8 @@ impl<'p> Evaluator<'p> {
         slopes
     }
 
-    /// One-sided differences of rows by one coordinate, into the region; zero if there is no row to either side.
+    /// One-sided differences of rows along one coordinate, towards the inside of the region; zero if there is no row on
+    /// either side.
     fn differences(&self, trial: &Trial, number: usize) -> Vec<f64> {
         let quantities = |trial: &Trial| -> Vec<f64> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()

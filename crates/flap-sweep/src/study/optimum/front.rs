@@ -1,4 +1,4 @@
-//! The front of two goals: the best values of one for limits on the other.
+//! The Pareto front of two goals: the best values of one goal for limits on the other goal.
 
 use super::answer::{Optimum, Status};
 use super::problem::{Aim, Problem, ProblemError};
@@ -6,7 +6,7 @@ use super::search::{Settings, optimise, optimise_from};
 use crate::plan::Plan;
 use crate::run::RunError;
 
-/// A goal: an expression, and the direction in which it is better.
+/// A goal: an expression, and the direction in which the value of the expression is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Goal<'t> {
     /// The expression.
@@ -18,11 +18,11 @@ pub struct Goal<'t> {
 /// A front.
 #[derive(Clone, Debug)]
 pub struct Front {
-    /// Its points, from the best value of the first goal to the best value of the second.
+    /// The points of the front, from the best value of the first goal to the best value of the second goal.
     pub points: Vec<FrontPoint>,
     /// Rows computed in all.
     pub rows: u64,
-    /// Rows with derivatives among them.
+    /// Number of computed rows with derivatives.
     pub sloped: u64,
 }
 
@@ -35,7 +35,7 @@ pub struct FrontPoint {
     pub best: Optimum,
 }
 
-/// The reason why there is no front.
+/// The reason why there is no Pareto front.
 #[derive(Debug, thiserror::Error)]
 pub enum FrontError {
     /// A goal or a condition has a mistake. The number is the goal's place.
@@ -103,7 +103,7 @@ pub fn front(
 }
 
 impl Front {
-    /// Adds a point and the rows that it took.
+    /// Adds a point and the number of rows that were computed for the point.
     fn push(&mut self, point: FrontPoint) {
         self.rows += point.best.rows;
         self.sloped += point.best.sloped;

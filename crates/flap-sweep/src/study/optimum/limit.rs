@@ -1,19 +1,19 @@
-//! Conditions of a problem as limits: one number that must be smaller than another.
+//! Conditions of a problem as limits. A limit has one number that must be smaller than another number.
 
 use crate::notation::expression::{Comparison, Expression};
 
-/// A limit: one number that must be smaller than another.
+/// A limit: one number must be smaller than another number.
 #[derive(Clone, Debug)]
 pub(super) struct Limit {
     /// The comparison as the user wrote it, or the name of a condition of the grid.
     pub(super) text: String,
     pub(super) comparison: Comparison,
-    /// The number that the other side is compared with, if it never changes.
+    /// The number on one side of the comparison, if this side is a constant.
     constant: Option<f64>,
 }
 
 impl Limit {
-    /// The limits of a condition; `None` if it is not made of comparisons that must all hold.
+    /// The limits of a condition; `None` if the condition does not consist of comparisons that must all hold.
     pub(super) fn of_condition(text: &str, condition: &Expression) -> Option<Vec<Limit>> {
         let comparisons = condition.comparisons()?;
         let pieces = pieces(text);
@@ -42,7 +42,8 @@ impl Limit {
         if self.comparison.is_strict { less < more } else { less <= more }
     }
 
-    /// The size in which the distance to the limit is measured: the constant, else the larger side.
+    /// The size by which the distance from the limit is divided: the constant side, or the larger side if no side is
+    /// constant.
     pub(super) fn scale(&self, [less, more]: [f64; 2]) -> f64 {
         let sides = less.abs().max(more.abs());
         let sizes = [self.constant.map_or(0.0, f64::abs), sides];

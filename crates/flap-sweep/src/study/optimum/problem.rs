@@ -1,4 +1,4 @@
-//! The statement of a problem: a plan, the number that is to be largest or smallest, and limits.
+//! The statement of a problem: a plan, the goal that must be largest or smallest, and limits.
 
 use flap_core::parameter::{Kind as ParameterKind, Parameter};
 use flap_core::vehicle::of_all_wings;
@@ -13,7 +13,7 @@ use crate::notation::text;
 use crate::plan::formula::{Condition, OwnMeasure};
 use crate::plan::{Plan, Value};
 
-/// The better direction of a number.
+/// The direction in which the goal is better: smaller or larger values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// Larger numbers are better.
@@ -23,7 +23,7 @@ pub enum Aim {
 }
 
 impl Aim {
-    /// 1 if smaller numbers are better, else -1.
+    /// 1 if smaller values of the goal are better, otherwise -1.
     pub(super) fn sign(self) -> f64 {
         match self {
             Aim::Largest => -1.0,
@@ -32,14 +32,14 @@ impl Aim {
     }
 }
 
-/// The part of a problem that has a mistake.
+/// The part of a problem statement that contains a mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
     /// The grid.
     Plan,
-    /// The number that is to be largest or smallest.
+    /// The goal: the number that must be largest or smallest.
     Goal,
-    /// The condition of this place.
+    /// The condition with this index.
     Condition(usize),
 }
 
@@ -47,11 +47,11 @@ pub enum Which {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ProblemError {
-    /// The part that has the mistake.
+    /// The part of the problem that contains the mistake.
     pub which: Which,
     /// The mistake.
     pub message: String,
-    /// Advice, if there is any.
+    /// Advice for the user, if there is advice for this mistake.
     pub help: Option<String>,
 }
 
@@ -60,7 +60,8 @@ pub struct ProblemError {
 pub struct Problem {
     /// The user's plan.
     pub(super) plan: Plan,
-    /// The plan whose rows have the number and both sides of each limit behind their measures, and no conditions that are limits.
+    /// The plan whose rows contain, after the measures, the goal and both sides of each limit. This plan has no
+    /// conditions that are limits.
     pub(super) measured: Plan,
     /// The same plan with derivatives of these measures with respect to the parameters of the region; `None` if rows have
     /// no derivatives.
@@ -128,17 +129,17 @@ impl Problem {
         &self.plan
     }
 
-    /// The number that is to be largest or smallest, as the user wrote it.
+    /// The goal that must be largest or smallest, as the user wrote it.
     pub fn goal(&self) -> &str {
         &self.goal
     }
 
-    /// The better direction of this number.
+    /// The direction in which the goal is better.
     pub fn aim(&self) -> Aim {
         self.aim
     }
 
-    /// The number at the design of an answer to another problem of the same plan.
+    /// The value of the goal at the best design of another problem of the same plan.
     pub fn value(&self, best: &Optimum) -> f64 {
         let known: Vec<f64> = best.values.iter().chain(&best.row.measures).copied().collect();
         self.value.value(&known)
@@ -149,7 +150,7 @@ impl Problem {
         self.sloped.is_some()
     }
 
-    /// The place of the number among the measures of rows. Behind it are both sides of each limit.
+    /// The index of the goal among the measures of rows. Both sides of each limit follow the goal.
     pub(super) fn place(&self) -> usize {
         self.plan.rows().columns().len() + self.plan.measures().len()
     }
@@ -163,7 +164,7 @@ fn without_bounds(parameter: &Parameter) -> ProblemError {
     }
 }
 
-/// The expression `text`, which must be of this kind.
+/// The parsed expression `text`, which must be of the given kind.
 fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Expression, ProblemError> {
     let names = Names { plan };
     let refused = |message: String, help: Option<String>| ProblemError { which, message, help };
@@ -203,7 +204,7 @@ fn unknown(names: &Names<'_>, name: &str) -> (String, Option<String>) {
     (format!("there is no measure or parameter `{name}`"), near.map(|near| format!("did you mean `{near}`?")))
 }
 
-/// The names that a problem may use: parameters, the model's measures, and the plan's own.
+/// The names that a problem may use: parameters, measures of the model, and measures of the plan.
 struct Names<'p> {
     plan: &'p Plan,
 }

@@ -1,4 +1,4 @@
-//! The refinement of a start: sequential quadratic programming, then a pattern search where derivatives are missing.
+//! The refinement of a start: sequential quadratic programming, then a pattern search if derivatives are missing.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,10 +10,12 @@ use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::sensitivity::{CONVERGED, active};
 
-/// The share of its size by which a limit is kept away from, so that the optimum satisfies it in spite of rounding.
+/// Distance that the search keeps from a limit, as a fraction of the limit's size. The optimum then satisfies the limit
+/// in spite of rounding.
 const KEPT_AWAY: f64 = 1e-6;
 
-/// The share of its size by which a limit that is kept away from may be missed: rows have such errors.
+/// Allowed error of the distance that the search keeps from a limit, as a fraction of the limit's size. Rows have
+/// errors of this size.
 const MISSED: f64 = 5e-7;
 
 /// The relative change of the number below which a refinement ends.
@@ -22,10 +24,10 @@ const SMALL_CHANGE: f64 = 1e-6;
 /// The change of coordinates below which a refinement ends.
 const SMALL_STEP: f64 = 1e-5;
 
-/// Most points of one run of sequential quadratic programming.
+/// Largest number of points in one run of sequential quadratic programming.
 const MOST_TRIALS: usize = 60;
 
-/// Most runs of sequential quadratic programming, each from the end of the one before.
+/// Largest number of runs of sequential quadratic programming. Each run begins at the end of the run before.
 const MOST_RUNS: usize = 4;
 
 /// The first and the smallest step of the pattern search, in coordinates.
@@ -34,7 +36,7 @@ const PATTERN: [f64; 2] = [0.02, 1e-4];
 /// Most points of the pattern search, per direction.
 const MOST_TESTS: u64 = 40;
 
-/// The distance from a limit, in units of its size, below which the pattern search follows it.
+/// The distance from a limit, divided by the limit's size, below which the pattern search follows the limit.
 const NEAR: f64 = 0.02;
 
 /// A function with its constraints, at a point: each constraint is at most zero.
@@ -87,7 +89,7 @@ pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
     Refined { best, is_polished }
 }
 
-/// The relative gain from one feasible point to another; infinite if only the latter is feasible.
+/// The relative gain from one point to another point; infinite if only the second point is feasible.
 fn change(problem: &Problem, before: &Trial, behind: &Trial) -> f64 {
     if before.excess > 0.0 {
         return if behind.excess < before.excess { f64::INFINITY } else { 0.0 };
@@ -96,7 +98,7 @@ fn change(problem: &Problem, before: &Trial, behind: &Trial) -> f64 {
     if size == 0.0 { 0.0 } else { problem.aim.sign() * (before.goal - behind.goal) / size }
 }
 
-/// The best point of a run of sequential quadratic programming, and the last one.
+/// The best point and the last point of a run of sequential quadratic programming.
 fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Trial>, Rc<Trial>) {
     let problem = points.problem;
     let size = if begin.goal == 0.0 { 1.0 } else { begin.goal.abs() };
@@ -136,7 +138,8 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Tri
     (best.into_inner(), last.into_inner())
 }
 
-/// The point that exceeds its limits least, from a point that exceeds some: the smallest number by which all limits must be moved.
+/// The point that exceeds its limits least, searched from a point that exceeds some limits. The search minimises the
+/// number by which all limits must be moved.
 fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let dimensions = begin.coordinates.len();
@@ -171,7 +174,7 @@ fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     best.into_inner()
 }
 
-/// Minimises the function `local`, which is `None` where it has no value, between `bounds`.
+/// Minimises the function `local` between `bounds`. The function returns `None` where it has no value.
 fn solve(begin: &[f64], bounds: &[(f64, f64)], limits: usize, local: &dyn Fn(&[f64], bool) -> Option<Local>) {
     let put = |slopes: Option<&mut [f64]>, found: &[f64]| {
         if let Some(slopes) = slopes.filter(|slopes| slopes.len() == found.len()) {
@@ -237,7 +240,7 @@ fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
     best
 }
 
-/// The coordinates, and each of them without its parts across the limits that are near.
+/// The coordinate directions, and each coordinate direction without its components normal to nearby limits.
 fn directions(problem: &Problem, at: &Trial) -> Vec<Vec<f64>> {
     let dimensions = at.coordinates.len();
     let axis = |number: usize| DVector::from_fn(dimensions, |row, _| if row == number { 1.0 } else { 0.0 });

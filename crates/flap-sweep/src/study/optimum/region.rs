@@ -1,4 +1,5 @@
-//! The region of a problem: parameters that vary continuously between two values, and choices that are tried one by one.
+//! The region of a problem: parameters that vary continuously between two values, and choices of which each option is
+//! tried.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
@@ -6,10 +7,11 @@ use crate::plan::Plan;
 use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::Distribution;
 
-/// The distance from 0 and 1 within which a coordinate is the end itself: searches miss it by rounding.
+/// The distance from 0 and 1 within which a coordinate counts as the end of its range, because searches miss the end by
+/// rounding.
 const AT_END: f64 = 1e-9;
 
-/// A parameter that varies continuously between two values, which coordinates from 0 to 1 stand for.
+/// A parameter that varies continuously between two values, with a coordinate from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Variable {
     pub(super) parameter: usize,
@@ -54,7 +56,7 @@ impl Variable {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
     pub(super) variables: Vec<Variable>,
-    /// Parameters whose values are tried one by one: choices, counts, and parameters that move together.
+    /// Parameters whose values are tried one by one: choices, whole numbers, and parameters that vary together.
     pub(super) enumerated: Vec<usize>,
 }
 
@@ -117,7 +119,7 @@ impl Region {
         self.enumerated.iter().map(|&parameter| values[parameter]).collect()
     }
 
-    /// The varied parameters with their values at these coordinates of a choice.
+    /// The varied parameters with the values at the given coordinates of a choice.
     pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
         let continuous = self.variables.iter().zip(coordinates);
         let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));

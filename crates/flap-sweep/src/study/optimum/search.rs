@@ -1,4 +1,4 @@
-//! The search: rows of the grid, then refinements side by side.
+//! The search: first rows of the grid, then refinements in parallel.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -18,9 +18,10 @@ use super::starts::{self, Start};
 use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::run::{RunError, RunOptions};
 
-/// Largest relative difference of the values, and largest difference of the coordinates, of ends that are one optimum.
+/// Largest relative difference of the values, and largest difference of the coordinates, between ends of searches that
+/// count as one optimum.
 ///
-/// One of the pairs must hold. If the value hardly changes, the coordinates of the ends differ more.
+/// One of the pairs of limits must hold. If the value hardly changes, the coordinates of the ends differ more.
 const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// The time between two looks at the caller's wish to stop.
@@ -31,17 +32,17 @@ const LOOK: Duration = Duration::from_millis(50);
 pub struct Settings {
     /// Threads and instructions.
     pub run: RunOptions,
-    /// Most points of the grid that are refined.
+    /// Largest number of grid points from which a search starts.
     pub starts: NonZeroUsize,
-    /// Most points of the grid that are computed.
+    /// Largest number of grid points that are computed.
     pub points: u64,
 }
 
 impl Settings {
-    /// Starts that are refined unless the user says otherwise.
+    /// Default number of starts that are refined.
     pub const STARTS: usize = 8;
 
-    /// Points of the grid that are computed unless the user says otherwise.
+    /// Default number of grid points that are computed.
     pub const POINTS: u64 = 4096;
 }
 
@@ -64,8 +65,9 @@ struct End {
 
 /// The best point of a problem; `None` if no start has a periodic motion, or the search was stopped.
 ///
-/// `stops` is called several times a second on this thread, with the number of finished points and starts, and of all.
-/// If it returns true, the search ends. The answer does not depend on the number of threads.
+/// `stops` is called several times a second on this thread, with the number of finished points and starts, and the
+/// number of all points and starts.
+/// If `stops` returns true, the search ends. The answer does not depend on the number of threads.
 ///
 /// # Errors
 /// [`RunError`] if a thread cannot be started, or the model breaks its contract.
@@ -124,7 +126,7 @@ impl Begin {
     }
 }
 
-/// The ends of the refinements in the order of the starts; `None` if the search was stopped.
+/// The end points of the refinements in the order of the starts; `None` if the search was stopped.
 fn refined(
     problem: &Problem,
     settings: &Settings,
@@ -180,7 +182,7 @@ fn refined(
     }
 }
 
-/// The end of the refinement of one start.
+/// The end point of the refinement of one start.
 fn end_of(
     problem: &Problem,
     options: &RunOptions,
@@ -249,7 +251,7 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     })
 }
 
-/// Sets the drive frequency to the resonance, if the design runs there.
+/// Sets the drive frequency to the resonance, if the design is run at its resonance.
 fn set_resonance(problem: &Problem, measures: &[f64], values: &mut [f64]) {
     let Some(resonance) = problem.plan.resonance() else { return };
     let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
@@ -260,7 +262,7 @@ fn set_resonance(problem: &Problem, measures: &[f64], values: &mut [f64]) {
     }
 }
 
-/// The varied numbers that are at an end of their axis, with both ends.
+/// The varied numbers whose value is at an end of the axis, with both ends of the axis.
 fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> {
     let region = &problem.region;
     let continuous =
@@ -284,7 +286,7 @@ fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> 
     continuous.chain(counts).filter(is_at_end).collect()
 }
 
-/// The distinct ends, in this order.
+/// The distinct end points of the searches, in the given order.
 fn optima(order: &[&End]) -> Vec<Other> {
     let mut found: Vec<(Other, &Trial)> = Vec::new();
     for end in order {

@@ -1,4 +1,4 @@
-//! The bounds and limits that hold an optimum back, and their multipliers.
+//! The bounds and limits that restrict an optimum, and the Lagrange multipliers of these limits.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,27 +6,28 @@ use super::answer::{Active, Edge};
 use super::evaluate::Trial;
 use super::problem::Problem;
 
-/// The distance from a limit, in units of its size, below which it may be active.
+/// The distance from a limit, divided by the limit's size, below which the limit may be active.
 const NEAR: f64 = 1e-4;
 
 /// The distance from a limit where the end was found by a pattern search.
 const NEAR_PATTERN: f64 = 5e-3;
 
-/// The distance from a bound, in coordinates, below which it may be active.
+/// The distance from a bound, in coordinates, below which the bound may be active.
 const AT_BOUND: f64 = 1e-6;
 
-/// The gain that derivatives may promise at an optimum, as a share of the number per width of an axis.
+/// Largest gain that derivatives may predict at an optimum, as a fraction of the goal per width of an axis.
 pub(super) const CONVERGED: f64 = 0.02;
 
-/// A bound or limit that may hold the optimum back.
+/// A bound or limit that may restrict the optimum.
 #[derive(Clone, Copy)]
 enum Holder {
     Limit(usize),
-    /// The variable, and true for its largest value.
+    /// The variable, and true for the largest value of the variable.
     Bound(usize, bool),
 }
 
-/// The active bounds and limits of a point with derivatives, and the share of the number's derivatives that they leave over.
+/// The active bounds and limits of a point with derivatives, and the part of the goal's derivatives that these limits
+/// do not balance.
 pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<Active>, f64) {
     let Some(goal) = at.slopes.first() else { return (Vec::new(), f64::NAN) };
     let near = if is_polished { NEAR_PATTERN } else { NEAR };

@@ -1,4 +1,4 @@
-//! The starts of a problem: points of the grid, and the best distinct ones among them.
+//! The starts of a problem: points of the grid, and the best distinct points among the grid points.
 
 use super::evaluate::Trial;
 use super::problem::Problem;
@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::run::{Outcome, Run, RunError, RunOptions, rows};
 use crate::study::survey::spread;
 
-/// The distance of starts of the same choice, in coordinates, from which they are distinct.
+/// The distance in coordinates from which two starts of the same choice count as distinct.
 const DISTINCT: f64 = 0.2;
 
 /// A point of the grid.
@@ -15,7 +15,7 @@ pub(super) struct Start {
     pub(super) choice: Vec<f64>,
 }
 
-/// The points of the grid that are computed: all, or `most` that are spread over it.
+/// The points of the grid that are computed: all points, or `most` points that are spread over the grid.
 pub(super) fn selected(plan: Plan, most: u64) -> Plan {
     let plan = plan.with_all_points();
     if plan.len() <= most {
@@ -28,7 +28,8 @@ pub(super) fn selected(plan: Plan, most: u64) -> Plan {
     plan.clone().with_points(list).unwrap_or(plan)
 }
 
-/// The rows of a plan's selected points that have a periodic motion. `stops` is called now and then: if it gives true, the list
+/// The rows of a plan's selected points that have a periodic motion. `stops` is called regularly. If `stops` returns
+/// true, the list
 /// ends early.
 ///
 /// # Errors
@@ -59,7 +60,8 @@ pub(super) fn computed(
     Ok(starts)
 }
 
-/// The best starts: first the best one of each choice, then others that are distinct from those before. At most `most`.
+/// The best starts: first the best start of each choice, then further starts that are distinct from earlier starts. The
+/// list has at most `most` starts.
 pub(super) fn best(problem: &Problem, mut starts: Vec<Start>, most: usize) -> Vec<Start> {
     let sign = problem.aim.sign();
     // A stable sort: of equal starts the first one comes first.

@@ -1,4 +1,4 @@
-//! The parameter that rises and falls, and its values.
+//! The parameter that rises and falls in a response, and the values of this parameter.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
@@ -13,7 +13,7 @@ const MOST_VALUES: f64 = 1e6;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct AlongError {
-    /// Mistake, in one line.
+    /// Description of the mistake in one line.
     pub message: String,
     /// Advice; may be empty.
     pub help: &'static str,
@@ -32,12 +32,12 @@ impl Along {
     /// The default `tolerance` is a sixteenth of the shortest step.
     ///
     /// # Errors
-    /// [`AlongError`] in these cases:
+    /// [`AlongError`] in one of the following cases:
     ///
     /// - The parameter is a choice.
-    /// - It is varied together with others.
-    /// - It has neither an axis nor steps.
-    /// - There are fewer than two values.
+    /// - The parameter is varied together with other parameters.
+    /// - The parameter has neither an axis nor steps.
+    /// - The parameter has fewer than two values.
     pub fn new(
         plan: Plan,
         parameter: usize,
@@ -86,7 +86,7 @@ impl Along {
         values
     }
 
-    /// Returns the decision on a design: it is followed if any point of its curve is run.
+    /// Returns the decision on a design: the design is followed if any point of its curve is run.
     pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Admission {
         let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
         let first = verdicts.next().unwrap_or(Admission::Runs);

@@ -8,7 +8,7 @@ use flap_core::simulate::{
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan, sample};
 
-/// Number of samples of an orbit that determine the range of its states.
+/// Number of samples of an orbit from which the range of the states is computed.
 const SAMPLES: u32 = 64;
 
 /// Random initial states of basins.
@@ -20,7 +20,7 @@ pub struct Starts {
     pub seed: u64,
 }
 
-/// Basins at one value of the followed parameter, where both branches have different orbits.
+/// Basins of attraction at one value of the followed parameter at which both branches have different orbits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
     /// Value of the followed parameter.
@@ -33,7 +33,7 @@ pub struct Basin {
 }
 
 impl Basin {
-    /// Returns the shares of the motions, each with its binomial standard error.
+    /// Returns the fractions of the motions that go to each orbit, each with its binomial standard error.
     pub fn shares(&self) -> [[f64; 2]; 3] {
         let count = f64::from(self.count);
         self.motions.map(|motions| {

@@ -1,9 +1,11 @@
 //! Unstable orbits between the two motions of a bistable band.
 //!
-//! At the end of its band, a branch of orbits turns back and becomes unstable. At the other end it turns again and
+//! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end, the branch
+//! turns again and
 //! joins the other branch.
 //!
-//! Pseudo-arclength continuation follows it (H. B. Keller, 1977). The unknowns are the state at the beginning of the
+//! Pseudo-arclength continuation follows the branch (H. B. Keller, 1977). The unknowns are the state at the beginning
+//! of the
 //! period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two.
 
 use flap_core::num::Backend;
@@ -25,7 +27,7 @@ const MOST: usize = 2000;
 const SLOW: usize = 8;
 const QUICK: usize = 3;
 
-/// Change of the parameter for its derivative, relative to the width of the band.
+/// Change of the parameter for the derivative with respect to the parameter, relative to the width of the band.
 const CHANGE: f64 = 1e-3;
 
 /// Tolerances for the integration of periods, relative to the usual tolerances.
@@ -34,7 +36,8 @@ const CHANGE: f64 = 1e-3;
 /// orbit.
 const FINER: f64 = 1e-2;
 
-/// Returns the unstable orbits of all bistable bands of a curve, or some of them if it is interrupted.
+/// Returns the unstable orbits of all bistable bands of a curve. If the computation is interrupted, some orbits are
+/// missing.
 pub(super) fn unstable(
     plan: &Plan,
     along: &Along,
@@ -69,7 +72,8 @@ pub(super) fn unstable(
     found
 }
 
-/// A branch of orbits as points of a space: the state in units of its sizes, then the parameter in widths of the
+/// A branch of orbits as points of a space. The coordinates are the state relative to its sizes, then the parameter in
+/// widths of the
 /// band.
 struct Branch<'a> {
     plan: &'a Plan,
@@ -92,7 +96,8 @@ struct Orbit {
 }
 
 impl Branch<'_> {
-    /// Returns the orbits after `before` and `last` as long as they are unstable. Empty if the branch does not turn.
+    /// Returns the orbits after `before` and `last` as long as the orbits are unstable. The list is empty if the branch
+    /// does not turn.
     fn turn(&self, before: &Step, last: &Step) -> Vec<Step> {
         let mut places = [self.place(before), self.place(last)];
         let mut distance = STEPS[0];
@@ -147,7 +152,7 @@ impl Branch<'_> {
             .period(&PointRun::new(self.backend, &self.solver, &values).until(self.interrupted), &state)
     }
 
-    /// Returns the orbit nearest to `guess` on the plane through it perpendicular to `direction`, by Newton's
+    /// Returns the orbit nearest to `guess` on the plane through `guess` perpendicular to `direction`, by Newton's
     /// iteration.
     fn correct(&self, guess: &DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
         let n = self.sizes.len();

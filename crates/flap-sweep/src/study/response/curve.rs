@@ -1,4 +1,4 @@
-//! Response of one design, and the comparison of its motions at the same drive.
+//! Response of one design, and the comparison of the two motions at the same drive.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
@@ -24,8 +24,8 @@ pub struct Curve {
     pub up: Vec<Step>,
     /// Motions on the downward branch at the values of `up`, also in ascending order.
     pub down: Vec<Step>,
-    /// Unstable orbits, if they were computed. For each bistable band they lead from the end of the upward branch to
-    /// the end of the downward branch. Their values decrease and may turn.
+    /// Unstable orbits, if computed. For each bistable band, the orbits lead from the end of the upward branch to the
+    /// end of the downward branch. The values of the parameter decrease and may turn.
     pub unstable: Vec<Step>,
 }
 
@@ -42,13 +42,13 @@ impl Curve {
         Curve { design, down: up.clone(), up, unstable: Vec::new() }
     }
 
-    /// Returns the reason why the design has no response, if its parameters are impossible together.
+    /// Returns the reason why the design has no response, if the combination of its parameters is impossible.
     pub fn invalid(&self) -> Option<&str> {
         let first = &self.up.first()?.row;
         if first.status == Status::Invalid { first.reason.as_deref() } else { None }
     }
 
-    /// Returns the motions with their cells for the columns of `layout`.
+    /// Returns the motions with the cells of the columns of `layout`.
     ///
     /// The upward branch comes first in ascending order, then the downward branch in descending order, then the
     /// unstable orbits.
@@ -63,7 +63,8 @@ impl Curve {
         })
     }
 
-    /// Returns for each value true if the two branches have different motions; `None` if neither is periodic with the
+    /// Returns for each value true if the two branches have different motions; `None` if neither motion is periodic
+    /// with the
     /// drive.
     fn bistable(&self) -> Vec<Option<bool>> {
         let sizes = component_sizes(&self.up, &self.down);
@@ -78,11 +79,13 @@ impl Curve {
     }
 }
 
-/// Largest difference of equal periodic motions: of a state component at the beginning of a period, relative to its
+/// Largest difference between equal periodic motions: of a state component at the beginning of a period, relative to
+/// the component's
 /// largest magnitude on the curve.
 ///
-/// This is the only definition of bistability. The column `bistable` of the rows contains its result, which pictures
-/// and the live page show. It compares states, because a measure may have the same value in two motions.
+/// This comparison is the only definition of bistability. The column `bistable` of the rows contains the result, which
+/// pictures and the live page show. The comparison uses states, because a measure may have the same value in two
+/// motions.
 const DIFFERENT: f64 = 1e-2;
 
 /// Relative change of a state component across a step above which the response counts as steep.
@@ -91,11 +94,11 @@ const STEEP: f64 = 0.1;
 /// Comparison of two motions at the same drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Comparison {
-    /// The same orbit.
+    /// Both motions are the same orbit.
     Same,
-    /// Two orbits, or an orbit and a motion that is not periodic with the drive.
+    /// The motions are two orbits, or an orbit and a motion that is not periodic with the drive.
     Different,
-    /// Neither is periodic with the drive.
+    /// Neither motion is periodic with the drive.
     Irregular,
 }
 
@@ -131,7 +134,7 @@ pub(super) fn is_steep(low: &Row, high: &Row, sizes: &[f64]) -> bool {
     differ(low, high, sizes, STEEP)
 }
 
-/// Returns true if a component of the states differs by more than a share of its size.
+/// Returns true if a component of the states differs by more than a fraction of the component's size.
 fn differ(one: &Row, other: &Row, sizes: &[f64], share: f64) -> bool {
     let mut pairs = one.state.iter().zip(&other.state).zip(sizes);
     pairs.any(|((one, other), size)| (one - other).abs() > share * size)

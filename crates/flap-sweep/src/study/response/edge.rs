@@ -1,4 +1,4 @@
-//! Edges of hysteresis in the plane of two parameters: their points, their rows, and a one-line summary.
+//! Edges of hysteresis in the plane of two parameters: points and rows of the edges, and a one-line summary.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use super::verdict::at;
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, CellKind, Column, Layout, Measure};
 
-/// Largest modulus of the multipliers of an orbit that loses its stability.
+/// Largest magnitude of the multipliers of an orbit that loses its stability.
 pub(super) const CRITICAL: f64 = 1.001;
 
 /// Largest number of points of an edge in each direction.
@@ -19,7 +19,7 @@ pub(super) const MOST: usize = 2000;
 /// Largest number of steps of the second parameter.
 const MOST_STEPS: f64 = 1e4;
 
-/// Second parameter of the edges, and its range.
+/// Second parameter of the edges, and the range of this parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgeRange {
     /// Index in the model's parameter table.
@@ -34,10 +34,10 @@ impl EdgeRange {
     /// Returns the second parameter of the edges of a plan that follows `along`.
     ///
     /// # Errors
-    /// [`AlongError`] in these cases:
+    /// [`AlongError`] in one of the following cases:
     ///
-    /// - The parameter is a choice, or it is the followed parameter.
-    /// - Its value comes from an axis, a formula or other parameters.
+    /// - The parameter is a choice, or the followed parameter.
+    /// - The value of the parameter comes from an axis, a formula or other parameters.
     /// - The first value is not below the last, or the value of the plan is outside of the range.
     /// - The step is not more than zero, or the range has more than 10,000 steps.
     pub fn new(
@@ -77,7 +77,7 @@ impl EdgeRange {
 /// Edges of one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edges {
-    /// Edges, in the order of the bands at which they were found.
+    /// Edges, in the order of the bands at which the edges were found.
     pub edges: Vec<Edge>,
     /// Values of the first parameter at which a band ends, but no edge was found.
     pub missed: Vec<f64>,
@@ -116,14 +116,15 @@ pub struct EdgePoint {
     pub state: Vec<f64>,
     /// Measures of the orbit.
     pub measures: Vec<f64>,
-    /// Largest modulus of the multipliers. It exceeds 1 if the orbit is unstable on both sides of the edge.
+    /// Largest magnitude of the multipliers. The magnitude exceeds 1 if the orbit is unstable on both sides of the
+    /// edge.
     pub floquet_max: f64,
 }
 
 /// Special point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeMark {
-    /// Both folds of a band meet. The edge turns back in the plane.
+    /// Cusp: both folds of a band meet, and the edge turns back in the plane.
     Cusp,
     /// The second parameter is the smallest or largest nearby.
     Turn,

@@ -1,8 +1,8 @@
 //! Continuation of the edges of hysteresis: curves in the plane of two parameters on which an orbit loses its
 //! stability.
 //!
-//! A bistable band of the first parameter p ends where a Floquet multiplier is +1. With a second parameter q, such ends
-//! form curves in the plane of p and q. A point of an edge solves these equations:
+//! A bistable band of the first parameter p ends where a Floquet multiplier is +1. If a second parameter q changes,
+//! such ends form curves in the plane of p and q. A point of an edge solves these equations:
 //!
 //! ```text
 //! P(x; p, q) − x = 0    P: map of a drive period, x: state at its beginning
@@ -38,7 +38,8 @@ const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 /// Smallest cosine of the angle between tangents of neighbouring points.
 const STRAIGHT: f64 = 0.95;
 
-/// Largest number of iterations for a point from its neighbour, and number below which the distance grows.
+/// Largest number of iterations for a point from its neighbour, and number of iterations below which the distance to
+/// the next point grows.
 const SLOW: usize = 8;
 const QUICK: usize = 4;
 
@@ -64,7 +65,8 @@ const CONVERGED: f64 = 0.1;
 /// length of the chord.
 const ON_CHORD: f64 = 0.2;
 
-/// Returns the edges that begin at the ends of the bands of a curve. `interrupted` ends the computation early.
+/// Returns the edges that begin at the ends of the bands of a curve. If `interrupted` returns true, the computation
+/// ends early.
 pub(super) fn edges(
     plan: &Plan,
     along: &Along,
@@ -122,7 +124,7 @@ pub(super) fn edges(
     found
 }
 
-/// Returns the power of two nearest to a width. Divisions by it are exact.
+/// Returns the power of two nearest to a width. Divisions by a power of two are exact.
 fn power_of_two(width: f64) -> f64 {
     width.log2().round().exp2()
 }
@@ -136,7 +138,8 @@ fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     })
 }
 
-/// The space of an edge: the state in units of its sizes, then the two parameters in units of about their ranges.
+/// The space of an edge. The coordinates are the state relative to its sizes, then the two parameters relative to about
+/// their ranges.
 struct Plane<'a> {
     plan: &'a Plan,
     backend: Backend,
@@ -157,7 +160,7 @@ struct Plane<'a> {
 struct Solution {
     place: DVector<f64>,
     period: Period,
-    /// Derivatives of the equations with respect to state and parameters. There is one row less than columns.
+    /// Derivatives of the equations with respect to state and parameters. The matrix has one row less than columns.
     jacobian: DMatrix<f64>,
     tangent: DVector<f64>,
     iterations: usize,
@@ -194,7 +197,7 @@ impl Plane<'_> {
         values
     }
 
-    /// Returns the residuals of the equations, with the period that begins at this place.
+    /// Returns the residuals of the equations at a place, with the drive period that begins at this place.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
         let values = self.parameter_values(place);
         let run = PointRun::new(self.backend, &self.solver, &values).until(self.interrupted);
@@ -365,7 +368,7 @@ impl Plane<'_> {
         (found, EdgeEnd::Long)
     }
 
-    /// Returns the first parameter outside of its range, with the limit that it exceeds.
+    /// Returns the first parameter outside of its range, with the limit that the parameter exceeds.
     fn outside(&self, place: &DVector<f64>) -> Option<(usize, f64)> {
         self.values(place).into_iter().zip(self.ranges).enumerate().find_map(|(k, (value, [from, to]))| {
             let limit = value.clamp(from, to);

@@ -1,10 +1,10 @@
 //! The upward and the downward branch of a curve.
 //!
-//! Both branches advance step by step at the same time. Two kinds of steps are then halved until they are short, each
-//! half from its neighbour on its own branch:
+//! Both branches advance step by step at the same time. Two kinds of steps are then halved until the steps are short.
+//! Each half starts from its neighbour on the same branch:
 //!
 //! - steps with equal motions of both branches at one end only
-//! - steps in which the response is steep, because they may contain a narrow band of hysteresis
+//! - steps in which the response is steep, because such steps may contain a narrow band of hysteresis
 
 use flap_core::simulate::{Point, Row, Status};
 
@@ -17,7 +17,7 @@ pub(super) struct Follow<'a> {
     plan: &'a Plan,
     along: &'a Along,
     design: Point,
-    /// Motions on the upward and the downward branch, in the order in which they were run.
+    /// Motions on the upward and the downward branch, in the order in which the motions were run.
     up: Vec<Step>,
     down: Vec<Step>,
     stage: Stage,
@@ -40,7 +40,7 @@ struct Interval {
     /// upper end.
     low: Step,
     high: Step,
-    /// True for each end at which both branches have the same motion.
+    /// True for each end of the step at which both branches have the same motion.
     same: [bool; 2],
 }
 
@@ -68,7 +68,7 @@ impl<'a> Follow<'a> {
         Point { begin: begin.filter(|state| !state.is_empty()), ..Point::at_rest(0, values) }
     }
 
-    /// Returns the values of the next step up and down; `None` after the last.
+    /// Returns the values of the next step up and down; `None` after the last step.
     fn next_values(&self) -> Option<[f64; 2]> {
         let values = &self.along.values;
         let done = self.up.len();
@@ -90,7 +90,8 @@ impl<'a> Follow<'a> {
         pairs.map(interval).collect()
     }
 
-    /// Returns the stage that halves the `intervals` that need it; the last stage if there are none.
+    /// Returns the stage that halves the `intervals` that must be halved, or the last stage if no interval must be
+    /// halved.
     fn halve(&self, mut intervals: Vec<Interval>) -> Stage {
         let sizes = component_sizes(&self.up, &self.down);
         intervals

@@ -6,11 +6,11 @@
 //!
 //! - `along`: values of the parameter
 //! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive
-//! - `follow`: one curve, up and down, with the ends of its bistable bands
+//! - `follow`: one curve, up and down, with the ends of the bistable bands
 //! - `continuation`: unstable orbits that connect the branches of a bistable band
-//! - `basin`: shares of initial states that go to each branch
-//! - `edge`: ends of bands in the plane of two parameters, their rows and summary
-//! - `edge_continuation`: continuation of these ends
+//! - `basin`: fractions of initial states whose motions settle on each branch
+//! - `edge`: ends of bands in the plane of two parameters, with rows and a summary
+//! - `edge_continuation`: continuation of the ends of bands
 //! - `verdict`: one-line summary of a curve
 //! - `run`: curves of all designs of a plan, in order
 

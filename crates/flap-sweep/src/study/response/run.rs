@@ -15,9 +15,9 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Smallest and largest number of curves per thread ahead of the last one returned.
+/// Smallest and largest number of curves per thread ahead of the last returned curve.
 ///
-/// They are enough to keep lanes full, and few enough for memory.
+/// These numbers of curves keep the lanes full and fit into memory.
 const AHEAD: [usize; 2] = [16, 128];
 
 /// Responses of the designs of a plan: of its selected points, except points that are excluded at all values of the
@@ -45,7 +45,7 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Returns the largest number of curves ahead of the last one written.
+    /// Returns the largest number of curves ahead of the last written curve.
     fn window(self, options: &RunOptions) -> usize {
         let [least, most] = AHEAD.map(|curves| curves * options.threads.get());
         (options.window / (2 * self.along.values.len())).clamp(least, most)
@@ -62,12 +62,12 @@ impl<'a> Responses<'a> {
     /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and of
     /// `second`. `curve` is a response of this plan.
     ///
-    /// If it is interrupted, edges are incomplete.
+    /// If the computation is interrupted, the edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
         edge_continuation::edges(self.plan, self.along, second, curve, Backend::best(), interrupted)
     }
 
-    /// Returns the basins of both branches at the values of `curve` at which they have different orbits.
+    /// Returns the basins of both branches at the values of `curve` at which the branches have different orbits.
     ///
     /// # Errors
     /// [`Unfinished`] if the model computes rows alone, if an orbit cannot be sampled, or after an interruption.
@@ -80,9 +80,9 @@ impl<'a> Responses<'a> {
         basin::basins(self.plan, self.along, curve, starts, Backend::best(), interrupted)
     }
 
-    /// Adds the unstable orbits to a curve, if requested, and the plan's own measures to all of its rows.
+    /// Adds the unstable orbits to a curve, if requested, and adds the measures of the plan to all rows of the curve.
     ///
-    /// If it is interrupted, orbits are left out.
+    /// If the computation is interrupted, orbits are left out.
     fn complete(self, mut curve: Curve, backend: Backend, interrupted: Interrupt<'_>) -> Curve {
         let Responses { plan, along } = self;
         if along.unstable {
@@ -162,7 +162,7 @@ impl<'a> SequenceSource for Designs<'a, '_, '_> {
     }
 }
 
-/// Returns the expected number of measures of a row. A periodic one has `measures`.
+/// Returns the expected number of measures of a row. A row of a periodic motion has `measures` measures.
 fn expected(row: &Row, measures: usize) -> usize {
     if row.status == Status::Periodic { measures } else { 0 }
 }

@@ -40,9 +40,10 @@ pub struct Band {
 /// Kind of motions at values where a curve is not a single orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BandKind {
-    /// Two motions: one on the upward and one on the downward branch.
+    /// Two different motions: one motion on the upward branch and one motion on the downward branch.
     Bistable {
-        /// Largest difference of their strokes (deg, peak to peak); `None` if at every value one of them is not
+        /// Largest difference of the strokes of both motions (deg, peak to peak); `None` if at every value one motion
+        /// is not
         /// periodic with the drive.
         jump: Option<f64>,
     },
@@ -200,7 +201,7 @@ fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Returns two significant digits of a small number, two decimals of others.
+/// Returns a small number with two significant digits, and other numbers with two decimals.
 fn digits(x: f64) -> String {
     if x != 0.0 && x.abs() < 0.1 { format!("{x:.1e}") } else { format!("{x:.2}") }
 }

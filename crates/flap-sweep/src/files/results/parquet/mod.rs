@@ -32,7 +32,7 @@ pub(crate) struct ParquetRows {
     columns: Vec<Cells>,
     rows: usize,
     text: TextDigest,
-    /// The row as text; kept to reuse its memory.
+    /// The row as text. The string is kept to reuse its memory.
     line: String,
 }
 
@@ -77,7 +77,7 @@ impl ParquetRows {
         if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
 
-    /// Completes the file, makes it durable, and returns its checksums.
+    /// Completes the file, makes the file durable, and returns the checksums of the file.
     pub(crate) fn finish(mut self) -> io::Result<Checksums> {
         if self.rows > 0 {
             self.write_group()?;
@@ -160,7 +160,7 @@ impl Cells {
         Ok(())
     }
 
-    /// Writes the cells as the next column, and clears them.
+    /// Writes the cells as the next column, and clears the cells.
     fn write(&mut self, mut writer: SerializedColumnWriter<'_>) -> io::Result<()> {
         fn write<T: DataType>(
             writer: &mut SerializedColumnWriter<'_>,

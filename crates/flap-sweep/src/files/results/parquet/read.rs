@@ -21,12 +21,12 @@ use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
 use crate::table::lines;
 
-/// Reads rows as the text from which they were written. Files of other programs are accepted if their cells are
+/// Reads rows as the text from which the file was written. Files of other programs are accepted if their cells are
 /// numbers, booleans and text.
 pub(crate) struct ParquetReader {
     /// Column names.
     pub(crate) names: Vec<String>,
-    /// Metadata, as keys with their texts.
+    /// Metadata of the file, as pairs of a key and a text.
     pub(crate) entries: Vec<(String, String)>,
     rows: RowIter<'static>,
 }
@@ -124,7 +124,7 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `decode` on a file that may be damaged. A panic becomes an error and is not printed.
+/// Runs `decode` on a file that may be damaged. A panic in `decode` becomes an error and is not printed.
 ///
 /// After a panic, the reader that `decode` used must not be used again.
 fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
@@ -186,7 +186,7 @@ impl ChunkReader for Limited {
     }
 }
 
-/// Returns the size of a decompressed page, which is the second field of its header.
+/// Returns the size of a decompressed page, which is the second field of the page's header.
 ///
 /// `None` if the bytes are no header. The parquet crate then reports the mistake.
 fn declared(header: &[u8]) -> Option<u64> {
@@ -196,7 +196,7 @@ fn declared(header: &[u8]) -> Option<u64> {
     (size & 1 == 0).then_some(size >> 1)
 }
 
-/// Returns a whole number and the bytes after it.
+/// Returns a whole number and the bytes after the number.
 fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (&kind, bytes) = bytes.split_first()?;
     let length = bytes.iter().take(5).position(|byte| byte & 0x80 == 0)? + 1;
