@@ -6,8 +6,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 /// Length of the motion padded with zeros, in lengths of the motion. Bins are closer than the resolution of the
-/// spectrum by this
-/// factor.
+/// spectrum by this factor.
 const PADDING: usize = 8;
 
 /// Smallest peak, relative to the largest peak.

@@ -90,8 +90,7 @@ pub(crate) fn too_large(name: &str) -> PyErr {
 }
 
 /// Returns the `TypeError` for an object that raised `error` while it was read. `error` is the cause of the
-/// `TypeError`. Exceptions that are not
-/// errors, such as `KeyboardInterrupt`, are returned unchanged.
+/// `TypeError`. Exceptions that are not errors, such as `KeyboardInterrupt`, are returned unchanged.
 pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: PyErr) -> PyErr {
     let py = value.py();
     if !error.is_instance_of::<PyException>(py) {

@@ -100,8 +100,7 @@ pub(crate) fn into_columns<'py>(
 }
 
 /// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs. The summary is
-/// empty if nothing was
-/// left to run.
+/// empty if nothing was left to run.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,

@@ -78,8 +78,8 @@ pub(crate) struct LookArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// Better direction of the measure: larger or smaller values [default: min for power,
-    /// current, strain, field, drag and force, max for other columns]
+    /// Better direction of the measure: larger or smaller values [default: min for power, current, strain, field,
+    /// drag and force, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 

@@ -63,8 +63,7 @@ pub(crate) struct PlotArgs {
     pub(crate) best_over: Vec<String>,
 
     /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field,
-    /// drag and force,
-    /// max for other columns]
+    /// drag and force, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 

@@ -1,9 +1,8 @@
 //! Journal of unfinished results, which records the progress of a run: `<results>.journal`.
 //!
 //! The first line of a journal identifies the run. Every other line is a checkpoint. Each line begins with the checksum
-//! of the line. A line is
-//! added only when the rows that it counts are safe on disk, and lines are never changed. A crash may leave an
-//! incomplete line at the end, whose checksum is wrong.
+//! of the line. A line is added only when the rows that it counts are safe on disk, and lines are never changed. A
+//! crash may leave an incomplete line at the end, whose checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};

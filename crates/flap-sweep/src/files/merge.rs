@@ -156,8 +156,7 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
 /// Writes the rows of `parts` to `to` in the order of their points.
 ///
 /// `parts` must have passed [`check`]. `whole` is the [`sidecar`] of `parts` together. `readers` read the parts, in the
-/// same order. If
-/// a reader is tolerant, rows that do not belong to the shard are left out.
+/// same order. If a reader is tolerant, rows that do not belong to the shard are left out.
 ///
 /// # Errors
 /// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records

@@ -62,8 +62,7 @@ pub struct LockedFile {
 /// Opens a result file for writing from its beginning.
 ///
 /// A file with contents is an error. If `overwrite` is true, the file is opened and the contents are kept. The lock of
-/// the file
-/// keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
+/// the file keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
 ///
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents

@@ -4,10 +4,8 @@
 //! journal beside them, because a journal is begun only if no file has their name.
 //!
 //! With `--restart`, the earlier results keep their names until the new results are complete. Until then the new
-//! results
-//! of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the new
-//! results are a
-//! replacement, so another file of this name is never taken for one.
+//! results of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the
+//! new results are a replacement, so another file of this name is never taken for one.
 //!
 //! Results without a sidecar count as unverified, not as damaged. [`commit`] therefore removes the earlier sidecar,
 //! renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call completes the
@@ -36,8 +34,7 @@ pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
 }
 
 /// Removes the waiting rows, then the journal. If the process is killed in between, the journal still identifies the
-/// rows as
-/// flap's.
+/// rows as flap's.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.

@@ -6,8 +6,7 @@
 //!
 //! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet file are
 //! therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. The rows become columns when
-//! the run is
-//! complete.
+//! the run is complete.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -231,8 +230,7 @@ impl Session {
     }
 
     /// Returns the path of the file that contains the rows until they are complete. For a Parquet file, this file is
-    /// not the
-    /// result file.
+    /// not the result file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
     }

@@ -29,8 +29,7 @@ const DEVICE: &str = "device.";
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
 /// Names of parameters, of the parameters' values in the preset, and of measures. Values have this order: parameters,
-/// the
-/// model's measures, the user's measures.
+/// the model's measures, the user's measures.
 pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
     /// Values of the preset.
@@ -62,8 +61,7 @@ impl Names<'_> {
     }
 
     /// Returns the index of the parameter that gives the value of this parameter. An unset parameter of one wing has
-    /// the value of
-    /// all wings.
+    /// the value of all wings.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
         shared.unwrap_or(index)

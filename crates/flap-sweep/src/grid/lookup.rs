@@ -68,8 +68,7 @@ impl<'l> Lookup<'l> {
 /// intention.
 ///
 /// The name may be a choice or the frequency of one wing, a difference without wings on both sides, or a phase. `None`
-/// if
-/// the parameters do not belong to a vehicle.
+/// if the parameters do not belong to a vehicle.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
         return None;

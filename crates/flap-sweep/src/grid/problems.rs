@@ -9,8 +9,7 @@ use super::diagnostic::{Diagnostic, Mistakes};
 use crate::plan::Source;
 
 /// Largest number of stored diagnostics. Further diagnostics are counted, so that a file with millions of mistakes
-/// takes
-/// little time and memory.
+/// takes little time and memory.
 const MOST_KEPT: usize = 1000;
 
 /// Collector of diagnostics about one file.

@@ -26,8 +26,7 @@ pub(super) const OF: [&str; 1] = ["device"];
 /// Returns the sample of the section, and the file that lists the points, if there is such a file.
 ///
 /// `base` contains the standard errors of parameters, and `means` contains the values of parameters that are not
-/// sampled. A
-/// parameter with a wrong distribution still takes part, without values, in later checks.
+/// sampled. A parameter with a wrong distribution still takes part, without values, in later checks.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &Base,

@@ -21,8 +21,7 @@ const HEAD: &str = "\
 /// Returns the text of a device with all values of a plan, before the axes of the plan are applied.
 ///
 /// Every parameter has a comment with the description and the range of the parameter. The text reads back as the same
-/// numbers, bit for
-/// bit.
+/// numbers, bit for bit.
 ///
 /// ```
 /// use flap_sweep::grid;

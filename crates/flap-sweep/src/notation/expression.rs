@@ -64,8 +64,7 @@ impl Expression {
     }
 
     /// The comparisons that must all hold, in the order of the text. `None` if the expression is not made of
-    /// comparisons by
-    /// `<`, `<=`, `>` and `>=` that are joined with `and`.
+    /// comparisons by `<`, `<=`, `>` and `>=` that are joined with `and`.
     pub(crate) fn comparisons(&self) -> Option<Vec<Comparison>> {
         comparisons(&self.operations)
     }

@@ -47,8 +47,7 @@ impl<E> QuantityError<E> {
 }
 
 /// The comparison `text` without units: each number is converted to the unit of the column with which the number is
-/// compared. `unit_of`
-/// finds the unit of a column by its name.
+/// compared. `unit_of` finds the unit of a column by its name.
 ///
 /// # Errors
 /// [`QuantityError`] for a number with a unit that is compared with no column, or with a column of another dimension.

@@ -68,8 +68,7 @@ pub fn count(number: u64, thing: &str) -> String {
 const MOST_NAMES: usize = 20;
 
 /// Returns names for a message: at most 20 names, then the number of further names and the word `thing`, such as `a, b
-/// and 3
-/// more columns`.
+/// and 3 more columns`.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
     let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();

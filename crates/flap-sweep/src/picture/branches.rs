@@ -35,8 +35,7 @@ pub struct Comparison {
     /// First and last value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
     /// Rows of the branch up after which this branch jumps to the motion of the other branch, and the same rows of the
-    /// branch
-    /// down.
+    /// branch down.
     ///
     /// The branches differ at each of these rows, and agree at the next row.
     pub jumps: [Vec<usize>; 2],

@@ -1,6 +1,5 @@
 //! Axes: the values of one varied parameter, or of several parameters that vary together. Also the parameter that a
-//! response
-//! follows.
+//! response follows.
 //!
 //! Values are computed on demand, so an axis of 10^9 values takes no memory.
 
@@ -110,8 +109,7 @@ impl Values {
     }
 
     /// Returns the value at a position along the axis, from 0 to [`Values::len`] less 1. At whole numbers the result
-    /// equals
-    /// [`Values::get`].
+    /// equals [`Values::get`].
     ///
     /// A value between two values of the axis has the spacing of the axis. Between points of a sample there are no
     /// values: the function returns the earlier value.

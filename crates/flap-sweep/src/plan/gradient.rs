@@ -149,12 +149,10 @@ impl NoShares {
 const SMALL: f64 = 1e-3;
 
 /// Returns the size (SI) to which relative changes of a parameter refer; `None` if the parameter is zero and has no
-/// typical
-/// size.
+/// typical size.
 ///
 /// The size is the value of the parameter. If the value is zero, or so small that changes would be lost in rounding,
-/// the size is a
-/// typical size.
+/// the size is a typical size.
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
     let known = (value != 0.0 && value.is_finite()).then_some(value);

@@ -43,8 +43,7 @@ impl Uncertainty {
     }
 
     /// Sets or removes the standard error of a parameter. The correlations of the parameter belong to the earlier value
-    /// and are
-    /// removed.
+    /// and are removed.
     pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
         self.errors.retain(|(index, _)| *index != parameter);
         self.correlations.retain(|correlation| !correlation.between.contains(&parameter));

@@ -29,9 +29,8 @@ impl Edge {
     ///
     /// The estimate is the error of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two
     /// such parabolas, and the estimate is the mean of both errors. Beside a jump or a kink, only one parabola contains
-    /// the jump or kink. The
-    /// larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges the larger error counts,
-    /// because nothing between the ends is known.
+    /// the jump or kink. The larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges
+    /// the larger error counts, because nothing between the ends is known.
     ///
     /// If the measure changes more than twice as much as beside the edge, it may jump: the estimate is half of the
     /// change.
@@ -79,8 +78,7 @@ impl Edge {
 /// `None` if the box is not halved.
 ///
 /// Halving leaves a quarter of the error along the halved axis. The error of a jump stays. A box is therefore also
-/// halved
-/// along the other axes that a jump crosses: each earlier halving counts as half of the error.
+/// halved along the other axes that a jump crosses: each earlier halving counts as half of the error.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));

@@ -170,8 +170,7 @@ impl Mesh {
     }
 
     /// Returns the number of boxes, of boxes with too large an estimated error, and of boxes with too large an error
-    /// that can be
-    /// halved.
+    /// that can be halved.
     pub(super) fn count(&self, tolerances: &[Tolerance]) -> [u64; 3] {
         let errors = self.cells.iter().map(|cell| self.errors(cell, tolerances).iter().sum::<f64>());
         let above = errors.filter(|error| *error > 1.0).count();

@@ -78,8 +78,7 @@ impl Refinement {
     }
 
     /// Receives the row of the next point. `cell` returns the number in a column; NaN if the number is unknown or the
-    /// point is
-    /// excluded.
+    /// point is excluded.
     pub(crate) fn add(&mut self, cell: impl Fn(usize) -> f64) {
         let measures: Vec<f64> = self.columns.iter().map(|&column| cell(column)).collect();
         if let Some(place) = self.waiting.pop_front() {

@@ -307,8 +307,7 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// Search for a maximum between two bounds.
 ///
 /// Steps go to the vertex of the parabola through the three best points while the steps shrink fast enough, otherwise
-/// by
-/// golden sections (R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
+/// by golden sections (R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
 /// are minus infinity.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {

@@ -4,8 +4,7 @@
 //! ensemble for the whole run, so its lanes stay full until the end of the run. Units finish in any order.
 //!
 //! A bounded window puts the outcomes back in order. Memory therefore does not grow with the number of units, and the
-//! output
-//! does not depend on the number of threads.
+//! output does not depend on the number of threads.
 //!
 //! ```no_run
 //! # use flap_sweep::{files::csv_sink::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
@@ -57,8 +56,7 @@ pub struct RunOptions {
     /// Largest number of rows between the last returned row and the last started point.
     ///
     /// A slow point delays the rows after it. With a wider window, the other points can continue longer while the slow
-    /// point runs. A
-    /// row of 40 measures takes about half a kilobyte.
+    /// point runs. A row of 40 measures takes about half a kilobyte.
     pub window: usize,
     /// Time for running points after the run is stopped. Points that take longer are dropped.
     pub grace: Duration,

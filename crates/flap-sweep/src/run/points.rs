@@ -44,8 +44,7 @@ pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) 
 /// Returns the rows of the selected points of `plan`, computed one after another on the calling thread, on scalars.
 ///
 /// The rows equal the rows of [`rows`]. For a few points, scalars are faster, because no thread starts and no lanes
-/// stay
-/// empty. The iterator ends when the run is `interrupted`.
+/// stay empty. The iterator ends when the run is `interrupted`.
 pub fn alone<'a>(
     plan: &'a Plan,
     options: &'a RunOptions,

@@ -4,8 +4,7 @@
 //! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. Then the next outcome is
 //! either present, so collecting this outcome makes room. Otherwise the unit of the next outcome is running on another worker,
 //! which does not wait. A worker leaves the queue when it ends, also after a panic. If a worker ends with unfinished
-//! units,
-//! the run fails.
+//! units, the run fails.
 //! Collecting waits only while there are workers, and a dropped run aborts its workers.
 //!
 //! After a stop, workers have a short time to finish their units. Units that still run after this time are dropped.

@@ -52,8 +52,7 @@ impl Input {
     /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
     ///
     /// A word alone applies to all wings. After the name of a wing, a word applies to this wing (`left_bias`), and
-    /// before `_difference` to
-    /// the left-right difference.
+    /// before `_difference` to the left-right difference.
     ///
     /// # Errors
     /// An error if the vehicle has no such input.
@@ -136,8 +135,7 @@ fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
 const MOST_STEPS: usize = 40;
 
 /// Relative tolerance of a target. If the error of the motion is larger than this tolerance, the tolerance is relative
-/// to the largest
-/// component.
+/// to the largest component.
 const TOLERANCE: f64 = 1e-6;
 
 /// Largest change of the inputs in a step, as a multiple of the typical size of each input.

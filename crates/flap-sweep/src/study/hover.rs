@@ -170,8 +170,7 @@ pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Mat
 }
 
 /// Returns the targets of a trim to hover: the upward force is the weight, and all torques are zero; `None` if the mass
-/// is not
-/// set.
+/// is not set.
 pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let weight = body.mass * body.gravity;
     let torques = (3..6).map(|component| Target { component, value: 0.0 });
@@ -390,8 +389,7 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Option<Matrix6<f64>> {
 /// Returns the modes of the state matrix.
 ///
 /// Heading and position do not act back on the other states. Each of these states adds an eigenvalue of zero, in which
-/// the state takes part
-/// alone, so only the other eight states need eigenvectors.
+/// the state takes part alone, so only the other eight states need eigenvectors.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;
@@ -459,8 +457,7 @@ impl HoverMode {
     /// Returns the moving states and the kind of motion, such as `pitch and forward velocity (longitudinal oscillation)`.
     ///
     /// A motion is listed if the participation of its states is at least a fifth. A real negative eigenvalue is a
-    /// subsidence,
-    /// a positive one a divergence, and an eigenvalue of zero is neutral.
+    /// subsidence, a positive one a divergence, and an eigenvalue of zero is neutral.
     pub fn name(&self) -> String {
         let share = |states: &[usize]| -> f64 {
             states.iter().filter_map(|&state| self.participation.get(state)).sum()

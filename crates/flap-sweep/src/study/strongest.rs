@@ -10,8 +10,7 @@ use crate::plan::gradient::{moved, size};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slopes {
     /// Indices of parameters in falling order of the effect. Each index has the change of the measure, in its unit, per
-    /// relative
-    /// change of the parameter.
+    /// relative change of the parameter.
     pub known: Vec<(usize, f64)>,
     /// Indices of parameters with missing derivatives, each with the reason.
     pub unknown: Vec<(usize, NoSlope)>,

@@ -66,8 +66,7 @@ impl Effect {
 /// Returns the effect of each term on the design of `run`, the term alone.
 ///
 /// A term that the design leaves out is switched on with a typical size. A term that the design has is switched off.
-/// Derived parameters of the
-/// plan are updated.
+/// Derived parameters of the plan are updated.
 pub fn effects(plan: &Plan, run: &PointRun<'_>) -> Vec<Effect> {
     let simulator = plan.robot().model();
     let known = TERMS.iter().filter(|term| term.models.contains(&simulator.name()));

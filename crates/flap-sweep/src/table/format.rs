@@ -39,8 +39,7 @@ impl Format {
     }
 
     /// Returns true if a file contains whole columns. The rows wait in another file, as compressed text, until all rows
-    /// are
-    /// present.
+    /// are present.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
     }

@@ -92,8 +92,7 @@ const BETTER: [(&str, Direction); 9] = [
 ];
 
 /// Returns the preferred direction of a column, from the first words of its name; `None` if the column is neither a
-/// benefit
-/// nor a cost.
+/// benefit nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
     // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
     if column != "force_up_mn" && FORCES.contains(&column) {

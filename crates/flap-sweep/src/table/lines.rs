@@ -1,8 +1,7 @@
 //! Rows as lines of comma-separated values.
 //!
 //! Nearly all cells are numbers, which need no quotes. Appending numbers directly takes half the instructions of the
-//! csv
-//! crate, which checks every byte. Only reading uses the csv crate.
+//! csv crate, which checks every byte. Only reading uses the csv crate.
 
 use std::io::{self, BufWriter, Write};
 

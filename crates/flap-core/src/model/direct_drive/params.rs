@@ -63,9 +63,8 @@ crate::parameters! {
         /// Direction of the flow for the translational forces: of the whole wing ("uniform"), or of each blade element
         /// ("blade"). The direction "uniform" is computed from the mean velocity of the wing, as in Ozaki and Hamaguchi
         /// (2018). The direction "blade" is computed from the velocity of each blade element. With "blade", flap
-        /// computes
-        /// the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores values given for
-        /// these parameters.
+        /// computes the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores values
+        /// given for these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
         /// mean_chord. The constant term of this series is 1. Ozaki and Hamaguchi (2018) give no chord shape: the
@@ -78,8 +77,7 @@ crate::parameters! {
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
         /// The chord as a table. The table replaces mean_chord, midspan_chord, the shape moments and rotation_moment,
-        /// for
-        /// every flow_direction.
+        /// for every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,

@@ -78,7 +78,7 @@ def trajectory(
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The figure has first the axes over time, from top to bottom, then the axes of the phase portraits.
+        The axes of the figure are first the signals, from top to bottom, then the phase portraits.
 
     Raises
     ------

@@ -45,8 +45,7 @@ pub enum Begin {
     /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Other rows are an error.
     Continue,
     /// Existing results are replaced when the new results are complete. Until the new results are complete, they have
-    /// [another
-    /// name](replacement::unfinished).
+    /// [another name](replacement::unfinished).
     Restart,
 }
 

@@ -1,8 +1,8 @@
 //! Checksums of rows, which detect and locate damage.
 //!
 //! The checksums are computed from the rows as text. The text is the same in every format, so a converted file keeps
-//! its checksums. Lines
-//! are counted from the first one of the file, so threads and interruptions do not change checksums.
+//! its checksums. Lines are counted from the first one of the file, so threads and interruptions do not change
+//! checksums.
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};

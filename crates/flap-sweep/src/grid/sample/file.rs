@@ -68,8 +68,7 @@ struct Column<'t, 'p> {
 }
 
 /// Returns the values of the parameters, each with true if the heading of its column has a unit. Also returns true if
-/// there are no
-/// mistakes.
+/// there are no mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
         let begin = line.as_ptr().addr() - source.text.as_ptr().addr();

@@ -1,6 +1,5 @@
 //! JSON schema of grid files, from the tables that the check of grid files uses. Editors use the schema to complete
-//! keys and show
-//! mistakes.
+//! keys and show mistakes.
 //!
 //! The schema accepts every grid that the check accepts. It rejects unknown keys, options and types. It does not
 //! check units, formulas and contradictions.

@@ -29,8 +29,7 @@ pub(super) fn selected(plan: Plan, most: u64) -> Plan {
 }
 
 /// The rows of a plan's selected points that have a periodic motion. `stops` is called regularly. If `stops` returns
-/// true, the list
-/// ends early.
+/// true, the list ends early.
 ///
 /// # Errors
 /// As a sweep.

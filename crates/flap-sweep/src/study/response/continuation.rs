@@ -1,12 +1,11 @@
 //! Unstable orbits between the two motions of a bistable band.
 //!
 //! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end, the branch
-//! turns again and
-//! joins the other branch.
+//! turns again and joins the other branch.
 //!
 //! Pseudo-arclength continuation follows the branch (H. B. Keller, 1977). The unknowns are the state at the beginning
-//! of the
-//! period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two.
+//! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last
+//! two.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
@@ -73,8 +72,7 @@ pub(super) fn unstable(
 }
 
 /// A branch of orbits as points of a space. The coordinates are the state relative to its sizes, then the parameter in
-/// widths of the
-/// band.
+/// widths of the band.
 struct Branch<'a> {
     plan: &'a Plan,
     backend: Backend,

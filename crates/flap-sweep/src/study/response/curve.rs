@@ -64,8 +64,7 @@ impl Curve {
     }
 
     /// Returns for each value true if the two branches have different motions; `None` if neither motion is periodic
-    /// with the
-    /// drive.
+    /// with the drive.
     fn bistable(&self) -> Vec<Option<bool>> {
         let sizes = component_sizes(&self.up, &self.down);
         let pairs = self.up.iter().zip(&self.down);
@@ -80,8 +79,7 @@ impl Curve {
 }
 
 /// Largest difference between equal periodic motions: of a state component at the beginning of a period, relative to
-/// the component's
-/// largest magnitude on the curve.
+/// the component's largest magnitude on the curve.
 ///
 /// This comparison is the only definition of bistability. The column `bistable` of the rows contains the result, which
 /// pictures and the live page show. The comparison uses states, because a measure may have the same value in two

@@ -43,8 +43,7 @@ pub enum BandKind {
     /// Two different motions: one motion on the upward branch and one motion on the downward branch.
     Bistable {
         /// Largest difference of the strokes of both motions (deg, peak to peak); `None` if at every value one motion
-        /// is not
-        /// periodic with the drive.
+        /// is not periodic with the drive.
         jump: Option<f64>,
     },
     /// Motions that are not periodic with the drive.
