@@ -1,4 +1,4 @@
-"""Fits of parameters to readings, with their uncertainty.
+"""Fits of parameters to readings, with the uncertainty of the parameters.
 
 `fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. All other classes are parts of a `Fit`.
 
@@ -9,7 +9,7 @@
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
 - `_structure`, `_discrepancy`, `_drift`: patterns in residuals; discrepancy of the model; disagreement of data sets
-- `_assess`: errors of an estimate, from these tests
+- `_assess`: errors of an estimate, from the tests of residuals
 - `_solution`, `_result`: the estimates and the quality of the fit; predictions of the fit
 - `_points`, `_plan`: operating points of predictions; the next readings
 - `_report`, `_device`: the result as text, and as a device

@@ -90,8 +90,8 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
 def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
     """Return a mask of the outliers.
 
-    If the residuals of a measure are larger than their standard errors, the limit is larger by a typical residual. This
-    is the median, or the root mean square if the model lacks an effect.
+    If the residuals of a measure are larger than their standard errors, the limit is larger by a typical residual. The
+    typical residual is the median, or the root mean square if the model lacks an effect.
     """
     limit = _OUTLYING if loss == "linear" else _OUTLYING_ROBUST
     far = np.zeros(len(scaled), np.bool_)

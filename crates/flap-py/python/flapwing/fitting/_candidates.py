@@ -53,7 +53,7 @@ _BOUNDS = {
 
 
 def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
+    """Return typical sizes of terms for a design, in SI units. A size that the model does not have is nan."""
 
     def of(name: str) -> float:
         value = values.get(name)

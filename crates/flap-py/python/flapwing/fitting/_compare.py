@@ -1,4 +1,5 @@
-"""Comparison of fits of the same readings: information criteria, deciding readings, and readings that would decide."""
+"""Comparison of fits of the same readings: information criteria, readings that decide between fits, and next readings
+that would decide."""
 
 from __future__ import annotations
 
@@ -33,22 +34,22 @@ class ComparedFit:
     parameters : int
         Number of free parameters. Each standard error that was estimated from the residuals counts as one parameter.
     chi_square : float
-        Sum of the squares of the residuals in standard errors, with the residuals of priors. If standard errors were
-        estimated, chi-square contains no information about the fit.
+        Chi-square: the sum of the squared residuals in standard errors, with the residuals of priors. If standard
+        errors were estimated, chi-square contains no information about the fit.
     deviance : float
         Minus two times the log likelihood of the compared readings, with the residuals of priors. Unknown standard
         errors have their most likely value (concentrated likelihood).
     aicc, bic : float
         Akaike's information criterion with the correction for few readings, and the Bayesian information criterion.
     delta_aicc, delta_bic : float
-        Differences to the lowest value of all fits.
+        Differences between the criteria of the fit and the lowest criteria of all fits.
     weight : float
         Akaike weight: the probability of the fit among the compared fits.
     held_out_rms : dict of str to float
         Root mean square of the prediction errors of each measure, in the unit of the measure; empty without `hold_out`.
     held_out_score : float
-        Mean logarithm of the predicted probability density of a reading that was not fitted. Higher is better; nan
-        without `hold_out`.
+        Mean logarithm of the predicted probability density of a reading that was not fitted. Higher values are better.
+        The value is nan without `hold_out`.
     """
 
     name: str
@@ -81,8 +82,8 @@ class DecidingReading:
     values : tuple of float
         The values of the best fit and of the second best fit, in the unit of the measure.
     difference : float
-        Log likelihood of the reading in the best fit minus log likelihood in the second best fit. A positive difference
-        supports the best fit.
+        Log likelihood of the reading in the best fit minus log likelihood of the reading in the second best fit. A
+        positive difference supports the best fit.
     """
 
     data_set: str
@@ -110,10 +111,12 @@ class DecidingMeasurements:
     values : list of tuple of float
         The predictions of the two fits at each point, in the unit of the measure.
     errors : list of float
-        The standard error of the difference at each point: the noise of a reading and the errors of the parameters.
+        The standard error of the difference at each point, from the noise of a reading and the errors of the
+        parameters.
     expected : list of float
-        The expected difference of the two fits in chi-square, if one of the two laws is right. The difference is from
-        the readings at a point and at all points before this point. Both laws are fitted again after each reading.
+        The expected difference between the chi-squares of the two fits, if one of the two models is right. The
+        difference includes the readings at a point and at all points before this point. Both models are fitted again
+        after each reading.
     """
 
     names: tuple[str, str]
@@ -138,7 +141,8 @@ def log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tu
     """Return the log likelihood of each reading, its standard error, and the number of estimated standard errors.
 
     The log likelihood is nan for readings that are not counted. An unknown standard error is the root mean square of
-    the residuals of its measure. The value of a motion that does not settle is zero, as for a wing at rest.
+    the residuals of its measure. For a motion that does not settle, the value of the model is zero, as for a wing at
+    rest.
     """
     measured = np.concatenate([readings for one in sets for readings in one.measured.values()])
     error = np.where(np.isfinite(values), values, 0.0) - measured
@@ -190,7 +194,7 @@ class Comparison:
     readings : int
         Number of compared readings: the readings that all fits use.
     left_out : int
-        Number of readings that are not compared, because at least one of the fits has no settled motion there.
+        Number of readings that are not compared, because at least one of the fits has no settled motion at the reading.
     chosen : str
         The name of the fit with the fewest parameters among the fits whose AICc is at most 2 above the lowest AICc.
     is_decided : bool
@@ -315,9 +319,9 @@ class Comparison:
         """Return the operating points at which new readings would decide best between the two best fits.
 
         A reading decides if the predictions of both fits differ by many standard errors. The standard error contains
-        the noise of the reading and the errors of the fitted parameters. A difference that a new fit can remove
-        therefore does not count. Each reading is chosen after both fits are updated with the readings before. These
-        updates use derivatives at the estimates.
+        the noise of the reading and the errors of the fitted parameters. The choice ignores differences that new
+        estimates of the parameters could remove. Each reading is chosen after both fits are updated with the readings
+        before. The updates of the fits use derivatives at the estimates.
 
         Parameters
         ----------
@@ -332,7 +336,7 @@ class Comparison:
         -------
         DecidingMeasurements
             Operating points and measures, with the best first, and the expected difference of chi-square. A difference
-            of 10 decides clearly.
+            of 10 clearly supports one fit.
 
         Raises
         ------
@@ -396,28 +400,31 @@ class Comparison:
 
 
 def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Comparison:
-    """Compare fits of the same readings, to decide which law or which set of free parameters describes a robot.
+    """Compare fits of the same readings, to decide which model or which set of free parameters describes a robot.
 
     The fits can differ in their design, model, keywords and free parameters. The comparison uses AICc (Hurvich and Tsai
-    1989) and BIC (Schwarz 1978). A fit with more parameters is better only if its likelihood rises by more than noise
-    would explain. If standard errors are unknown, each fit has its own most likely standard error.
+    1989) and BIC (Schwarz 1978). A fit with more parameters is better only if the likelihood rises by more than noise
+    can explain. If standard errors are unknown, each fit uses the standard errors that are most likely for this fit.
 
     Parameters
     ----------
     fits : list of Fit
-        Two or more results of `fit` for the same readings, standard errors and `hold_out`, with ``loss="linear"``.
+        Two or more results of `fit`. All fits must have the same readings, standard errors and `hold_out`, and
+        ``loss="linear"``.
     names : list of str, optional
         A name for each fit. Default: ``"fit 1"``, ``"fit 2"``, and so on.
 
     Returns
     -------
     Comparison
-        The criteria of all fits and the verdict, the readings that decide, and next measurements that would decide.
+        The criteria of all fits, the verdict, the readings that decide between the fits, and next measurements that
+        would decide.
 
     Raises
     ------
     ValueError
-        Fewer than two fits; fits of different readings; a robust loss; too few readings in common.
+        There are fewer than two fits; the fits have different readings or a robust loss; the fits have too few readings
+        in common.
     TypeError
         `fits` contains something other than a `Fit`.
 
@@ -489,7 +496,8 @@ def _measured(fit: Fit) -> Array:
 
 
 def _held_out_score(side: _Side, sigma: Array) -> float:
-    """Return the mean log density of the readings that were not fitted; nan if there are none with a settled motion."""
+    """Return the mean log density of the readings that were not fitted. The mean is nan if none of these readings has a
+    settled motion."""
     held = side.fit._held & np.isfinite(side.values)
     if not held.any():
         return float("nan")
@@ -501,7 +509,8 @@ def _held_out_score(side: _Side, sigma: Array) -> float:
 
 
 def _sigma(fit: Fit, noise: Noise, measure: str, values: Array) -> Array:
-    """Return the standard errors of new readings. Readings with own standard errors have the median of them."""
+    """Return the standard errors of new readings. If each reading has its own standard error, return the median of
+    these standard errors."""
     common = Noise(noise.kind, float(np.median(noise.size)))
     return common.of(values, np.nan_to_num(values), fit._guesses[measure])
 
@@ -511,10 +520,10 @@ def _decide(
 ) -> tuple[list[int], list[float], list[float]]:
     """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
 
-    If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
-    difference of both predictions, divided by the variance of the reading and of the second prediction. This rise
-    already contains the new fit of the second law, whose predictions at all candidates move towards the first law. The
-    mean of this rise and of the rise with exchanged fits is the expected difference.
+    If the first model is right, a reading increases the chi-square of the second fit. The increase is the square of the
+    difference of both predictions, divided by the variance of the reading and of the second prediction. This increase
+    already contains the new fit of the second model, whose predictions at all candidates move towards the first model.
+    The expected difference is the mean of this increase and of the increase with exchanged fits.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]

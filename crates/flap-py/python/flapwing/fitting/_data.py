@@ -28,10 +28,10 @@ class Readings:
     ----------
     columns : dict, Table, DataFrame or path
         Columns of operating points and measures, or a CSV file with such columns. The name of a column is the name of a
-        parameter or a measure. Parameters are in SI units and measures in their own unit. The name of a column
-        (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell (``"0.12 kHz"``) may have another unit.
-        ``frequency_hz`` means ``drive_frequency``. A measure's name with the suffix ``_sigma`` is a column of standard
-        errors, in the measure's unit or as ``"3 %"``.
+        parameter or a measure. Parameters are in SI units, and measures are in the unit at the end of the measure's
+        name. The name of a column (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell (``"0.12
+        kHz"``) may have another unit. The name ``frequency_hz`` means ``drive_frequency``. A measure's name with the
+        suffix ``_sigma`` is a column of standard errors, in the measure's unit or as ``"3 %"``.
     name : str, optional
         The name of the data set in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional

@@ -27,12 +27,13 @@ _CHUNK = 512
 
 @dataclass(frozen=True)
 class Discrepancy:
-    """The discrepancy of a model for a measure: its difference from the robot beyond the noise of the readings.
+    """The discrepancy of a model for a measure: the difference between model and robot beyond the noise of the
+    readings.
 
     Attributes
     ----------
     measure, unit : str
-        The measure, and the unit of `size`: the measure's unit, or ``"%"`` of the model's value.
+        The measure, and the unit of `size`: the unit of the measure, or ``"%"`` for per cent of the model's value.
     size : float
         The standard deviation of the discrepancy at a random operating point of the data.
     readings : float
@@ -48,7 +49,8 @@ class Discrepancy:
 
 @dataclass(frozen=True)
 class Discrepancies:
-    """The discrepancy of all measures, and its effect on the covariance of the coordinates."""
+    """The discrepancy of all measures, and the effect of the discrepancy on the covariance of the search
+    coordinates."""
 
     listed: list[Discrepancy]
     #: The discrepancy of each measure, in the form of standard errors.
@@ -74,14 +76,14 @@ def of_residuals(
 
     The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij. Here s is the model's value for
     standard errors in per cent, else 1. The correlation ρ falls with the distance of two points, in ranks along
-    each parameter. Its decline follows from the products of neighbouring residuals. The expected sum of squares
-    accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
+    each parameter. The decline of ρ is computed from the products of neighbouring residuals. The expected sum of
+    squares accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
     likelihood.
 
     `measures` has the fitted readings of each measure, and `structured` the measures whose residuals have a pattern.
     The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain the
-    discrepancy. If their residuals have a pattern, all of the standard error is discrepancy. `inverse` is the
-    covariance of the coordinates without discrepancy.
+    discrepancy. If the residuals of such a measure have a pattern, all of the standard error is discrepancy. `inverse`
+    is the covariance of the coordinates without discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)

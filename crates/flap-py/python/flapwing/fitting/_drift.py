@@ -12,7 +12,8 @@ _SIGNIFICANT = 1e-3
 
 
 def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -> str:
-    """Return the shared parameter that explains a disagreement between data sets best; empty if data sets agree.
+    """Return the shared parameter that explains a disagreement between data sets best. Return an empty text if the data
+    sets agree.
 
     A parameter explains the disagreement if a value for each data set reduces the sum of squares of the residuals
     (F test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled` has the
@@ -37,7 +38,7 @@ def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -
 
 
 def _rest(columns: Array, values: Array) -> float:
-    """Return the sum of squares that a linear combination of columns leaves."""
+    """Return the sum of squares that remains after the best linear combination of columns is subtracted."""
     lengths = np.linalg.norm(columns, axis=0)
     used = columns[:, lengths > 0.0] / lengths[lengths > 0.0]
     rest = values - used @ np.linalg.lstsq(used, values, rcond=1e-6)[0]

@@ -53,7 +53,7 @@ def fit(
     design : str, path, dict or Grid
         A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
-        One or several data sets with parameters of the operating points and measures; see `Readings`.
+        One or several data sets with parameters of the operating points and with measures (see `Readings`).
     free : list of str, or dict
         The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
         Bounds are numbers in SI units or text with units. Default bounds: a third of the design's value, and three
@@ -63,24 +63,24 @@ def fit(
         ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for each measure. Default:
         the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        The loss function. All except ``"linear"`` reduce the weight of outliers.
+        The loss function. All loss functions except ``"linear"`` reduce the weight of outliers.
     starts : int
         Number of searches. The first search starts at the design's values, and the other searches start at the best
         points of a Sobol' sequence.
     seed : int
         Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, dict, or list of str and dict, optional
-        Readings that are predicted instead of fitted: a share of all readings, names of data sets, or ranges of
+        Readings that are predicted instead of fitted: a fraction of all readings, names of data sets, or ranges of
         parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units; None is an
-        open end. The readings that are held out run only once, after the search.
+        open end. The model computes these readings only once, after the search.
     profile : bool
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster.
     threads : int, optional
         Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the results.
     progress : bool or function, optional
-        If True, the number of computed points is shown. A function is called with the number of computed points as both
-        arguments.
+        If True, the number of computed points is shown. A function is called with two arguments, which are both the
+        number of computed points.
     **keywords : float or str
         Parameters of all data and solver settings.
 
@@ -94,8 +94,8 @@ def fit(
     Raises
     ------
     ValueError
-        Data without readings, with unknown columns or units, with cells that are not numbers, or with fewer readings
-        than free parameters; bounds in the wrong order; unknown parameters.
+        The data have no readings, unknown columns or units, cells that are not numbers, or fewer readings than free
+        parameters. Bounds are in the wrong order, or a parameter is unknown.
     TypeError
         An argument has the wrong type.
     ImportError
@@ -189,8 +189,8 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, with the standard errors at the end of this search. Readings without a settled motion at the
-    end are left out.
+    """Run the last search, and estimate standard errors at the end of this search. Readings whose motion at the end of
+    the search does not settle are left out.
     """
     found = best
     for _ in range(_ROUNDS):

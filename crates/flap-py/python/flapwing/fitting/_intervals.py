@@ -35,12 +35,13 @@ class Profile:
     value : array
         Values of the parameter in SI units, in rising order.
     rise : array
-        The signed square root of the rise of the cost at each value, in standard errors that contain the discrepancy of
-        the model. This rise is 0 at the estimate, and nearly a straight line if the data determine the parameter well.
+        The signed square root of the increase of the cost at each value, in standard errors that contain the
+        discrepancy of the model. This height is 0 at the estimate, and nearly a straight line if the data determine the
+        parameter well.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. The data then do not bound the
+        True if the interval extends to the lower or upper bound of the parameter. The data then give no limit for the
         parameter on this side.
     """
 
@@ -53,7 +54,7 @@ class Profile:
 
     @property
     def is_flat(self) -> bool:
-        """True if the data do not bound the parameter on at least one side."""
+        """True if the data give no limit for the parameter on at least one side."""
         return self.open_below or self.open_above
 
 
@@ -72,7 +73,7 @@ class _Side:
 
 @dataclass(frozen=True)
 class _Walks:
-    """The fit from which profiles begin: its readings, its estimate, and the covariance without discrepancy of the
+    """The fit from which profiles begin: the readings, the estimate, and the covariance without the discrepancy of the
     model. The discrepancy increases the error of each coordinate by a factor. Profiles end at `quantile` such errors.
     """
 
@@ -84,7 +85,7 @@ class _Walks:
     factors: Array
 
     def side(self, ask: Ask, held: int, way: float) -> _Side:
-        """Return the profile on one side of the estimate, up to its height or the bound of the parameter."""
+        """Return the profile on one side of the estimate, up to the required height or the bound of the parameter."""
         height = self.quantile * float(self.factors[held])
         here = self.found.x[held]
         end = self.space.high[held] if way > 0 else self.space.low[held]
@@ -147,8 +148,8 @@ def profiles(
     model: Model, target: Target, found: Found, covariance: Array, quantile: float, factors: Array
 ) -> tuple[list[Profile], Found | None]:
     """Return the profiles of all coordinates up to `quantile` standard errors. If a search for a profile finds a better
-    fit, return the better fit too. `factors` has the increase of the standard error of each coordinate by the
-    discrepancy of the model.
+    fit than the estimate, return the better fit too. `factors` has the increase of the standard error of each
+    coordinate by the discrepancy of the model.
     """
     space = model.space
     walks = _Walks(space, target, found, covariance, quantile, factors)
@@ -190,7 +191,7 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, seed: int) -> list[str]:
-    """Return one sentence for each combined change of parameters that affects no reading at any values of the
+    """Return one sentence for each combination of parameter changes that never affects a reading, for all values of the
     parameters.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null

@@ -26,7 +26,7 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class Way:
-    """The points of a branch, which are run one after the other while a parameter rises or falls."""
+    """The points of a branch. The points run one after the other while a parameter rises or falls."""
 
     parameter: str
     falls: bool
@@ -232,7 +232,7 @@ class Model:
         return answers
 
     def everything(self, x: Array) -> Answer:
-        """Return all readings of the model at coordinates, also the readings that are not fitted."""
+        """Return all readings of the model at given coordinates, including the readings that are not fitted."""
         return self.answers(self.points, self.asked, self.ways, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
@@ -251,7 +251,7 @@ class Model:
         return Answer(values, slopes, status, gaps)
 
     def _near_zero(self, x: Array) -> list[int]:
-        """Return the coordinates whose derivatives by relative changes are unknown, because the parameter is near
+        """Return the coordinates without a derivative by relative changes, because the value of the parameter is near
         zero.
         """
         coordinates = self.space.coordinates
@@ -262,7 +262,7 @@ class Model:
         ]
 
     def _step(self, x: Array, column: int) -> Array:
-        """Return a step of one coordinate to the inside of its bounds."""
+        """Return a step of one coordinate towards the inside of the coordinate's bounds."""
         step = np.zeros(len(x))
         # The coordinate of a parameter changes by 2 over the range of the parameter.
         size = 2 * _NEAR_ZERO
@@ -309,7 +309,7 @@ class Model:
         which = np.array([measures.index(name) for name in asked.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
-            """Return one row for each point. If the conditions of the design exclude a point, its row is empty."""
+            """Return one row for each point. The row is empty for a point that the conditions of the design exclude."""
             everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
             everything[table["point"].astype(np.intp)] = found
             return everything.reshape(len(xs), rows, *found.shape[1:])

@@ -56,7 +56,7 @@ def _hint(name: str, known: list[str]) -> str:
 
 
 class Names:
-    """The names of a design: its parameters and measures with their units."""
+    """The names of the parameters and measures of a design, with their units."""
 
     def __init__(self, design: Design) -> None:
         self.grid = Grid(design)

@@ -29,8 +29,8 @@ class FreeParameter:
         design's value is outside of the bounds.
         Bounds of zero are allowed if the parameter may be zero.
     prior : (value, error), optional
-        A value that is known before the fit, and its standard error: numbers in SI units, or text with units. The error
-        can also be a text such as ``"5 %"``.
+        A value that is known before the fit, and the standard error of this value: numbers in SI units, or text with
+        units. The standard error can also be a text such as ``"5 %"``.
     per_set : bool
         True if each data set has its own value of the parameter, for example if the wing was changed between
         experiments.
@@ -59,13 +59,14 @@ class Coordinate:
     prior: tuple[float, float] | None
 
     def value(self, x: Any) -> Any:
-        """Return the value of a parameter in SI units at a coordinate. Coordinate 0 is the design's value."""
+        """Return the value of a parameter in SI units at a coordinate of the search. Coordinate 0 is the value of the
+        design."""
         # Rounding must not lead out of the bounds: a parameter may have no values below its bound.
         value = self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
         return np.clip(value, self.low, self.high)
 
     def at(self, value: float) -> float:
-        """Return the coordinate that belongs to a value of the parameter in SI units."""
+        """Return the coordinate of the search that belongs to a value of the parameter in SI units."""
         return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
 
     def slope(self, x: float) -> float:
@@ -79,7 +80,7 @@ class Coordinate:
 
 
 class Space:
-    """All coordinates of a fit."""
+    """All coordinates of the search of a fit."""
 
     def __init__(self, coordinates: Sequence[Coordinate]) -> None:
         self.coordinates = list(coordinates)

@@ -1,4 +1,4 @@
-"""The next readings of a fit: operating points whose readings would reduce an error most."""
+"""Suggested next readings: operating points at which readings would reduce an error of the fit most."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._points import answers_at, cell
 
 @dataclass(frozen=True)
 class NextMeasurements:
-    """Operating points whose readings would reduce an error most, with the best point first.
+    """Operating points at which readings would reduce an error of the fit most, with the best point first.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""The result of a fit, with predictions and with readings that would reduce errors most."""
+"""The result of a fit, with methods for predictions, and for the choice of next readings."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Prediction:
     points : dict
         The operating points: values of parameters, in SI units.
     value : array
-        The predicted values of the measure; nan if the motion does not settle.
+        The predicted values of the measure. A value is nan if the motion does not settle.
     error : array
         Standard errors of the predictions, from the errors of the parameters and the discrepancy of the model.
     low, high : array
@@ -73,10 +73,10 @@ class Fit(Solution):
     combinations : list of str
         The combinations of parameters that the data determine best and worst.
     indistinct : list of str
-        Combined changes of parameters that change none of the readings: exact scalings of the model, and parameters
-        without effect.
+        Combined changes of parameters that change no reading: exact scalings of the model, and parameters without
+        effect.
     goodness : Goodness
-        Chi-square, its probability, and the residuals by data set and measure.
+        Chi-square, the probability of chi-square, and the residuals by data set and measure.
     unsettled : list of Unsettled
         Readings that are ignored, because the motion at their operating point does not settle.
     held_out : HeldOut or None
@@ -110,8 +110,8 @@ class Fit(Solution):
             The data set whose parameters and branch are used. Default: the parameters of the first data set, and
             motions from rest.
         reading : bool
-            If True, the bands also contain the noise of a reading: 95 % of new readings lie in these bands. The noise
-            has the standard errors of the data.
+            If True, the bands also contain the noise of a reading: the bands then contain 95 % of new readings. The
+            noise has the standard errors of the data.
 
         Returns
         -------
@@ -173,7 +173,7 @@ class Fit(Solution):
         Returns
         -------
         NextMeasurements
-            Operating points and measures, with the best first, and the remaining error of the target after each
+            Operating points and measures, with the best first, and the error of the target that remains after each
             reading. The error of a parameter is in the parameter's SI unit.
 
         Raises
@@ -265,8 +265,8 @@ class Fit(Solution):
         self.held_out = _solution.held_out(names, measured, answer.values, held, self._quantile * error)
 
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """Return the derivatives of a target with respect to the coordinates, and the name and the unit of the target.
-        A target is a parameter or a prediction.
+        """Return the derivatives of a target with respect to the search coordinates, and the name and the unit of the
+        target. A target is a parameter or a prediction.
         """
         space = self._model.space
         if isinstance(target, str):

@@ -23,7 +23,7 @@ Ask = Callable[[Array], Answer]
 
 
 class _Ended(Exception):
-    """The exception that ends the searches after the thread that answers their requests has ended."""
+    """The exception that ends the searches, if the thread that answers the requests of the searches has ended."""
 
 
 def together(
@@ -102,7 +102,7 @@ class Target:
         """Return the residuals of the readings, (model - reading) / standard error, then the residuals of the priors.
 
         If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual of an
-        unsettled motion is therefore so large that the search avoids its coordinates.
+        unsettled motion is therefore large, and the search avoids the coordinates of such motions.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -128,7 +128,7 @@ class Found:
 def minimise(
     ask: Ask, space: Space, target: Target, begin: Array, held: int | None, steps: int = _STEPS, tolerance: float = 1e-8
 ) -> Found:
-    """Return the best coordinates near `begin`, where the coordinate `held` is kept fixed."""
+    """Return the best coordinates near `begin`. The coordinate `held` is kept fixed."""
     from scipy.optimize import least_squares
 
     moving = np.array([place for place in range(len(space)) if place != held], np.intp)

@@ -1,4 +1,4 @@
-"""Forward selection of free parameters: which parameters or further terms the readings require."""
+"""Forward selection of free parameters: a search for the parameters and further terms that the readings require."""
 
 from __future__ import annotations
 
@@ -35,15 +35,16 @@ _WORTH = 0.5
 
 @dataclass(frozen=True)
 class SelectionStep:
-    """One step of a selection: the fit after a parameter is freed or removed.
+    """One step of a selection: the fit after a parameter becomes free or fixed.
 
     Attributes
     ----------
     freed : str
-        The parameter that the step freed; empty for the first fit and for a step that removes a parameter.
+        The parameter that becomes free in the step. The name is empty for the first fit and for a step that fixes a
+        parameter.
     removed : str
-        The parameter that the step set back to its value in the design, because later parameters made it unnecessary;
-        empty in most steps.
+        The parameter that the step set back to its value in the design, because later parameters made this parameter
+        unnecessary. The name is empty in most steps.
     parameters : list of str
         All free parameters after the step.
     chi_square : float
@@ -59,8 +60,9 @@ class SelectionStep:
     held_out : float
         Root mean square of the errors of readings that were not fitted, in standard errors; nan without `hold_out`.
     alternatives : dict of str to float
-        The other candidates that were fitted in this step, and their criterion minus the criterion of the freed
-        parameter. An alternative with a difference below 2 explains the readings about as well.
+        The other candidates that were fitted in this step, with the criterion of each candidate minus the criterion of
+        the chosen parameter. An alternative with a difference below 2 explains the readings about as well as the chosen
+        parameter.
     """
 
     freed: str
@@ -85,12 +87,12 @@ class Selection:
     final : Fit or None
         The final fit with several starts and profiles; None if no parameter is free.
     remaining : dict of str to float
-        The candidates that are not free, with the predicted decrease of chi-square if the candidate is freed next. The
-        largest decrease is first.
+        The candidates that are not free, with the predicted decrease of chi-square if the candidate becomes free next.
+        The largest decrease is first.
     stopped : str
         The reason for the end of the selection.
     at_bounds : list of str
-        Parameters that ended at a bound in one of the fits. Their fits could be better with wider bounds.
+        Parameters whose estimate is at a bound in one of the fits. With wider bounds, the fit could be better.
     criterion : str
         The name of the criterion.
     fits : int
@@ -344,12 +346,14 @@ def select(
     progress: Progress = False,
     **keywords: Value,
 ) -> Selection:
-    """Select the parameters that readings require: free one candidate after the other, as long as the fit improves.
+    """Select the parameters that readings require: make one candidate after the other a free parameter, as long as the
+    fit improves.
 
-    Use this function to find the effect that a model lacks. Each step predicts the gain of all candidates from their
-    derivatives at the present fit (score test), and fits the most promising candidates. The step frees the candidate
-    with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the improvement is not
-    significant. Then `select` fits all selected parameters once more like `fit`, with several starts and profiles.
+    Use this function to find the effect that a model lacks. Each step predicts the gain of all candidates from
+    derivatives at the present fit (score test), and fits the candidates with the largest predicted gains. The step
+    frees the candidate with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the
+    improvement is not significant. Then `select` fits all selected parameters once more like `fit`, with several starts
+    and profiles.
 
     Parameters
     ----------
@@ -365,7 +369,8 @@ def select(
     budget : int, optional
         Largest number of free parameters, including `start`. Default: a fifth of the number of readings.
     rhs_budget : float, optional
-        Number of right-hand sides after which no further step begins. The final fit is not limited.
+        Number of evaluations of the equations of motion after which no further step begins. The final fit is not
+        limited.
     criterion : {"AICc", "BIC"}
         The criterion that each step must lower.
     significance : float
@@ -390,8 +395,8 @@ def select(
     Raises
     ------
     ValueError
-        As for `fit`; an unknown criterion; a candidate without a value in the design; a budget below the number of
-        parameters in `start`.
+        The same errors as for `fit`. The criterion is unknown, a candidate has no value in the design, or `budget` is
+        below the number of parameters in `start`.
     TypeError
         An argument has the wrong type.
     ImportError

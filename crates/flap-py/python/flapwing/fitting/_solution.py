@@ -1,4 +1,4 @@
-"""The solution of a fit, on which predictions, report and device are based."""
+"""The solution of a fit, from which predictions, report and device are computed."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ class Estimate:
         Standard error of the parameter from the derivatives at the estimate, in SI units. If the model disagrees with
         the data, the error contains the discrepancy of the model.
     low, high : float
-        Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval
-        follows from the profile.
+        Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval is
+        computed from the profile.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter: the data do not bound the parameter
-        on this side.
+        True if the interval extends to the lower or upper bound of the parameter. The data then give no limit for the
+        parameter on this side.
     profile : Profile or None
         The profile likelihood of the parameter, if it was computed.
     at_bound : bool
@@ -54,7 +54,7 @@ class Estimate:
 
     @property
     def is_known(self) -> bool:
-        """True if the data bound the parameter on both sides."""
+        """True if the data give a lower and an upper limit for the parameter."""
         return not (self.open_below or self.open_above) and bool(np.isfinite(self.error))
 
 
@@ -89,8 +89,8 @@ class HeldOut:
     rms : dict of str to float
         Root mean square of the prediction errors of each measure, in the unit of the measure.
     covered : float
-        The share of the readings that lie within their 95 % bands. These bands include the errors of the parameters,
-        the discrepancy of the model, and the noise of the readings.
+        The fraction of the readings within the 95 % bands of the predictions. The bands include the errors of the
+        parameters, the discrepancy of the model, and the noise of the readings.
     """
 
     count: int
@@ -107,7 +107,7 @@ class Effort:
     starts : int
         Number of searches.
     agreed : int
-        Number of searches that ended at the best fit; 0 if only a profile found the best fit.
+        Number of searches that ended at the best fit. The number is 0 if only a profile found the best fit.
     points : int
         Number of design points that were run.
     rhs_evals : int
@@ -162,7 +162,7 @@ class Residuals:
     count : int
         Number of fitted readings of the measure in the data set.
     is_structured : bool
-        True if the residuals of the measure have a pattern over all data sets, see `Structure`.
+        True if the residuals of the measure have a pattern over all data sets (see `Structure`).
     """
 
     data_set: str
@@ -255,7 +255,7 @@ def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: 
 
 
 class Solution:
-    """Estimates with their uncertainty, and the model and the data of the fit; see `Fit`."""
+    """Estimates with their uncertainty, and the model and the data of the fit. `Fit` is the public class."""
 
     def __init__(
         self,
@@ -305,7 +305,8 @@ class Solution:
 
     @property
     def covariance(self) -> Array:
-        """The covariance of the estimates in SI units; infinite for parameters that the data do not determine."""
+        """The covariance of the estimates in SI units. The covariance is infinite for parameters that the data do not
+        determine."""
         slopes = self._model.space.slopes(self._x)
         return np.asarray(self._covariance * np.outer(slopes, slopes))
 

@@ -27,11 +27,11 @@ class Structure:
     Attributes
     ----------
     measure, parameter : str
-        The measure of the residuals, and the parameter of the operating points along which they are compared.
+        The measure of the residuals, and the parameter of the operating points along which residuals are compared.
     p : float
-        The probability of residuals at least as similar to their neighbours as these residuals, if residuals are only
-        noise. Neighbours differ in `parameter` and have equal other parameters. If several readings share each value of
-        `parameter`, the test also compares the means of the residuals at each value (analysis of variance).
+        The probability that pure noise gives residuals that are at least as similar to their neighbours. Neighbours
+        differ in `parameter` and have equal other parameters. If several readings share each value of `parameter`, the
+        test also compares the means of the residuals at each value (analysis of variance).
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
@@ -110,7 +110,7 @@ def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) 
 def _of_pairs(first: Array, second: Array, noise: Array) -> float:
     """Return the probability of pairs of neighbours that are at least as similar.
 
-    The probability follows from the number of pairs with different signs, and from the mean product of the pairs.
+    The probability is computed from the number of pairs with different signs, and from the mean product of the pairs.
     """
     from scipy.stats import binom, norm
 
