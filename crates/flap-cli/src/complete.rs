@@ -1,4 +1,5 @@
-//! Completion in a shell: the shell runs the command with the words so far, and the command prints candidates for the last word.
+//! Completion in a shell: the shell runs the command with the words of the incomplete command line. The command prints
+//! candidates for the last word.
 //!
 //! A script cannot contain the candidates, because the candidates include added models and the columns of files in the
 //! working directory.

@@ -59,14 +59,14 @@ pub(crate) fn shell_word(word: &str) -> String {
     }
 }
 
-/// Prints a note to stderr, unless notes are switched off. If stderr is closed, the line is lost.
+/// Prints a note to stderr, unless notes are switched off. If stderr is closed, the printed line is lost.
 pub(crate) fn say(text: &str) {
     if !is_quiet() {
         complain(text);
     }
 }
 
-/// Prints a warning or an error to stderr. If stderr is closed, the line is lost.
+/// Prints a warning or an error to stderr. If stderr is closed, the printed line is lost.
 pub(crate) fn complain(text: &str) {
     let _ = writeln!(anstream::stderr(), "{text}");
 }

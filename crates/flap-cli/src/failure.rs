@@ -47,11 +47,11 @@ pub(crate) enum Exit {
 /// The reason why a command failed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or the grid file must be corrected: a message and help lines.
+    /// The command line or the grid file has a mistake. Contains a message and help lines.
     Usage(String, Vec<String>),
     /// The grid file has mistakes.
     Grid(Mistakes),
-    /// The operating system returned an error, or results are damaged: a message and help lines.
+    /// The operating system returned an error, or results are damaged. Contains a message and help lines.
     System(String, Vec<String>),
     /// An internal error in flap.
     Bug(String),
@@ -179,7 +179,7 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
         .help("an edited grid is another sweep: write its rows to another file with --out FILE")
 }
 
-/// Adds help lines for unfinished results at `out`; the line about losing rows comes last.
+/// Adds help lines for unfinished results at `out`. The help line about a loss of rows is last.
 ///
 /// If `continues` is true, `flap results resume` is one of the options.
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
@@ -209,7 +209,7 @@ fn complain(message: &str, help: &[String]) {
     console::complain(&shortened(&text));
 }
 
-/// Converts a failed write to stdout.
+/// Converts the error of a failed write to stdout into a failure.
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         match error.kind() {

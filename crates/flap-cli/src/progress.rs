@@ -36,7 +36,7 @@ impl Bar {
         Bar { drawn, log, units, moved: false, stopping: false }
     }
 
-    /// Moves the bar. When the sweep begins to stop, prints a note once.
+    /// Moves the progress bar. When the sweep begins to stop, prints a note once.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.drawn.set_length(progress.points);
         self.drawn.set_position(progress.finished);
@@ -59,7 +59,7 @@ impl Bar {
         }
     }
 
-    /// Runs `write` while the bar is hidden.
+    /// Runs `write` while the progress bar is hidden.
     pub(crate) fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         self.drawn.suspend(write)
     }
@@ -70,7 +70,7 @@ impl Bar {
     }
 }
 
-/// Time between two lines.
+/// Time between two lines of progress.
 const PAUSE: Duration = Duration::from_secs(60);
 
 /// The progress as lines.

@@ -1,4 +1,4 @@
-//! Text in aligned columns.
+//! Tables of text in aligned columns.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

@@ -15,7 +15,7 @@ pub struct DampedSine {
     pub decay: f64,
     /// Frequency f (Hz).
     pub frequency: f64,
-    /// Phase p at the first sample (rad), in (−π, π].
+    /// Phase p at the first sample (rad), from −π to π.
     pub phase: f64,
     /// Root mean square of the fit's residual, relative to the root mean square of the samples.
     pub relative_rms: f64,
@@ -120,7 +120,7 @@ impl Problem {
         [envelope * sin, envelope * cos]
     }
 
-    /// Returns the residual of the fit, per sample.
+    /// Returns the residual of the fit at each sample.
     fn left_over(&self) -> Vec<f64> {
         let [a, b] = [self.parameters[0], self.parameters[1]];
         let left = |(&time, &sample): (&f64, &f64)| {

@@ -33,7 +33,7 @@ pub struct FreeRequest {
 /// Frequencies of a free motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// Rate of the stroke right after the impulse (rad/s).
+    /// Stroke rate directly after the impulse (rad/s).
     pub stroke_rate: f64,
     /// Best fit of a damped sine to the signal that the impulse excites, if a damped sine fits.
     pub fit: Option<DampedSine>,
@@ -45,7 +45,7 @@ pub struct FreeMotion {
 /// Returns the stroke rate (rad/s) after an impulse that causes this `amplitude` (rad) of the undamped first mode.
 ///
 /// # Errors
-/// [`Invalid`] if the first mode has no frequency, for lack of a spring.
+/// [`Invalid`] if the first mode has no frequency, because a spring is missing.
 pub fn stroke_rate(modes: &[Mode], amplitude: f64) -> Result<f64, Invalid> {
     let Mode { name, frequency } = first(modes)?;
     if frequency.is_finite() && frequency > 0.0 {

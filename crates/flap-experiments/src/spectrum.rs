@@ -9,7 +9,7 @@ use realfft::num_complex::Complex;
 /// spectrum by this factor.
 const PADDING: usize = 8;
 
-/// Smallest peak, relative to the largest peak.
+/// Height of the smallest peak that is returned, relative to the largest peak.
 const LOWEST: f64 = 1e-3;
 
 /// A peak of an amplitude spectrum.
@@ -59,7 +59,8 @@ impl Spectrum {
         }
     }
 
-    /// Returns at most `count` peaks, the highest first. A parabola through three bins gives frequency and amplitude.
+    /// Returns at most `count` peaks, in falling order of height. A parabola through three bins gives frequency and
+    /// amplitude.
     ///
     /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is higher
     /// than the side lobes and ripples. Heights are relative to the minimum between the local maximum and each higher

@@ -44,10 +44,10 @@ impl LeadingEdge {
 /// ψ = arcsin(d/c_edge)
 /// ```
 ///
-/// The pitch has the sign of the distance.
+/// The sign of the pitch is the sign of the distance.
 ///
 /// # Errors
-/// If the distance is larger than the chord, or the chord is not a positive number.
+/// An error if the distance is larger than the chord, or the chord is not a positive number.
 pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> {
     if !(chord.is_finite() && chord > 0.0) {
         return Err(Invalid::new(format!("the chord must be more than zero, not {chord}")));

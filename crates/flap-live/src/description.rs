@@ -193,7 +193,7 @@ struct Slider {
     high: f64,
     /// True for a logarithmic slider.
     log: bool,
-    /// The typical size of values, by which the unit is chosen.
+    /// The typical size of values, which determines the shown unit.
     typical: f64,
 }
 

@@ -11,7 +11,7 @@ const TOKEN_HEADER: &str = "x-flap-token";
 
 /// The check of every request, which accepts only requests of the page itself.
 ///
-/// Other pages of the browser and other users of the machine cannot read or compute anything.
+/// The checks prevent requests by other pages of the browser and by other users of the machine.
 pub(crate) struct Guard {
     token: String,
     hosts: [String; 2],
@@ -30,7 +30,7 @@ impl Guard {
     /// Returns the guard of a server at this port, with a random token of 128 bits.
     ///
     /// # Errors
-    /// If the operating system returns no random numbers.
+    /// An error if the operating system returns no random numbers.
     pub(crate) fn new(port: u16) -> Result<Guard, getrandom::Error> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes)?;

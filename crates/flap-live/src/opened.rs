@@ -18,7 +18,7 @@ use crate::request::{Along, By, Design, MOST_ROWS, Number, Refused};
 /// The sections of the opened file that every grid of the page keeps; the other sections are about points and files.
 const KEPT: [&str; 4] = ["vehicle", "derived", "where", "measure"];
 
-/// The name of the page's grids in messages.
+/// The name that messages use for the grids of the page.
 const NAME: &str = "the grid of the page";
 
 /// The design that was opened.
@@ -28,7 +28,7 @@ pub(crate) struct Opened {
     models: Vec<&'static dyn Simulator>,
     /// The text of a grid with the preset and the kept sections, without parameters.
     head: String,
-    /// The plan of `head`, which has the published values.
+    /// The plan of `head`, in which all parameters have the published values.
     published: Plan,
     /// One value per parameter, from the first point. The value is NaN if the parameter is computed from other
     /// parameters.

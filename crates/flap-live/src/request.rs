@@ -70,7 +70,7 @@ pub(crate) struct MotionRequest {
     pub(crate) samples: u32,
 }
 
-/// The response of a design up and down.
+/// The response of a design to a parameter that rises and falls.
 #[derive(Debug, Deserialize)]
 pub(crate) struct HysteresisRequest {
     #[serde(default)]
@@ -78,7 +78,7 @@ pub(crate) struct HysteresisRequest {
     pub(crate) x: Along,
 }
 
-/// A text to save.
+/// A text that the user can save.
 #[derive(Debug, Deserialize)]
 pub(crate) struct SaveRequest {
     pub(crate) kind: SaveKind,
@@ -86,7 +86,7 @@ pub(crate) struct SaveRequest {
     pub(crate) design: Design,
     pub(crate) x: Option<Along>,
     pub(crate) by: Option<By>,
-    /// True for the response up and down along x, false for the rows of a sweep.
+    /// True for the response to a parameter along x that rises and falls, false for the rows of a sweep.
     #[serde(default)]
     pub(crate) updown: bool,
 }
@@ -103,7 +103,7 @@ pub(crate) enum SaveKind {
 /// The reason why a request has no answer.
 #[derive(Debug)]
 pub(crate) enum Refused {
-    /// The request has a wrong form.
+    /// The request does not have the form of a request of the page.
     Malformed(String),
     /// Values that are impossible, with advice and the parameter concerned.
     Impossible { error: String, help: Option<String>, parameter: Option<String> },

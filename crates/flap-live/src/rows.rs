@@ -16,7 +16,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Returns a table for rows of `plan`, without rows.
+    /// Returns an empty table for rows of `plan`.
     pub(crate) fn of(plan: &Plan) -> Rows {
         Rows { columns: Layout::of(plan).names(), rows: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! The work of a cluster's workers, and the identity of a process.
+//! The functions that workers of a cluster call, and the identity of a process.
 
 use flap_sweep::run::identity::build;
 use flap_sweep::run::{self, RunOptions};

@@ -52,7 +52,7 @@ impl Data {
     }
 }
 
-/// Returns a column of which only the name is known.
+/// Returns a column without a meaning. The end of the name determines the unit.
 pub(crate) fn named(name: &str, kind: CellKind) -> Column {
     Column { name: name.to_owned(), unit: layout::split_unit(name).1.into(), kind, doc: String::new() }
 }

@@ -6,7 +6,7 @@ use std::panic;
 use flap_core::simulate;
 use pyo3::prelude::*;
 
-/// The exit code of a panic in Rust programs.
+/// The exit code of a Rust program that panics.
 const PANICKED: u8 = 101;
 
 /// Run a command line and return its exit code. The first word of the line is the name of the program.

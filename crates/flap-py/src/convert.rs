@@ -33,8 +33,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
     }
 }
 
-/// Returns the size of an impulse (rad) from a number in rad or text with a unit. Errors are as for [`quantity`], and
-/// `ValueError` for more than half a turn.
+/// Returns the size of an impulse (rad) from a number in rad or text with a unit. The errors are the errors of
+/// [`quantity`], and `ValueError` for more than half a turn.
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude).map_err(|error| {

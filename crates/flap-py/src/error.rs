@@ -114,7 +114,7 @@ pub(crate) fn job(error: &JobError) -> PyErr {
     })
 }
 
-/// Returns the exception with a note.
+/// Adds a note to an exception, and returns the exception.
 fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
     error.add_note(py, note).err().unwrap_or(error)
 }

@@ -50,7 +50,7 @@ pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(head.concat())
 }
 
-/// Tables of a list, each with the key of the list.
+/// Dictionaries of a list, each with the key of the list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
 /// Splits the entries of a table into lists of dictionaries, such as the wings of a vehicle, and all other entries.

@@ -83,7 +83,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the run of the point.
+    /// Returns the information for running the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
@@ -101,7 +101,7 @@ impl Chosen {
         }
     }
 
-    /// Returns the origin of the point's motions, see [`sweep::meta`].
+    /// Returns the origin of the motions of the point (see [`sweep::meta`]).
     pub(crate) fn meta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         sweep::meta(py, &self.plan, &sweep::options(None)?)
     }

@@ -52,7 +52,7 @@ struct Contents {
     columns: Columns,
     /// The origin of the rows, if the file records the origin.
     origin: Option<Origin>,
-    /// Units recorded in the file itself.
+    /// Units of the columns that the file records.
     units: BTreeMap<String, String>,
     warnings: Vec<String>,
     /// True if checksums agree with the rows.

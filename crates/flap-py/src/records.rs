@@ -46,7 +46,7 @@ impl Wave {
     }
 }
 
-/// Reads the record of a file, or of a dictionary of float64 arrays, which messages call `name`.
+/// Reads the record of a file, or of a dictionary of float64 arrays. Messages call the record `name`.
 pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     let Ok(columns) = source.cast::<PyDict>() else {
         let path: PathBuf = source.extract()?;

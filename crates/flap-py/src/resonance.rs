@@ -14,7 +14,7 @@ use crate::point::Chosen;
 use crate::watch::interruptible;
 use crate::{convert, design, error};
 
-/// Samples of a free motion per period of the first mode.
+/// Number of samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
 /// The resonances of a point, as a dictionary; see `flapwing.Resonances`.

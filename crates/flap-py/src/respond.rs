@@ -1,4 +1,4 @@
-//! Follows responses up and down.
+//! Follows responses while a parameter rises and falls.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::plan::{Along, Plan};

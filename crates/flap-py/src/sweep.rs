@@ -22,7 +22,7 @@ use crate::grid::{self, Grid};
 use crate::watch::{Watch, interruptible};
 use crate::{convert, error};
 
-/// Time between checkpoints of results in a file.
+/// Time between two checkpoints of results in a file.
 const CHECKPOINT: Duration = Duration::from_secs(1);
 
 /// Run a grid; see `flapwing.sweep`.

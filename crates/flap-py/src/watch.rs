@@ -7,7 +7,7 @@ use flap_core::simulate::Interrupt;
 use flap_sweep::run::Progress;
 use pyo3::prelude::*;
 
-/// The interval between checks: short for a user, long compared with the work of a check.
+/// The interval between checks. The interval is short for a user, and long compared with the time of a check.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// A watch on the interpreter while work runs without the interpreter lock.
@@ -23,7 +23,7 @@ impl Watch {
         Watch { progress, last: None, error: None }
     }
 
-    /// Checks as [`Watch::look`] does. Returns true if the work must end.
+    /// Does the same checks as [`Watch::look`]. Returns true if the work must end.
     pub(crate) fn stops(&mut self, progress: Progress) -> bool {
         self.look(progress.finished, progress.points);
         self.error.is_some()

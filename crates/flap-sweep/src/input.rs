@@ -14,7 +14,7 @@ pub const MOST_BYTES: u64 = 16 << 20;
 /// Largest number of bytes of a file written by a program: lists of points, sidecars.
 pub const MOST_LISTED: u64 = 256 << 20;
 
-/// Reason for an unusable input file.
+/// Reason why an input file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum InputError {
     /// The input file does not exist.
@@ -32,7 +32,7 @@ pub enum InputError {
     /// The operating system cannot read the file.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The file is not text.
+    /// The file does not contain text.
     #[error("not UTF-8 text at byte {byte} (line {line}, column {column}): save the file as UTF-8")]
     NotUtf8 {
         /// Offset of the first byte that is not UTF-8, counted from 0.

@@ -283,7 +283,7 @@ const MOST_COUNTED: u64 = 1_000_000;
 
 /// The points that `[where]` excludes.
 struct Excluded {
-    /// A line about the excluded points; empty without conditions.
+    /// A line about the excluded points; empty for a grid without conditions.
     line: String,
     /// Number of points that a sweep of the grid runs; approximate for a large grid.
     runs: u64,

@@ -25,7 +25,7 @@ use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits, wrapped};
 use crate::{job, print};
 
-/// Columns of the answer for programs.
+/// Columns of the result in csv and json.
 const NAMES: [&str; 7] = ["section", "name", "value", "unit", "limit", "per_unit", "percent_per_percent"];
 
 /// Measures that the table shows besides the measures in the goal and the conditions.
@@ -89,7 +89,7 @@ fn search(args: &OptimiseArgs, problem: &Problem) -> Result<Exit, Failure> {
     Ok(if best.is_feasible() { Exit::Done } else { Exit::NotAll })
 }
 
-/// Writes the design as a device.
+/// Writes the best design as a device file.
 fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
     let text = grid::device(plan);
     if outputs::is_stdout(out) {
@@ -120,7 +120,7 @@ fn options(solver: &SolverSettings) -> String {
     options
 }
 
-/// Warnings and notes about the answer.
+/// Prints warnings and notes about the result.
 fn remark(problem: &Problem, best: &Optimum) {
     let plan = problem.plan();
     if best.computed < best.points {
@@ -172,7 +172,7 @@ fn same(best: &Optimum) -> usize {
     best.optima.first().map_or(0, |first| first.starts)
 }
 
-/// The answer below [`NAMES`], with all digits.
+/// The result as rows of the columns [`NAMES`], with all digits.
 fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     let plan = problem.plan();
     let mut rows: Vec<Vec<String>> = Vec::new();
@@ -232,7 +232,7 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     rows
 }
 
-/// The answer to be read.
+/// The result as text for a terminal.
 fn page(problem: &Problem, best: &Optimum) -> String {
     let plan = problem.plan();
     let goal = problem.goal();

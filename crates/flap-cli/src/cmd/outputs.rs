@@ -30,7 +30,7 @@ pub(crate) fn check_tables<'p>(
     check(inputs, outputs)
 }
 
-/// Checks the names of output files before anything is computed.
+/// Checks the names of output files before any computation.
 ///
 /// # Errors
 ///

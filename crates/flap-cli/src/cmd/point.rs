@@ -93,7 +93,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// Returns the run of the point.
+    /// Returns the information for running the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
@@ -155,7 +155,8 @@ pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(
         .help("remove [vehicle] from the file, and all keys that refer to single wings or their differences"))
 }
 
-/// Returns the plan with the solver settings of the command line, which override the grid file's.
+/// Returns the plan with the solver settings of the command line. These settings override the settings of the grid
+/// file.
 pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
     let mut settings = *plan.solver();
     if let Some(rtol) = args.rtol {

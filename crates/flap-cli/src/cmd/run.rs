@@ -124,7 +124,7 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
 /// Columns of a row in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// Returns the row as a page: status and numbers of the run, and a table of the measures.
+/// Returns the row as text for a terminal: status and numbers of the run, and a table of the measures.
 fn page(chosen: &Chosen, row: &Row) -> String {
     let course = course(row, six_digits).into_iter();
     let course = course.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));

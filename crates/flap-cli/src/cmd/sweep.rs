@@ -67,7 +67,7 @@ fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
     Ok(args.shard.map_or_else(|| whole.clone(), |shard| name_of_shard(&whole, shard)))
 }
 
-/// Returns the name for a shard's rows: `grid.2of8.csv` for `grid.csv`.
+/// Returns the name of the file for the rows of a shard, such as `grid.2of8.csv` for `grid.csv`.
 fn name_of_shard(whole: &Path, shard: Shard) -> PathBuf {
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = Format::split_ending(&name);

@@ -75,8 +75,8 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the columns to list: the columns of the point (in other files, the first column), the ranking column, the columns of
-/// `--columns`, and the status.
+/// Returns the columns to list. The list begins with the columns of the point, or with the first column of other files.
+/// The ranking column, the columns of `--columns`, and the status follow.
 fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     let place = |name: &str| source.names().iter().position(|known| known == name);
     let status = place("status");
@@ -140,7 +140,7 @@ impl Best {
 struct Range {
     low: Option<f64>,
     high: Option<f64>,
-    /// True if the column has at least three different numbers.
+    /// True if the column has three or more different numbers.
     has_inner: bool,
 }
 
@@ -167,7 +167,7 @@ struct LeftOut {
 }
 
 impl LeftOut {
-    /// Returns the end of a message.
+    /// Returns the end of a message about rows without a rank.
     fn text(&self) -> String {
         let mut text = String::new();
         if self.other_statuses > 0 {

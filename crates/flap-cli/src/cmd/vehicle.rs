@@ -23,10 +23,10 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// An input or a component with a smaller share in a combination is not listed.
+/// Fraction of a combination below which an input or a component is not listed.
 const SMALL: f64 = 0.1;
 
-/// A combination with a smaller share of the largest singular value has no effect.
+/// Fraction of the largest singular value below which a combination has no effect.
 const NOTHING: f64 = 1e-9;
 
 pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {

@@ -119,7 +119,7 @@ fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table:
     levels.follow(others) && !is_even(levels) && rank_correlation(one, two).abs() < 0.9
 }
 
-/// Returns true for values with even steps or even ratios, as axes often have.
+/// Returns true for values with constant steps or constant ratios, as axes often have.
 fn is_even(levels: &Levels) -> bool {
     let Values::Numbers(values) = &levels.values else { return false };
     let even = |place: &dyn Fn(f64) -> f64| {

@@ -43,7 +43,7 @@ pub(crate) struct Column {
 pub(crate) enum Cells {
     /// One number per row; NaN for an empty cell.
     Numbers(Vec<f64>),
-    /// For each row the index of a word; [`NO_WORD`] for an empty cell.
+    /// For each row, the index of the word in the row, or [`NO_WORD`] for an empty cell.
     Words { codes: Vec<u32>, words: Vec<String> },
     /// Not read.
     Unread,

@@ -37,7 +37,7 @@ struct Number {
     wanted: f64,
     /// True if the number was given without a unit.
     is_bare: bool,
-    /// The number in the first row.
+    /// The number in the first row of the column.
     first: OnceCell<f64>,
 }
 
@@ -53,7 +53,7 @@ struct Word {
 /// Largest number of words of a column that a message lists.
 const MOST_WORDS: usize = 8;
 
-/// A comparison of columns.
+/// A condition that compares columns and numbers.
 struct Comparison {
     expression: Expression,
     /// Names and units of all columns.
@@ -190,7 +190,7 @@ impl Filters {
     }
 }
 
-/// Returns a question if a number without a unit may lack a prefix; `usual` is a number in the column.
+/// Returns a question for the user if a number without a unit may lack a prefix. `usual` is a number in the column.
 pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);

@@ -1,4 +1,4 @@
-//! The different values of a column.
+//! The distinct values of a column.
 
 use std::collections::HashMap;
 
@@ -7,14 +7,14 @@ use flap_sweep::notation::text;
 
 use super::columns::{Cells, NO_WORD, Table};
 
-/// The different values of a column, and the value in each row.
+/// The distinct values of a column, and the value in each row.
 pub(crate) struct Levels {
     /// For each row, the index of the value in the row.
     pub(crate) codes: Vec<usize>,
     pub(crate) values: Values,
 }
 
-/// Different values: numbers in rising order, words in the order of the file.
+/// Distinct values: numbers in rising order, words in the order of the file.
 pub(crate) enum Values {
     Numbers(Vec<f64>),
     Words(Vec<String>),

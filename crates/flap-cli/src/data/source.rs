@@ -165,7 +165,7 @@ impl Gathered {
         }
     }
 
-    /// Drops every second cell.
+    /// Removes every second cell.
     fn halve(&mut self) {
         fn every_second<T: Copy>(cells: &mut Vec<T>) {
             *cells = cells.iter().step_by(2).copied().collect();
@@ -177,7 +177,7 @@ impl Gathered {
         }
     }
 
-    /// Converts the first `rows` cells, which were numbers or empty, to words because the next cell is a word.
+    /// Converts the first `rows` cells, which are numbers or empty, to words. The next cell is a word.
     fn turn_to_words(&mut self, rows: usize) {
         let Cells::Numbers(values) = &self.cells else { return };
         let mut words = Vec::new();

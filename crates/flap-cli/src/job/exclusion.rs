@@ -1,4 +1,4 @@
-//! Excluded points as text.
+//! Counts of excluded points as text for messages.
 
 use flap_sweep::notation::text::count;
 use flap_sweep::run::Unsatisfied;

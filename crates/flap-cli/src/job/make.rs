@@ -13,7 +13,7 @@ use crate::failure::Failure;
 
 /// Writes a complete file or no file. An earlier file remains until the new file is complete.
 ///
-/// `write` returns the sidecar of results. The inner result comes from `write`.
+/// `write` writes the rows and returns the sidecar of the results. The inner result is the result of `write`.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,

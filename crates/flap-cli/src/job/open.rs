@@ -99,7 +99,7 @@ pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(
     }
 }
 
-/// Prints a note on results as a warning.
+/// Prints a note about results as a warning.
 pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
 }

@@ -197,7 +197,7 @@ fn write_curves(
     Ok(())
 }
 
-/// Returns the next outcomes of a run, which stops after a signal.
+/// Returns the next outcomes of a run. The run stops after a signal.
 fn next_batch<T: Send + 'static>(
     run: &mut Run<T>,
     bar: &mut Bar,

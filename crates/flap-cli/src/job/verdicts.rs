@@ -12,7 +12,7 @@ use crate::args::OutputFormat;
 use crate::console;
 use crate::table::assignment;
 
-/// The stream for the lines of curves.
+/// The output stream for the lines about curves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lines {
     /// Stdout. If the program that reads stdout closes it, the run ends.

@@ -44,7 +44,7 @@ pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Pixels per unit of a picture's size.
+/// Number of pixels for each unit of a picture's size.
 const SCALE: u32 = 2;
 
 /// Largest number of pixels of a picture that is drawn at double size and averaged.
@@ -88,7 +88,7 @@ impl Image {
         Ok(Image { width: info.width as usize, height: info.height as usize, channels, bytes })
     }
 
-    /// Adds dark marks on white to the image, after a quarter turn to the left.
+    /// Rotates dark marks on a white background by a quarter turn to the left, and adds the marks to the image.
     fn darken_turned(&mut self, marks: &Image) {
         for row in 0..self.height.min(marks.width) {
             for column in 0..self.width.min(marks.height) {
@@ -104,7 +104,7 @@ impl Image {
         }
     }
 
-    /// Returns the image at half size: every pixel is the mean of two by two.
+    /// Returns the image at half size. Every pixel is the mean of a square of two by two pixels.
     fn halved(&self) -> Image {
         let (width, height) = (self.width / 2, self.height / 2);
         let mut bytes = Vec::with_capacity(width * height * 3);
@@ -126,7 +126,7 @@ impl Image {
         Image { width, height, channels: 3, bytes }
     }
 
-    /// Returns the bytes of the pixels' colours.
+    /// Returns the colours of the pixels as bytes.
     fn opaque(&self) -> Vec<u8> {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }

@@ -17,7 +17,7 @@ use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
-/// Largest number of curves in a picture: more cannot be distinguished.
+/// Largest number of curves in a picture. More curves cannot be distinguished.
 const MOST_CURVES: usize = 10;
 
 /// The index of the unstable orbits in [`BRANCHES`].
@@ -144,7 +144,7 @@ impl Curve {
         self.compared.jumps.get(kind).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the points of a branch, with a gap at each jump, where nothing was computed.
+    /// Returns the points of a branch, with a gap at each jump, because no motion was computed inside a jump.
     fn with_gaps(&self, kind: usize) -> Vec<(f64, f64)> {
         let mut points = Vec::new();
         for (row, point) in self.branches[kind].iter().enumerate() {

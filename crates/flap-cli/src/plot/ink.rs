@@ -16,7 +16,8 @@ pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     }
 }
 
-/// Returns the colour at `share` of the way from the smallest to the largest value; the lightness rises evenly.
+/// Returns the colour at the fraction `share` of the range from the smallest to the largest value. The lightness rises
+/// evenly.
 pub(super) fn sequential(share: f64) -> String {
     ColorMap::Viridis.map(share)
 }
@@ -65,7 +66,7 @@ pub(super) fn line(points: &[(f64, f64)], look: &Look) -> Vec<Plot> {
     plots
 }
 
-/// The look of a line.
+/// The colour, width and dashes of a line.
 pub(super) struct Look {
     pub(super) name: String,
     pub(super) colour: String,

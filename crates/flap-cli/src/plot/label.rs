@@ -8,7 +8,7 @@ use crate::data::levels::{Levels, Values};
 /// The label of a column, and the unit in which the numbers of the column are shown.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
-    /// The name as text: `Lift, mean`.
+    /// The name of a column as text, such as `Lift, mean`.
     pub(super) words: String,
     /// The printed unit, such as `mN` or `µN·m/rad`; empty for a column without a unit.
     pub(super) unit: String,
@@ -23,7 +23,7 @@ impl Label {
         Label { words: labels::with_unit(name, unit).words, unit: shown, factor }
     }
 
-    /// Returns name and unit: `Lift, mean (mN)`.
+    /// Returns the name with the unit, such as `Lift, mean (mN)`.
     pub(super) fn text(&self) -> String {
         labels::titled(&self.words, &self.unit)
     }

@@ -87,7 +87,7 @@ fn axis_of(table: &Table, column: usize) -> Option<&RefinedAxis> {
 
 /// Returns the cells of points that form no grid: every place has the colour of the nearest point.
 ///
-/// The unit of distances along an axis is a cell between the values of the grid file.
+/// Distances along an axis are measured in cells between the values of the grid file.
 fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let columns = [selection.columns.x, selection.columns.y];
     let [across, up] = columns.map(|column| {
@@ -141,7 +141,8 @@ struct Rectangle {
     owner: usize,
 }
 
-/// Joins the places of a raster with equal owners to rectangles. A raster has `columns` places in each row.
+/// Joins the places of a raster that belong to the same point into rectangles. A raster has `columns` places in each
+/// row.
 fn rectangles(owners: &[usize], columns: usize) -> Vec<Rectangle> {
     let mut done: Vec<Rectangle> = Vec::new();
     // Rectangles that may continue in the next row, by their first column.
@@ -280,7 +281,7 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
 
 /// Returns the cells as rectangles. Neighbours overlap a little, so that no background is visible between them.
 ///
-/// `ends` has the right and the lower end of the axes, which no cell crosses.
+/// `ends` has the right and the lower end of the axes. No cell extends beyond these ends.
 fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
     for cell in cells {

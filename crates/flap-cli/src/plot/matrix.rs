@@ -116,7 +116,7 @@ impl Cell {
         });
     }
 
-    /// Returns the change with three digits, or with as few as fit.
+    /// Returns the change as text with three digits, or with fewer digits if the cell is small.
     fn text(&self) -> String {
         let Cell { sides, change, share, .. } = *self;
         if change.is_nan() {

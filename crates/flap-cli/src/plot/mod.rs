@@ -94,7 +94,7 @@ fn heading(args: &PlotArgs) -> String {
     printable(&args.title.clone().or_else(name).unwrap_or_default())
 }
 
-/// Returns the name for a picture of `results`, in the working directory.
+/// Returns the name of the file for a picture of `results`, in the working directory.
 fn default_name(results: &Path) -> PathBuf {
     let name = results.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let (stem, _) = Format::split_ending(&name);

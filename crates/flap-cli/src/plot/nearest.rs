@@ -4,7 +4,8 @@
 /// first of these points.
 ///
 /// `points` are in the unit square. The places are the middles of `columns` times `rows` equal cells of the square, row
-/// by row from the bottom. `weights` are the factors of distances across and up. Without points the result is empty.
+/// by row from the bottom. `weights` are the factors of horizontal and vertical distances. Without points the result is
+/// empty.
 pub(super) fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [usize; 2]) -> Vec<usize> {
     if points.is_empty() {
         return Vec::new();

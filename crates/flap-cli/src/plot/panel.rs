@@ -17,14 +17,14 @@ pub(super) struct Axis {
     pub(super) label: String,
     pub(super) range: (f64, f64),
     pub(super) log: bool,
-    /// The words at 0, 1, 2, …; empty for an axis of numbers.
+    /// The words at the positions 0, 1, 2, … of the axis; empty for an axis of numbers.
     pub(super) words: Vec<String>,
 }
 
 /// A pair of axes with plots.
 pub(super) struct Panel {
     pub(super) title: String,
-    /// Smaller text below the title: slices, missing values.
+    /// Smaller text below the title, about slices and missing values.
     pub(super) notes: Vec<String>,
     pub(super) x: Axis,
     pub(super) y: Axis,
@@ -55,13 +55,13 @@ impl Axis {
         Axis { label, range, log: false, words: Vec::new() }
     }
 
-    /// Returns an axis of words, at 0, 1, 2, ….
+    /// Returns an axis of words, which are at the positions 0, 1, 2, ….
     pub(super) fn of_words(label: String, words: Vec<String>) -> Axis {
         let range = (-0.5, words.len() as f64 - 0.5);
         Axis { words, ..Axis::linear(label, range) }
     }
 
-    /// Returns the word at a place; empty between two words.
+    /// Returns the word at a position of the axis; empty between two words.
     fn word(words: &[String], value: f64) -> String {
         let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
         (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())

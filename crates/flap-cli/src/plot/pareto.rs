@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(steps(&corners, Aim::Max), [(1.0, 1.0), (1.0, 3.0), (2.0, 3.0)]);
     }
 
-    /// Compares every pair, as in the definition.
+    /// Compares every pair of points, as in the definition of dominance.
     fn brute_force(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
         let at_least = |a: f64, b: f64, more: Better| if more { a >= b } else { a <= b };
         let dominates = |a: (f64, f64), b: (f64, f64)| {

@@ -14,7 +14,7 @@ use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Largest number of lines in a picture: more cannot be distinguished.
+/// Largest number of lines in a picture. More lines cannot be distinguished.
 const MOST_LINES: usize = 16;
 
 /// Largest number of points in a line.
@@ -98,7 +98,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(panel.scene(size))
 }
 
-/// Returns the positions of the rows along column `x`, and for a column of words the words at 0, 1, 2, ….
+/// Returns the positions of the rows along column `x`, and for a column of words the words at the positions 0, 1, 2, ….
 fn places(table: &Table, x: usize) -> Result<(Cow<'_, [f64]>, Vec<String>), Failure> {
     let Cells::Words { codes, words } = &table.columns[x].cells else {
         return Ok((Cow::Borrowed(table.numbers(x)?), Vec::new()));

@@ -93,7 +93,7 @@ pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     kept
 }
 
-/// Returns `count` of the numbers from 0 up to `of`, evenly spaced, including the first and the last.
+/// Returns `count` evenly spaced whole numbers below `of`, including 0 and `of` - 1.
 pub(super) fn even(of: usize, count: usize) -> Vec<usize> {
     if of <= count {
         return (0..of).collect();

@@ -59,11 +59,11 @@ pub(super) struct Points {
     /// The rows with both coordinates, and their places in the units of the picture.
     rows: Vec<usize>,
     pub(super) places: Vec<(f64, f64)>,
-    /// Ranges of the places.
+    /// Ranges of the coordinates of the points.
     pub(super) extent: [(f64, f64); 2],
     /// Indices of the places that are drawn.
     pub(super) shown: Vec<usize>,
-    /// Number of rows without a place.
+    /// Number of rows without a place in the picture.
     pub(super) missing: usize,
 }
 

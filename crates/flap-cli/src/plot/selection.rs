@@ -38,7 +38,7 @@ pub(super) struct Request<'a> {
     pub(super) best_over: Vec<usize>,
     /// The end of the leading parameters: the index of `status`, or of `branch`.
     pub(super) end: usize,
-    /// The measure over a parameter.
+    /// The measure that is drawn over a parameter.
     pub(super) response: Option<usize>,
     /// Benefit, cost and size of the motion: three different measures, as far as the file has them.
     pub(super) three: [Option<usize>; 3],
@@ -87,7 +87,7 @@ impl<'a> Request<'a> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// Returns true if the cells of a column are needed.
+    /// Returns true if the picture requires the cells of a column.
     pub(super) fn wants(&self, column: usize) -> bool {
         let [a, b, c] = self.three;
         let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
@@ -128,10 +128,10 @@ impl<'a> Request<'a> {
     }
 }
 
-/// Kind and columns of a picture.
+/// The kind and the columns of a picture.
 pub(super) struct Columns {
     pub(super) kind: PictureKind,
-    /// Column of the horizontal axis; of a tornado, the measure.
+    /// Column of the horizontal axis, or the measure of a tornado.
     pub(super) x: usize,
     /// Column of the vertical axis; equal to `x` in a trajectory, a histogram and a tornado.
     pub(super) y: usize,
@@ -510,7 +510,7 @@ fn has_both_ways(table: &Table, branch: usize) -> bool {
 
 /// Returns an error if differences of the numbers exceed the largest float, so that no axis can show them.
 fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
-    /// Margins and ticks need the rest of the float's range.
+    /// Margins and ticks require the rest of the range of floating-point numbers.
     const LARGEST: f64 = f64::MAX / 16.0;
     for column in [Some(columns.x), Some(columns.y), columns.color].into_iter().flatten() {
         let Cells::Numbers(values) = &table.columns[column].cells else { continue };

@@ -10,7 +10,7 @@ use super::ink::{self, rectangle, text};
 use super::panel::{Axis, BAR_MARGIN, LETTER};
 use super::scale;
 
-/// Width of a digit over the size of the font.
+/// Width of a digit, relative to the size of the font.
 const DIGIT: f64 = 0.64;
 
 /// The colours of numbers within a range.

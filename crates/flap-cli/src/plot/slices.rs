@@ -46,7 +46,7 @@ fn slip(table: &Table, column: usize, text: &str) -> Option<String> {
     filter::meant(name, unit, text.parse().ok()?, usual)
 }
 
-/// Returns the values of a column, at most a dozen.
+/// Returns the values of a column as text: at most a dozen values.
 fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     const MOST: usize = 12;
     let text = |place| levels.typed(place);
@@ -69,7 +69,7 @@ pub(super) struct Slice {
 
 /// The value that was chosen for an axis.
 pub(super) struct Taken {
-    /// The value with the axis's label: `Drive voltage 70 V`.
+    /// The value with the label of the axis: `Drive voltage 70 V`.
     pub(super) shown: String,
     /// The column.
     pub(super) name: String,
@@ -79,7 +79,7 @@ pub(super) struct Taken {
     pub(super) of: usize,
 }
 
-/// Chooses the middle value of each of `axes`, which the picture does not show.
+/// Chooses the middle value of each axis in `axes`. The picture does not show these axes.
 pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Slice {
     let mut taken = Vec::new();
     for &axis in axes {

@@ -39,9 +39,9 @@ fn is_ignored(signal: i32) -> bool {
     }
 }
 
-/// Turns a write beyond the file size limit of the process (`ulimit -f`) into an error, which can be reported.
+/// Makes a write beyond the file size limit of the process (`ulimit -f`) return an error instead of a signal.
 ///
-/// By default, a signal ends the process.
+/// By default, such a signal ends the process.
 pub(crate) fn refuse_large_files() {
     let _ = flag::register(SIGXFSZ, Arc::default());
 }

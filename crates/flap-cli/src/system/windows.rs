@@ -31,7 +31,7 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
     Arc::clone(stop)
 }
 
-/// Handles an event of the console, in a new thread. Returns 1: no other handler is called.
+/// Handles an event of the console, in a new thread. Returns 1, so that no other handler is called.
 extern "system" fn handle(event: u32) -> BOOL {
     let is_second = STOP.get_or_init(Arc::default).swap(true, Ordering::Relaxed);
     if !matches!(event, CTRL_C_EVENT | CTRL_BREAK_EVENT) {
@@ -43,7 +43,7 @@ extern "system" fn handle(event: u32) -> BOOL {
     1
 }
 
-/// Does nothing: Windows has no file size limit of a process.
+/// Does nothing, because Windows has no file size limit of a process.
 pub(crate) fn refuse_large_files() {}
 
 /// Returns stdout as a file.

@@ -12,7 +12,7 @@ use crate::request::Refused;
 pub(crate) struct AnswerContext<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) options: RunOptions,
-    /// Set by a newer request.
+    /// The stop flag, which a newer request sets.
     pub(crate) stop: &'a AtomicBool,
 }
 
@@ -23,7 +23,7 @@ impl AnswerContext<'_> {
     }
 }
 
-/// Returns the reason why a run gave no rows.
+/// Returns the reason why a run returned no rows.
 pub(super) fn failed(error: &RunError) -> Refused {
     Refused::Fault(error.to_string())
 }

@@ -15,7 +15,7 @@ use super::context::AnswerContext;
 use crate::request::{PointRequest, Refused};
 use crate::rows;
 
-/// The numbers of a design.
+/// The computed numbers of a design.
 #[derive(Serialize)]
 pub(crate) struct Numbers {
     columns: Vec<String>,
@@ -24,13 +24,13 @@ pub(crate) struct Numbers {
     published: Vec<Value>,
     /// The reason why the parameters are impossible, or why a sweep excludes the design.
     reason: Option<String>,
-    /// Warnings about changed parameters whose values are far from the preset's.
+    /// Warnings about changed parameters whose values are far from the values of the preset.
     warnings: Vec<String>,
     /// The natural frequencies, if the model has them.
     modes: Option<Vec<Mode>>,
     /// The natural frequencies of the published design.
     published_modes: Option<Vec<Mode>>,
-    /// Derivatives of a measure, the largest first.
+    /// Derivatives of a measure, in falling order of magnitude.
     gradient: Option<Vec<Slope>>,
     /// The reason why there are no derivatives.
     gradient_reason: Option<String>,
@@ -49,7 +49,7 @@ struct Slope {
     per_percent: f64,
 }
 
-/// Computes the numbers of a design.
+/// Computes measures, natural frequencies and derivatives of a design.
 pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Result<Numbers, Refused> {
     let plan = context.opened.design(&request.design)?;
     let values = plan.point(0).values;

@@ -1,4 +1,4 @@
-//! Texts to save: a grid file, a device file, lines of Python.
+//! Texts that the user can save: a grid file, a device file, or lines of Python.
 
 use flap_sweep::grid;
 use serde::Serialize;

@@ -21,7 +21,7 @@ const MOST_CONNECTIONS: usize = 128;
 /// Pause after a connection that could not be accepted, for example because too many files are open.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Answers connections by `routes`, without end.
+/// Answers connections with `routes`, until the server stops.
 pub(super) async fn serve(listener: TcpListener, routes: Router) {
     let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {

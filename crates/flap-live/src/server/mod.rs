@@ -28,7 +28,7 @@ const MOST_BLOCKING: usize = 16;
 /// Options of a server.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LiveOptions {
-    /// The port; 0 selects a free port.
+    /// Port of the server; 0 selects a free port.
     pub port: u16,
     /// Threads and SIMD instructions for rows.
     pub run: RunOptions,
@@ -116,7 +116,7 @@ impl Server {
         &self.address
     }
 
-    /// Stops the server: closes connections and abandons current work.
+    /// Stops the server, closes connections, and stops current computations.
     ///
     /// In a forked child of the process that started the server, a drop has no effect, and the server continues in the
     /// parent.

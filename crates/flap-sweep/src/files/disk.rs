@@ -46,7 +46,7 @@ impl Whole {
         AtomicWriteFile::open(path).map(Whole)
     }
 
-    /// Returns the file, for writing.
+    /// Returns the open file, for writing.
     pub(crate) fn file(&self) -> &File {
         self.0.as_file()
     }
@@ -103,7 +103,7 @@ pub(crate) fn is_taken(path: &Path) -> bool {
 /// Longest chain of links that is followed, as on Linux.
 const MOST_LINKS: usize = 40;
 
-/// Returns the target of a link, which need not exist; other paths are returned unchanged.
+/// Returns the target of a link. The target need not exist. Other paths are returned unchanged.
 pub fn target(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -134,7 +134,7 @@ pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Makes new names in the folder of `path` durable.
+/// Makes new names of files in the folder of `path` durable.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     match File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
@@ -144,7 +144,7 @@ pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the folder of `path`: the working directory for a name alone.
+/// Returns the folder of `path`. If `path` is only a name, the folder is the working directory.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -1,7 +1,7 @@
 //! Checks that results are unchanged since they were written.
 //!
-//! A sidecar contains checksums of complete results: of the file's bytes, which are fast to compare, and of blocks of
-//! rows, which locate damage.
+//! A sidecar contains two kinds of checksums of complete results. The checksum of the file's bytes is fast to compare.
+//! The checksums of blocks of rows locate damage.
 //!
 //! For unfinished results, the journal records the rows that are safe and the identity of the sweep. Only these rows
 //! are read, and only with a sidecar of the same identity.
@@ -36,17 +36,17 @@ const MOST_LISTED: usize = 5;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
 pub struct Damage {
-    /// True if the checksums themselves are unreadable.
+    /// True if the checksums in the sidecar are unreadable.
     pub checksums: bool,
     /// True if the header has changed.
     pub header: bool,
-    /// Ranges of rows, from 1, in changed blocks.
+    /// Ranges of rows in changed blocks, counted from 1.
     ///
     /// Each block contains at least one changed row. After a missing or additional row, all rows count as changed.
     pub rows: Vec<RangeInclusive<u64>>,
     /// Number of rows in the file and number of written rows, if they differ.
     pub count: Option<(u64, u64)>,
-    /// Reason for an unreadable rest of the file.
+    /// Reason why the rest of the file is unreadable.
     pub unreadable: Option<String>,
     /// True if bytes have changed, even if no row depends on the changed bytes.
     pub bytes: bool,
@@ -59,7 +59,8 @@ pub struct Damage {
 }
 
 impl Damage {
-    /// Returns the damage of a text with the digest `found`, relative to the `checksums` of `rows` written rows.
+    /// Returns the damage of a text: the differences between the digest `found` of the text and the `checksums` of
+    /// `rows` written rows.
     fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
         let mut damage = Damage::default();
         if found.text() == checksums.text {
@@ -427,7 +428,7 @@ pub enum Integrity {
     },
     /// The results are unfinished. The rows are unchanged since flap wrote them.
     Unfinished {
-        /// Number of finished points, if known.
+        /// Number of finished points, if the number is known.
         done: Option<u64>,
     },
     /// The results cannot be checked.

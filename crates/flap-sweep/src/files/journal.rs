@@ -27,7 +27,7 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     format: u32,
-    /// Start of the first session, as RFC 3339 in UTC.
+    /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
     /// True if earlier results are kept until the new results are complete.
     pub replaces: bool,
@@ -45,7 +45,7 @@ impl Header {
 /// A state from which a run can be resumed: every line except the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Running time of all sessions (s).
+    /// Total running time of all sessions of the sweep (s).
     pub seconds: f64,
     /// Number and checksum of the bytes written to the file of rows.
     pub file: FileSum,

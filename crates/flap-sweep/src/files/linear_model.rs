@@ -17,9 +17,9 @@ use crate::study::hover::{HoverError, HoverModel, HoverWarning, STATES, WRENCH_U
 pub struct LinearInput {
     /// Name.
     pub name: String,
-    /// Unit; may be empty.
+    /// Unit of the input; may be empty.
     pub unit: String,
-    /// Value at the operating point.
+    /// Value of the input at the operating point.
     pub value: f64,
 }
 
@@ -40,7 +40,7 @@ pub struct LinearModel {
     pub about: [f64; 3],
     /// Response of the wings to the motion of the body: `passive` or `frozen`.
     pub response: String,
-    /// Model and preset or device.
+    /// Name of the model, and of the preset or device.
     pub design: String,
 }
 
@@ -76,7 +76,7 @@ impl LinearModel {
     /// With `has_position`, the states include positions. `design` describes model and preset.
     ///
     /// # Errors
-    /// If mass properties are missing or impossible, the body moves, or a derivative is missing.
+    /// An error if mass properties are missing or impossible, the body moves, or a derivative is missing.
     pub fn at(
         flight: &Flight<'_>,
         values: &[f64],
@@ -115,7 +115,7 @@ impl LinearModel {
     /// Writes the model in this format.
     ///
     /// # Errors
-    /// The error of the target.
+    /// The error of writing to the target.
     pub fn write(&self, format: LinearFormat, target: &mut dyn Write) -> io::Result<()> {
         let variables = self.variables();
         match format {
@@ -125,7 +125,7 @@ impl LinearModel {
         }
     }
 
-    /// Returns the contents of a file in each format.
+    /// Returns the contents of the file in each format.
     fn variables(&self) -> Vec<(&'static str, Variable)> {
         let texts = |texts: &[&str]| Variable::Texts(texts.iter().map(|text| (*text).to_owned()).collect());
         let (names, units): (Vec<&str>, Vec<&str>) = self.hover.states().iter().copied().unzip();

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use nalgebra::DMatrix;
 
-/// A variable of a file.
+/// A variable of a MAT file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Variable {
     /// Number.

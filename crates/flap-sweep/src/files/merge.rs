@@ -51,7 +51,7 @@ pub enum MergeError {
     Write(#[from] io::Error),
 }
 
-/// Treatment of shards from several builds of flap.
+/// Treatment of shards that several builds of flap computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnBuilds {
     /// Shards of different builds are rejected, because rows of different builds may differ.

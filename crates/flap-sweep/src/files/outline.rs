@@ -37,7 +37,7 @@ pub enum OutlineFileError {
     Outline {
         /// Path of the file.
         path: PathBuf,
-        /// Mistake. Stations count from 1.
+        /// Description of the mistake. Stations are counted from 1.
         #[source]
         cause: OutlineError,
     },

@@ -66,7 +66,7 @@ pub enum RecordError {
     Cell {
         /// The file.
         name: String,
-        /// Line number from 1. For a record in memory, row number.
+        /// Number of the line, counted from 1. For a record in memory, number of the row.
         line: u64,
         /// Heading of the column.
         heading: String,
@@ -80,7 +80,7 @@ pub enum RecordError {
         name: String,
         /// The heading.
         heading: String,
-        /// Number of the row, from 1.
+        /// Number of the row, counted from 1.
         row: usize,
         /// The number, in the unit of the heading.
         number: f64,
@@ -92,7 +92,7 @@ pub enum RecordError {
     TooClose {
         /// The file.
         name: String,
-        /// Number of the earlier row, from 1.
+        /// Number of the earlier row, counted from 1.
         row: usize,
         /// Time between the two samples (s).
         step: f64,
@@ -127,7 +127,7 @@ pub enum RecordError {
         first: String,
         /// Heading of the other column.
         second: String,
-        /// Number of the row, from 1.
+        /// Number of the row, counted from 1.
         row: usize,
     },
 }

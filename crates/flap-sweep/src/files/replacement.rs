@@ -7,7 +7,7 @@
 //! results of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the
 //! new results are a replacement, so another file of this name is never taken for one.
 //!
-//! Results without a sidecar count as unverified, not as damaged. [`commit`] therefore removes the earlier sidecar,
+//! Results without a sidecar count as not verified, not as damaged. [`commit`] therefore removes the earlier sidecar,
 //! renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call completes the
 //! replacement.
 

@@ -1,4 +1,4 @@
-//! Points of earlier results to be run again.
+//! Selection of points of earlier results that are run again.
 
 use flap_core::simulate::Status;
 
@@ -6,7 +6,7 @@ use crate::files::results::{Checked, Reader, RowCheck, RowsError};
 use crate::plan::Plan;
 use crate::plan::selection::MOST_LISTED;
 
-/// Selection of rows to be computed again.
+/// Selection of rows that are computed again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
     /// Selects rows with one of these statuses.

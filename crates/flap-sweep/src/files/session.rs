@@ -62,7 +62,7 @@ pub struct Resumed {
     pub session: Session,
     /// Summary of the earlier sessions.
     pub before: Summary,
-    /// Start of the first session, as RFC 3339 in UTC.
+    /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
     /// Number of rows that were written but are missing in the file.
     pub lost: u64,

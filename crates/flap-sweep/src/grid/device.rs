@@ -23,7 +23,7 @@ const DEVICE_KEYS: [&str; 5] = ["description", "preset", "device", "params", "co
 /// The design at the start of a grid.
 pub(super) struct Base {
     pub(super) robot: Robot,
-    /// Preset at the root of the devices.
+    /// Preset on which the devices are based.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
     /// Parameters whose values have units.
@@ -166,7 +166,8 @@ impl Base {
     }
 }
 
-/// Reads `[params]` into `base`, the use of units into `with_units`, and standard errors into `errors`.
+/// Reads the values of `[params]` into `base`, and standard errors into `errors`. `with_units` gets the parameters
+/// whose values have units.
 ///
 /// Returns the parameters in the section, with the positions of the parameters in the file.
 pub(super) fn read(

@@ -17,9 +17,9 @@ pub struct Diagnostic {
     pub source: Arc<Source>,
     /// Description of the mistake in one line.
     pub message: String,
-    /// Bytes of the source with the mistake. Empty if something is missing.
+    /// Position of the bytes with the mistake in the source. The range is empty if the mistake is missing text.
     pub span: Range<usize>,
-    /// A few words at the span. May be empty.
+    /// A few words that are shown at the mistake. The text may be empty.
     pub label: String,
     /// Related positions.
     pub related: Vec<Related>,
@@ -31,7 +31,7 @@ pub struct Diagnostic {
     pub(crate) is_only_counted: bool,
 }
 
-/// A second position of a diagnostic.
+/// A second position in the file to which a diagnostic refers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Related {
     /// Bytes of the source.
@@ -55,7 +55,7 @@ impl Diagnostic {
         }
     }
 
-    /// Sets the words at the span.
+    /// Sets the words that are shown at the mistake.
     pub(crate) fn label(&mut self, label: impl Into<String>) -> &mut Diagnostic {
         self.label = shortened(&label.into()).into_owned();
         self
@@ -125,7 +125,7 @@ impl Mistakes {
     /// Largest number of mistakes that are shown. A file with more mistakes usually repeats one mistake.
     pub const MOST_SHOWN: usize = 20;
 
-    /// Returns the first mistakes of `found`, which is in the order of the file, and the number `more` of further
+    /// Returns the first mistakes of `found`, which has the order of the file, and the number `more` of further
     /// mistakes.
     pub(crate) fn new(mut found: Vec<Diagnostic>, more: usize) -> Mistakes {
         let more = more + found.len().saturating_sub(Mistakes::MOST_SHOWN);

@@ -163,7 +163,7 @@ pub(super) fn read(
 /// Returns the expression of `entry`. If the entry is not text, reports a mistake and returns `None`.
 ///
 /// # Errors
-/// Mistakes in the expression, which are not reported yet.
+/// The mistakes in the expression. These mistakes are not yet reported.
 pub(super) fn check(
     entry: &Entry<'_>,
     names: &Names<'_>,

@@ -144,7 +144,7 @@ fn measure(
     Some(index)
 }
 
-/// Returns the index of a parameter whose share can change.
+/// Returns the index of a parameter that can have relative changes.
 fn parameter(
     name: &str,
     item: &Spanned<DeValue<'_>>,

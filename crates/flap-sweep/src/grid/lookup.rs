@@ -9,7 +9,7 @@ use flap_core::vehicle::{DIFFERENCE, Vehicle, of_all_wings};
 use super::problems::Problems;
 use super::table::Entry;
 
-/// Model whose parameters are looked up, and the list for reports of unknown parameters.
+/// Model in which parameters are looked up, and the list of mistakes for unknown parameters.
 pub(super) struct Lookup<'l> {
     pub(super) simulator: &'l dyn Simulator,
     pub(super) models: &'l [&'static dyn Simulator],

@@ -113,7 +113,7 @@ pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems)
 
 /// Returns a clearer form of the parser's message about `text`, and advice.
 ///
-/// Other messages are returned unchanged.
+/// Messages without a clearer form are returned unchanged.
 fn explain(message: &str, text: &str) -> (String, Option<String>) {
     let said = |begins: &str| message.starts_with(begins);
     if message == "duplicate key" {

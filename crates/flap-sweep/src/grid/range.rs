@@ -120,7 +120,7 @@ fn missing_keys(entries: &[Entry<'_>]) -> String {
     missing.join(", ")
 }
 
-/// Returns `count` values from end to end.
+/// Returns `count` values from the first to the last end of the range.
 fn counted(
     ends: &Ends<'_, '_>,
     n: &Entry<'_>,
@@ -196,7 +196,7 @@ fn report_too_wide(ends: &Ends<'_, '_>, problems: &mut Problems) {
         .related(ends.from_entry.value.span(), "from here");
 }
 
-/// Returns values at distances of `step`.
+/// Returns values of the range at distances of `step`.
 fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Problems) -> Option<Values> {
     let Ends { from, to, .. } = *ends;
     if step == 0.0 {

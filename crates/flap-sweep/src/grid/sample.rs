@@ -20,7 +20,7 @@ use crate::plan::{PointsFile, Value};
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
 pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
-/// Allowed values of `of`: samples without a list of parameters.
+/// Allowed values of the key `of`, for samples without a list of parameters.
 pub(super) const OF: [&str; 1] = ["device"];
 
 /// Returns the sample of the section, and the file that lists the points, if there is such a file.

@@ -29,7 +29,7 @@ pub(super) const KEYS: [&str; 17] = [
     "output",
 ];
 
-/// An entry `key = value`.
+/// An entry `key = value` of a table.
 pub(super) struct Entry<'t> {
     pub(super) key: &'t str,
     pub(super) key_span: Range<usize>,

@@ -165,7 +165,7 @@ fn correlation(
     Some(pair)
 }
 
-/// Returns the two parameters, which must have standard errors.
+/// Returns the two parameters of a correlation. Both parameters must have standard errors.
 fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -> Option<[usize; 2]> {
     let names = entry.value.get_ref().as_array().filter(|names| names.len() == 2);
     let Some(names) = names else {

@@ -101,7 +101,7 @@ fn listed(options: &[&str]) -> String {
     format!("options: {}", quoted.join(", "))
 }
 
-/// Returns a number in the SI unit `unit`, given bare or as text with a unit.
+/// Returns a number in the SI unit `unit`, from a number or from text with a unit.
 pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let DeValue::String(text) = value.get_ref() else {
         if let DeValue::Integer(_) | DeValue::Float(_) = value.get_ref() {
@@ -129,7 +129,7 @@ pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut
     }
 }
 
-/// Returns a bare number, for settings without a unit.
+/// Returns a number without quotes, for settings without a unit.
 pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let number = match value.get_ref() {
         DeValue::Integer(integer) => integer_as_float(integer),

@@ -46,7 +46,8 @@ pub(super) struct VehicleSettings {
     pub(super) set: Vec<(usize, Range<usize>)>,
     /// Position of the key `damping` if rows have the damping matrix.
     pub(super) damping: Option<Range<usize>>,
-    /// Wings whose designs have another drive frequency than the grid, each as a position and a message.
+    /// Wings whose design has a different drive frequency from the grid, each with a position in the file and a
+    /// message.
     frequencies: Vec<(Range<usize>, String)>,
 }
 

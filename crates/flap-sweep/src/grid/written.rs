@@ -137,7 +137,7 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     page
 }
 
-/// Rounds a number to ten digits. Values computed from an outline are not more accurate.
+/// Rounds a number to ten digits. Values that are computed from an outline have no more accurate digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

@@ -10,15 +10,15 @@ const WORDS: [&str; 3] = ["and", "or", "not"];
 
 /// A number with a unit in a comparison.
 pub struct Quantity<'t> {
-    /// Bytes of the number.
+    /// Position of the bytes of the number in the text.
     pub number: Range<usize>,
-    /// Bytes of the unit.
+    /// Position of the bytes of the unit in the text.
     pub unit: Range<usize>,
     /// The name with which the quantity is compared.
     pub with: Option<&'t str>,
 }
 
-/// The reason why a number with a unit cannot stand in a comparison; `E` is the reason why a name is not known.
+/// The reason why a comparison cannot contain a number with a unit. `E` is the reason why a name is unknown.
 #[derive(Debug)]
 pub enum QuantityError<E> {
     /// The quantity is compared with no column.
@@ -33,7 +33,7 @@ impl<E> QuantityError<E> {
     /// Message and help. The caller gives the message and help for unknown names.
     ///
     /// # Errors
-    /// The reason why a name is not known.
+    /// The reason why a name is unknown.
     pub fn explained(self) -> Result<(String, Option<String>), E> {
         match self {
             QuantityError::Alone(quantity) => Ok((
@@ -154,7 +154,7 @@ fn compared(text: &str, start: usize, end: usize) -> Option<&str> {
     name.starts_with(|letter: char| letter.is_alphabetic() || letter == '_').then_some(name)
 }
 
-/// True for characters of names, and of numbers.
+/// True for the characters that names and numbers can contain.
 fn is_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_' || letter == '.'
 }

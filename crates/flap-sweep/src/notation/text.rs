@@ -87,7 +87,7 @@ pub fn truth(value: f64) -> String {
     (value != 0.0).to_string()
 }
 
-/// Length in characters above which words are shortened. Paths are seldom longer.
+/// Length in characters above which words are shortened. Few paths are longer.
 const LONGEST_WORD: usize = 300;
 
 /// Number of characters at the beginning and at the end of a shortened word.
@@ -219,7 +219,8 @@ mod tests {
 
     use super::*;
 
-    /// Any bits, typical values in rows, and numbers with few bits, some of which lie half-way between two texts.
+    /// Numbers with random bits, typical values in rows, and numbers with few bits. Some numbers with few bits are
+    /// half-way between two texts.
     fn numbers() -> impl Strategy<Value = f64> {
         let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
             .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());

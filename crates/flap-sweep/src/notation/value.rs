@@ -47,14 +47,14 @@ impl ValueError {
     }
 }
 
-/// Unit of numbers in a text.
+/// Rule for the units of numbers in text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitOf<'a> {
-    /// The text has the unit, unless the parameter is a pure number.
+    /// Text must have the unit, unless the parameter is a pure number.
     Text,
-    /// The text has the unit, or is a bare number in SI units.
+    /// Text may have the unit, or may be a number in SI units.
     TextOrSi,
-    /// The text has no unit. Contains the unit.
+    /// Text has no unit. Contains the unit of the numbers.
     Column(&'a str),
 }
 

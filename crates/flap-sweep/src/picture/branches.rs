@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(found.jumps, [vec![1, 3], vec![1, 3]]);
     }
 
-    /// A jump next to a row without a motion is undefined.
+    /// A jump next to a row without a motion has no defined position.
     #[test]
     fn gaps_are_no_jumps() {
         let x = [1.0, 2.0, 3.0];

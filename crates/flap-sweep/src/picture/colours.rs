@@ -12,7 +12,7 @@ pub const PLAIN: &str = "#8FB0C9";
 /// Colour of cells and points without a value.
 pub const MISSING: &str = "#c9c9c9";
 
-/// Colour of bands with two stable motions.
+/// Colour of bistable bands, which have two stable motions.
 pub const BISTABLE: &str = "#f3e3b3";
 
 /// Part of the sequential colour map that is used for lines. The lightest colours of the map are hard to see on white.

@@ -43,7 +43,7 @@ pub enum Values {
     },
     /// Points of a sample along one of its dimensions.
     Sampled {
-        /// Points, shared by all parameters of the sample.
+        /// Points of the sample, which are the same for all parameters of the sample.
         design: Arc<Design>,
         /// The dimension.
         dimension: usize,
@@ -52,7 +52,7 @@ pub enum Values {
     },
     /// Points of a sample of correlated normal distributions.
     Correlated {
-        /// Points, shared by all parameters of the sample.
+        /// Points of the sample, which are the same for all parameters of the sample.
         design: Arc<Design>,
         /// Mean.
         mean: f64,

@@ -50,7 +50,7 @@ pub enum ChangeError {
     /// Rows have no derivatives with respect to this parameter.
     #[error("`{0}` {1}")]
     NoShares(String, NoShares),
-    /// The measure is true or false.
+    /// The measure is a condition (true or false), not a number.
     #[error("`{0}` is true or false, and has no derivatives")]
     NoSlope(String),
     /// Rows at the resonance of each design have neither derivatives nor initial states.
@@ -221,7 +221,8 @@ impl Plan {
 
     /// Returns the plan combined with an axis of values from a program. The new axis is before all other axes.
     ///
-    /// `parameters` contains equally many values for each parameter. All points are run. Values need not be in range:
+    /// `parameters` contains the same number of values for each parameter. All points are run. Values need not be in
+    /// range:
     /// a point with a value out of range has a row with the status invalid.
     ///
     /// # Errors

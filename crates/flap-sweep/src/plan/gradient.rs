@@ -113,10 +113,10 @@ pub enum NoShares {
     /// Formulas determine the parameter.
     #[error("is derived from other parameters")]
     Derived,
-    /// The parameter is a named option.
+    /// The parameter is a choice of options.
     #[error("is a choice, so there is no derivative with respect to it")]
     Choice,
-    /// The parameter is a count.
+    /// The parameter is a whole number.
     #[error("has whole numbers as values, so there is no derivative with respect to it")]
     Whole,
     /// The parameter is not set. The text describes the parameters from which the parameter is computed.
@@ -143,7 +143,7 @@ impl NoShares {
     }
 }
 
-/// Share of the largest published value below which a value counts as small.
+/// Fraction of the largest published value below which a value counts as small.
 ///
 /// The size is not larger because robots may be far smaller than the published robots.
 const SMALL: f64 = 1e-3;

@@ -2,7 +2,7 @@
 //!
 //! - [`Plan`]: a checked design space, and methods that change it
 //! - [`axes`]: values of varied parameters
-//! - [`sample`]: points spread over a design space
+//! - [`sample`]: points that are spread over a design space
 //! - [`formula`]: derived parameters, conditions, the user's measures
 //! - [`gradient`]: derivatives of measures
 //! - [`refine`]: refinement of a grid

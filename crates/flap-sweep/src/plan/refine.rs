@@ -44,7 +44,7 @@ pub struct Limit {
 /// Largest error of an interpolated measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {
-    /// Share of the range of the measure over all rows.
+    /// Fraction of the range of the measure over all rows.
     Share(f64),
     /// Number in the unit of the column.
     Absolute(f64),

@@ -27,7 +27,7 @@ pub enum Method {
     Random,
 }
 
-/// Points spread over the unit cube.
+/// Points that are spread over the unit cube.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     seed: u64,
@@ -118,13 +118,14 @@ fn stream(seed: u64, dimension: usize, is_key: bool) -> ChaCha8Rng {
     generator
 }
 
-/// Number of rounds of the cipher. Four are as good as random for a random key; two more take negligible time.
+/// Number of rounds of the cipher. With a random key, four rounds give results like random permutations; two further
+/// rounds take negligible time.
 const ROUNDS: u64 = 6;
 
 /// A random permutation of the numbers below `count`, which is not stored.
 ///
 /// A Feistel cipher permutes the numbers with an even number of bits, enough for `count`. Numbers that are too large
-/// are encrypted again, which gives a number in range after a few repetitions.
+/// are encrypted again. A few repetitions give a number in range.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Permutation {
     count: u64,

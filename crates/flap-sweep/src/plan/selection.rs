@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// Points to run, in the order of the plan. Rows keep the indices of the whole plan.
+/// The points that are run, in the order of the plan. Rows keep the indices of the whole plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
     /// All points.

@@ -49,7 +49,7 @@ pub(crate) struct Space {
     pub(crate) preset: &'static str,
     /// One value per parameter: the preset or the device, with `[params]` applied.
     pub(crate) base: Vec<Value>,
-    /// Parameters whose values, here or along an axis, have units in the file.
+    /// Parameters whose values have units in the file, in `[params]` or along an axis.
     pub(crate) with_units: WithUnits,
     /// Standard errors of the values, and correlations of the standard errors.
     pub(crate) uncertainty: Uncertainty,
@@ -75,7 +75,7 @@ pub(crate) struct Space {
     pub(crate) output: Output,
     /// Parameters of all wings that the grid sets or varies, although each wing has its own value.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
-    /// Grid file, for provenance.
+    /// Grid file, for the record of the origin of the rows.
     pub(crate) source: Source,
 }
 
@@ -151,7 +151,7 @@ impl Plan {
         &self.space.devices
     }
 
-    /// Returns the varied parameters.
+    /// Returns the axes with the varied parameters.
     pub fn axes(&self) -> &Axes {
         &self.space.axes
     }
@@ -163,7 +163,7 @@ impl Plan {
 
     /// Returns the points after the points of the axes. A point is given as a position along each axis.
     ///
-    /// Position 1.5 is between the second and the third value.
+    /// For example, position 1.5 is between the second and the third value.
     pub fn added(&self) -> &[Vec<f64>] {
         &self.added
     }
@@ -209,7 +209,7 @@ impl Plan {
         &self.space.unreached
     }
 
-    /// Returns the grid file, for provenance.
+    /// Returns the grid file, for the record of the origin of the rows.
     pub fn source(&self) -> &Source {
         &self.space.source
     }

@@ -38,7 +38,7 @@ impl Side {
     }
 }
 
-/// Place of a point.
+/// Place of a point in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Place {
     /// Number of the combination of the axes that are not refined.
@@ -73,7 +73,7 @@ pub(super) struct Mesh {
     measures: usize,
     /// Measures of all points, one point after another.
     measured: Vec<f64>,
-    /// Number of each point.
+    /// Number of each point in the mesh.
     numbers: HashMap<Place, usize>,
     /// For each axis, the lines along the axis. The key of a line is its place at position 0, and the key of a point on
     /// the line is its position.
@@ -85,15 +85,15 @@ pub(super) struct Mesh {
 struct Halving {
     /// Estimated error times the mean side of the box.
     ///
-    /// The error alone would spend all points on jumps, whose error does not fall. Times the volume, the mean error
-    /// would fall fastest, and the largest error late.
+    /// With the error alone as the criterion, all points would be added at jumps, where the error does not decrease.
+    /// With the error times the volume, the mean error would decrease fastest, and the largest error slowly.
     gain: f64,
     cell: usize,
     axis: usize,
 }
 
 impl Mesh {
-    /// Returns the mesh of the cells between the values of axes, for each of several `maps`.
+    /// Returns the meshes of the cells between the values of axes: one mesh for each of the `maps` maps.
     pub(super) fn new(sides: Vec<Side>, maps: u64, most: u32, measures: usize) -> Mesh {
         let mut corners: Vec<Vec<u64>> = vec![Vec::new()];
         for side in &sides {
@@ -219,7 +219,7 @@ impl Mesh {
         ends
     }
 
-    /// Returns the middles of the edges of a box along an axis.
+    /// Returns the middle points of the edges of a box along an axis.
     fn middles(&self, cell: &Cell, axis: usize) -> Vec<Place> {
         let half = self.length(cell, axis) / 2;
         self.edges(cell, axis).into_iter().map(|end| end.moved(axis, end.at[axis] + half)).collect()

@@ -50,7 +50,7 @@ pub struct Refined {
     pub boxes: u64,
     /// Number of boxes whose estimated error is too large.
     pub above: u64,
-    /// True if points were left out because of `max_points`.
+    /// True if the refinement ended early because of `max_points`.
     pub is_limited: bool,
 }
 

@@ -39,11 +39,11 @@ pub struct DrivenPeak {
 pub struct DrivenPeaks {
     /// Lowest and highest frequency of the range (Hz).
     pub range: [f64; 2],
-    /// Peaks inside the range, the highest first; at most two.
+    /// At most two peaks inside the range, beginning with the highest peak.
     pub peaks: Vec<DrivenPeak>,
     /// End of the range (Hz) at which the stroke is larger than at every peak, if there is such an end.
     pub larger_at: Option<f64>,
-    /// Number of points run.
+    /// Number of points that were run.
     pub points: usize,
     /// Intervals of frequencies without a periodic motion, in ascending order.
     pub gaps: Vec<Gap>,
@@ -62,7 +62,7 @@ pub struct Gap {
     pub status: Status,
 }
 
-/// Computes the drive frequencies at which the stroke of a point is largest.
+/// Computes the drive frequencies at which the stroke of a design point is largest.
 ///
 /// Stroke and pitch of a peak belong to the motion from rest.
 ///
@@ -99,7 +99,8 @@ pub fn search(
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
 }
 
-/// Returns the peaks found. `amplitudes` are the indices of the amplitudes of stroke and pitch in the measures.
+/// Returns the peaks that the search found. `amplitudes` are the indices of the amplitudes of stroke and pitch in the
+/// measures.
 fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -> DrivenPeaks {
     let [from, to] = found.ends;
     let mut tops: Vec<DrivenPeak> =

@@ -18,10 +18,10 @@ pub struct AtResonance {
     columns: Vec<Column>,
 }
 
-/// Column with the resonance's frequency.
+/// Name of the column with the resonance frequency.
 pub const RESONANCE_HZ: &str = "resonance_hz";
 
-/// Column with the distance of the resonance from the nearer end of the range.
+/// Name of the column with the distance between the resonance and the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
 /// Returns the measures that rows of a simulator can have: first the measures of the simulator, then measures about the

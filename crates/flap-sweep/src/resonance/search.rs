@@ -27,7 +27,7 @@ pub(super) struct Peaks {
     /// Largest difference between the vertex of a peak's parabola and the highest vertex, relative to the highest
     /// vertex.
     contender: f64,
-    /// Number of peaks to run from rest, the highest first.
+    /// Number of peaks to run from rest, beginning with the highest peak.
     from_rest: usize,
 }
 
@@ -56,7 +56,7 @@ pub(super) struct Search<'a> {
     stage: Stage,
     /// All points run.
     seen: Vec<Seen>,
-    /// Frequencies of the latest probes (Hz).
+    /// Frequencies of the latest points (Hz).
     asked: Vec<f64>,
     cycles: u32,
     rhs_evals: u64,
@@ -165,7 +165,7 @@ impl<'a> Search<'a> {
         Point { begin, ..Point::at_rest(0, values) }
     }
 
-    /// Returns the state on the orbit nearest in frequency.
+    /// Returns the state on the known orbit with the nearest frequency.
     fn nearest_state(&self, frequency: f64) -> Option<Vec<f64>> {
         let distance = |seen: &&Seen| (seen.frequency - frequency).abs();
         let known = self.seen.iter().filter(|seen| seen.state.is_some());
@@ -301,7 +301,7 @@ fn summit(points: &[[f64; 2]; 3]) -> f64 {
     if height.is_finite() { height.max(y1) } else { y1 }
 }
 
-/// Share of the larger part of an interval for a golden-section step.
+/// Length of a golden-section step, as a fraction of the larger part of an interval.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Search for a maximum between two bounds.
@@ -394,7 +394,8 @@ impl Maximum {
 mod tests {
     use super::*;
 
-    /// Returns the position found and the number of evaluations, from points at the ends and at `top`.
+    /// Returns the position of the maximum and the number of evaluations, beginning with points at the ends and at
+    /// `top`.
     fn search(f: impl Fn(f64) -> f64, places: [f64; 3], tolerance: f64) -> (f64, u32) {
         let mut maximum = Maximum::new(places.map(|place| [place, f(place)]), tolerance);
         let mut values = 0;

@@ -72,7 +72,7 @@ struct Open<S> {
     sequence: S,
     /// Points that have not begun, the next one last, each with its index among the probes.
     waiting: Vec<(usize, Point)>,
-    /// Rows of the probes received so far.
+    /// Rows of the points that were received so far.
     rows: Vec<Option<Row>>,
     missing: usize,
 }
@@ -90,7 +90,7 @@ impl<S: PointSequence> Open<S> {
     }
 }
 
-/// Stride of the indices of points: each sequence begins at a multiple.
+/// Distance between the indices of sequences: each sequence begins at a multiple of this number.
 const STRIDE: u64 = 1 << 32;
 
 impl<D: SequenceSource> Interleaved<'_, D> {

@@ -12,7 +12,7 @@ pub enum Objective {
     Stroke,
     /// The mean lift.
     Lift,
-    /// Mean lift over mean electrical power.
+    /// Mean lift divided by mean electrical power.
     Efficiency,
 }
 

@@ -62,7 +62,8 @@ pub struct RunOptions {
     pub grace: Duration,
 }
 
-/// Default time for running points: long enough for ordinary points, and with overhead less than a second.
+/// Default time for running points after a stop. The time is long enough for ordinary points, and less than a second
+/// including overhead.
 const GRACE: Duration = Duration::from_millis(400);
 
 impl Default for RunOptions {

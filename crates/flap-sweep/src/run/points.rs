@@ -11,10 +11,10 @@ use super::{Run, RunError, RunOptions, Worker};
 use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
 use crate::plan::{Admission, Plan};
 
-/// Outcome of a point, or of a design with a curve.
+/// Result of running a point, or a design with a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome<T = Row> {
-    /// A row, or a curve of rows.
+    /// A row of a point, or the rows of a curve.
     Ran(T),
     /// The point does not satisfy the conditions with these indices, so the point has no row.
     Excluded(Vec<usize>),

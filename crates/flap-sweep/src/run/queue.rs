@@ -20,7 +20,7 @@ use super::{RunError, RunOptions};
 /// Shortest and longest time for which the collection of a batch waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
-/// Number of available outcomes at which collecting ends early.
+/// Number of available outcomes at which the collection of a batch ends early.
 const BATCH: usize = 64;
 
 /// Largest number of outcomes in a batch. The number is limited so that the window gets room in time.
@@ -28,7 +28,7 @@ const MOST_AT_ONCE: usize = 1024;
 
 /// Units to run, and their outcomes.
 pub(super) struct Queue<T> {
-    /// True if no more units are assigned.
+    /// True if no further units are assigned to workers.
     stop: AtomicBool,
     /// Time for running units after a stop.
     grace: Duration,
@@ -169,7 +169,7 @@ impl<T> Queue<T> {
 }
 
 impl<T> State<T> {
-    /// Returns true if no more units are assigned.
+    /// Returns true if no further units are assigned to workers.
     fn ends(&self, stop: &AtomicBool) -> bool {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }

@@ -38,7 +38,7 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
     }
 }
 
-/// Numbers of rows whose measures need care.
+/// Numbers of rows whose measures users must treat with care.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warnings {
     /// Rows whose error estimate exceeds the requested accuracy.
@@ -58,7 +58,7 @@ pub struct Unsatisfied {
     pub points: u64,
 }
 
-/// A point whose parameters are impossible together.
+/// A point with an impossible combination of parameter values.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct InvalidPoint {
     /// Index of the point in the plan.
@@ -80,9 +80,9 @@ pub struct Summary {
     pub rows: u64,
     /// Number of excluded points among the finished points. Excluded points have no row.
     pub excluded: u64,
-    /// Number of right-hand sides evaluated in total.
+    /// Number of all evaluations of the equations of motion.
     pub rhs_evals: u64,
-    /// Number of drive periods integrated in total.
+    /// Number of all integrated drive periods.
     pub cycles: u64,
     /// Number of rows by status.
     pub statuses: Counts,
@@ -116,7 +116,7 @@ impl Summary {
         self.ran.saturating_add(self.excluded)
     }
 
-    /// Returns true if points are left to run.
+    /// Returns true if some points have not been run.
     pub fn is_interrupted(&self) -> bool {
         self.done() < self.points
     }
@@ -180,7 +180,7 @@ impl Summary {
     }
 }
 
-/// Limits above which a row of a plan needs care.
+/// Limits above which users must treat a row of a plan with care.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     accuracy: f64,

@@ -29,7 +29,7 @@ pub struct Run<T> {
 }
 
 impl<T: Send + 'static> Run<T> {
-    /// Returns a run of the units at `positions`. Each thread calls `work` once.
+    /// Returns a run of the units at `positions`. Each worker thread calls `work` once.
     pub(crate) fn new(
         positions: Range<u64>,
         options: &RunOptions,
@@ -126,7 +126,7 @@ pub(crate) struct Worker<'a, T> {
     queue: &'a Queue<T>,
     /// Number of assigned units without an outcome.
     missing: u64,
-    /// Mistake of the model.
+    /// Description of the model's mistake.
     fault: Option<String>,
 }
 

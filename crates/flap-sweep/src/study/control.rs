@@ -173,7 +173,7 @@ pub enum TrimError {
         /// Number of inputs.
         inputs: usize,
     },
-    /// The iteration comes no closer to the targets.
+    /// Further iterations do not reduce the distance from the targets.
     #[error("the targets are not reached: {}", nearest(at, targets))]
     NotReached {
         /// Nearest point.
@@ -294,7 +294,7 @@ pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], 
 /// Smallest effect of an input, relative to the largest effect of an input. A smaller effect counts as no effect.
 const IDLE: f64 = 1e-9;
 
-/// Reason for a missing control effectiveness.
+/// Reason why the control effectiveness cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
     /// The motion of a wing has no derivatives.
@@ -305,7 +305,7 @@ pub enum ControlError {
         /// Reason of an invalid row.
         reason: Option<String>,
     },
-    /// An input is zero and has no typical size.
+    /// An input has the value zero and no typical size.
     #[error("`{0}` is zero and has no typical size: set it to another value")]
     NoSize(String),
     /// A derivative is missing.
@@ -440,7 +440,7 @@ impl Flight<'_> {
 }
 
 impl Flight<'_> {
-    /// Returns the derivatives of the components, if all are known. `ahead` is the changed point.
+    /// Returns the derivatives of the components, if all are known. `ahead` is the point after a change of the input.
     fn slopes(
         &self,
         ahead: &[f64],

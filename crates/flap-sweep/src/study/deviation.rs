@@ -8,7 +8,7 @@ use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
 use crate::plan::{Plan, Value};
 
-/// Factor from the preset's value above which a value is probably a mistake.
+/// Ratio of a value to the value of the preset above which the value is probably a mistake.
 pub const FAR: f64 = 100.0;
 
 /// A parameter that differs from the preset, in its value or in one of its values.

@@ -9,7 +9,7 @@ use flap_experiments::free::INTERVALS_MAX;
 /// Largest number of drive periods of a chirp.
 pub const CYCLES_MAX: f64 = 100_000.0;
 
-/// Reason for an experiment without results.
+/// Reason why an experiment has no results.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExperimentError {
     /// The motion is incomplete.

@@ -1,7 +1,8 @@
 //! Simulation of the flight of a vehicle over time: the coupled motion of wings and body, or the linear model about
 //! hover.
 //!
-//! The body is rigid, with the wrench of the air on the wings at each instant. The wings respond to velocity and rates
+//! The body is rigid. The force and torque of the air on the wings at each instant act on the body. The wings respond
+//! to velocity and rates
 //! of the body, but not to the acceleration of the body. The inertial forces of the light wings do not act on the body.
 //!
 //! A feedback of the states changes the inputs at the beginning of each wing beat. The feedback uses means over the
@@ -24,7 +25,7 @@ pub const FED_BACK: usize = 9;
 /// Largest number of wing beats.
 const MOST_BEATS: f64 = 1e6;
 
-/// A flight to be simulated.
+/// Settings of a flight simulation.
 #[derive(Clone, Debug)]
 pub struct FlightRequest {
     /// Duration (s). The flight ends with the wing beat that contains this time.
@@ -53,7 +54,7 @@ pub struct FlightRecord {
     pub end: Option<String>,
 }
 
-/// Reason for a missing flight.
+/// Reason why a flight cannot be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
     /// The duration is impossible.
@@ -191,7 +192,7 @@ struct BodyState {
 
 /// Motion of a vehicle, beat by beat.
 trait Motion {
-    /// Returns the duration of the current beat (s).
+    /// Returns the duration of the current wing beat (s).
     fn period(&self) -> f64;
 
     /// Advances the motion between two times within the beat (s), or returns the reason for the end of the flight.
@@ -285,7 +286,7 @@ impl<'a> Coupled<'a> {
         Ok(coupled)
     }
 
-    /// Begins with settled wings, and velocities, rates and angles of the body.
+    /// Begins a flight with settled wings, and with the given velocities, rates and angles of the body.
     fn begin(&mut self, wings: &[f64], body: &[f64; FED_BACK]) {
         let [roll, pitch, yaw] = [body[6], body[7], body[8]];
         let attitude = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
@@ -472,7 +473,7 @@ impl Integrator {
     }
 }
 
-/// The linear model about hover, with the mean wrench over each beat.
+/// The linear model about hover, with the mean force and torque over each beat.
 struct Averaged {
     hover: HoverModel,
     /// Derivatives of force (N) and torque (N·m) with respect to the inputs (SI).
@@ -481,7 +482,7 @@ struct Averaged {
     point: Vec<f64>,
     /// Changes of the inputs.
     change: DVector<f64>,
-    /// Accelerations by the residual of the point.
+    /// Accelerations that the residual force and torque at the point cause.
     residual: DVector<f64>,
     state: DVector<f64>,
     /// Integral of the states since the beginning of the beat.

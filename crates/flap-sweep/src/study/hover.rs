@@ -1,7 +1,8 @@
 //! Linear model of a vehicle near hover: state matrices, eigenvalues, and modes of motion in words.
 //!
 //! The wings are quasi-static: the mean wrench of a drive period depends on the velocity and the rates of the body
-//! and on the inputs. The point of the torques must be the centre of mass. Velocities and rates are in body axes:
+//! and on the inputs. The reference point of the torques must be the centre of mass. Velocities and rates are in body
+//! axes:
 //! x forward, y to the left, z up. All numbers are in SI units.
 
 use core::f64::consts::{LN_2, TAU};
@@ -56,7 +57,7 @@ const MOTIONS: [(&str, &[usize]); 10] = [
 /// States of the longitudinal motion, in the plane of x and z.
 const LONGITUDINAL: [usize; 6] = [0, 2, 4, 7, 9, 11];
 
-/// A motion with a smaller share of the participation is not part of a mode's name.
+/// Participation below which a motion is not part of a mode's name.
 const NAMED_SHARE: f64 = 0.2;
 
 /// Largest participation of the states of the other plane in a longitudinal or lateral mode.
@@ -65,13 +66,13 @@ const COUPLED_SHARE: f64 = 0.1;
 /// Magnitude of an eigenvalue, relative to the largest eigenvalue, below which the eigenvalue counts as zero.
 const NEUTRAL: f64 = 1e-10;
 
-/// Largest residual of a trim, as a share of the weight.
+/// Largest residual of a trim, as a fraction of the weight.
 const TRIM_LIMIT: f64 = 1e-2;
 
 /// Lever that turns the limit of forces into the limit of torques (m).
 const TRIM_LEVER: f64 = 1e-3;
 
-/// Reason for a missing hover model.
+/// Reason why a hover model cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HoverError {
     /// Some mass properties are not set.
@@ -206,10 +207,10 @@ pub struct HoverModel {
     pub modes: Vec<HoverMode>,
 }
 
-/// Reason to doubt a hover model.
+/// Reason to doubt the validity of a hover model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HoverWarning {
-    /// The wrench at the operating point is not the weight.
+    /// The force and torque at the operating point do not balance the weight.
     #[error(
         "the point is no hover: the residual of {component} is {residual:.3e} {unit}, more than 1 % of {of}"
     )]
@@ -236,7 +237,7 @@ pub enum HoverWarning {
         /// Limit (1/s).
         limit: f64,
     },
-    /// The wings settle no faster than a mode moves.
+    /// The wings do not settle faster than the motion of a mode.
     #[error(
         "the wings settle slowly for the mode \"{mode}\": |eigenvalue| = {magnitude:.4} 1/s exceeds a third of the \
          wings' decay rate, {limit:.4} 1/s, so quasi-static wings are doubtful"
@@ -337,7 +338,7 @@ impl HoverModel {
 
     /// Returns the reasons to doubt the model, from the drive frequency (Hz) and the largest Floquet multiplier.
     ///
-    /// If a multiplier is NaN, the decay rate of the wings is not checked.
+    /// If a Floquet multiplier is NaN, the decay rate of the wings is not checked.
     pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<HoverWarning> {
         let [force, torque] = self.residual_limits();
         let mut warnings = Vec::new();

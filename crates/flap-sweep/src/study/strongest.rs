@@ -1,4 +1,4 @@
-//! Parameters with the largest effect on a measure of a settled motion.
+//! The parameters with the largest effect on a measure of a settled motion.
 
 use flap_core::parameter::{Kind, Range};
 use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};

@@ -28,7 +28,7 @@ const SMALLEST_SINGULAR: f64 = 1e-9;
 /// Relative size below which the changes of a component count as zero: the changes divided by the largest component.
 const CONSTANT: f64 = 1e-6;
 
-/// A component with a smaller coefficient of determination has a poor map.
+/// Coefficient of determination below which a warning reports a poor map of a component.
 const POOR: f64 = 0.99;
 
 /// Floquet multiplier above which a motion is near a steep part of its response.
@@ -40,7 +40,7 @@ const SEED: u64 = 0;
 /// An input of a map, with the range of the input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapInput {
-    /// Name as given, see [`Input::of`].
+    /// Name of the input as the user gives it (see [`Input::of`]).
     pub name: String,
     /// Index in the vehicle's parameter table.
     pub parameter: usize,
@@ -73,7 +73,7 @@ impl MapInput {
     }
 }
 
-/// Reason for a missing map.
+/// Reason why a map cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum WrenchMapError {
     /// The plan has one wing.
@@ -88,7 +88,7 @@ pub enum WrenchMapError {
     /// The parameter is computed from other parameters.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
-    /// The range is empty or upside down.
+    /// The range is empty, or its first value is above its last value.
     #[error("the range of `{name}` {}", if *is_empty { "is empty" } else { "ends below its beginning" })]
     Range {
         /// Name of the input.
@@ -103,7 +103,7 @@ pub enum WrenchMapError {
     FewSamples {
         /// Number of samples.
         samples: usize,
-        /// Number of coefficients per component.
+        /// Number of coefficients of each component of force and torque.
         terms: usize,
         /// Smallest number of samples.
         needed: usize,
@@ -120,9 +120,9 @@ pub enum WrenchMapError {
         periodic: usize,
         /// Number of rows.
         samples: usize,
-        /// Number of coefficients per component.
+        /// Number of coefficients of each component of force and torque.
         terms: usize,
-        /// Numbers of the other rows by status.
+        /// Numbers of rows without a periodic motion, by status.
         unused: Vec<(Status, usize)>,
         /// Reason of the first invalid row.
         reason: Option<String>,
@@ -203,10 +203,11 @@ impl WrenchMap {
     /// Largest number of inputs.
     pub const MOST_INPUTS: usize = 16;
 
-    /// Usual number of samples.
+    /// Default number of samples.
     pub const SAMPLES: u32 = 400;
 
-    /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. The other parameters have the `values` of a
+    /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. All other parameters have the `values` of
+    /// a
     /// point.
     ///
     /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is called
@@ -412,7 +413,7 @@ fn needed(terms: usize) -> usize {
     (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
 }
 
-/// Returns the places of force and torque among the measures of the vehicle's rows.
+/// Returns the indices of force and torque among the measures of the vehicle's rows.
 fn places(plan: &Plan) -> Result<[usize; 6], WrenchMapError> {
     let columns = plan.vehicle().ok_or(WrenchMapError::NoVehicle)?.columns();
     let place = |name: &str| columns.iter().position(|column| column.name == name).unwrap_or_default();

@@ -28,7 +28,7 @@ fn id(found: &Information) -> (u64, u64) {
     (found.volume_serial_number(), found.file_index())
 }
 
-/// Returns false: shells of Windows do not pass pipes as paths.
+/// Returns false, because shells of Windows do not pass pipes as paths.
 pub(crate) fn is_pipe_of_shell(_: &Path, _: &Metadata) -> bool {
     false
 }

@@ -47,7 +47,7 @@ impl Format {
     /// Checks the name of a table that can only be written as CSV.
     ///
     /// # Errors
-    /// If the ending is not `.csv`.
+    /// An error if the ending is not `.csv`.
     pub fn require_csv(path: &Path) -> Result<(), FormatError> {
         let is_csv = Format::named(path) == Some(Format::Csv) || is_stream(path);
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }

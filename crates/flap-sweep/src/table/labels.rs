@@ -12,7 +12,7 @@ use crate::plan::gradient;
 /// Label of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
-    /// Name in words, without the unit: `Lift, mean`.
+    /// Name of the column in words, without the unit, such as `Lift, mean`.
     pub words: String,
     /// Unit for display, such as `N·m/rad` or `°`; empty for a column without a unit.
     pub unit: String,
@@ -30,7 +30,7 @@ pub enum Direction {
 }
 
 impl Label {
-    /// Returns words and unit: `Lift, mean (mN)`.
+    /// Returns the name in words with the unit, such as `Lift, mean (mN)`.
     pub fn text(&self) -> String {
         titled(&self.words, &self.unit)
     }

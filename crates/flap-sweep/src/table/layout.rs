@@ -135,7 +135,7 @@ impl<'p> Layout<'p> {
     ///
     /// Unknown values are the measures of a point that is not periodic, and the residual of a point that completed no
     /// period.
-    /// Without an orbit, multiplier and stability are unknown too.
+    /// If no orbit was found, the Floquet multiplier and the stability are unknown too.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'static>> {
         self.cells_at(point, None, row)
     }

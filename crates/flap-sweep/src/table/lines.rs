@@ -55,7 +55,7 @@ impl<W: Write> Lines<W> {
         self.target.flush()
     }
 
-    /// Returns the target; complete after [`Lines::flush`].
+    /// Returns the target. After [`Lines::flush`], the target contains all lines.
     pub(crate) fn target(&self) -> &W {
         self.target.get_ref()
     }

@@ -122,7 +122,7 @@ struct Trial<'a> {
     closed: bool,
     /// Numbers of the points of the sample that are running.
     running: BTreeSet<u64>,
-    /// The work of each point of the sample, in evaluations of the right-hand side.
+    /// The work of each point of the sample: the number of evaluations of the equations of motion.
     works: Vec<f64>,
     /// Points that were started, points that have rows, and the work of the points with rows.
     begun: u64,
@@ -289,7 +289,7 @@ impl Trial<'_> {
     }
 }
 
-/// A thread of a trial.
+/// A thread that runs points of the sample.
 struct Worker<'t, 'a>(&'t Mutex<Trial<'a>>);
 
 impl<'a> Worker<'_, 'a> {
@@ -367,7 +367,8 @@ mod tests {
         }
     }
 
-    /// If the sample is the whole plan, only the timing of the machine has an error.
+    /// If the sample contains all points of the plan, the only error of the estimate is the varying speed of the
+    /// machine.
     #[test]
     fn a_small_plan_is_run_as_a_whole() {
         let grid =

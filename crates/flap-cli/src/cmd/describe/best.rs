@@ -30,13 +30,13 @@ pub(super) struct Axis {
     pub(super) unit: String,
     /// Number of different values.
     pub(super) values: usize,
-    /// The smallest and the largest value; of words, the first and the last.
+    /// The smallest and the largest value; for words, the first and the last word.
     pub(super) range: [Place; 2],
-    /// The value in the best row.
+    /// The value of the axis in the best row.
     pub(super) best: Place,
     /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
     pub(super) best_tenth: Vec<Place>,
-    /// True if the best value is the first or the last of an axis of three or more numbers, not of a sample.
+    /// True if the best value is the first or the last value of an axis with three or more numbers. False for a sample.
     pub(super) at_the_end: bool,
 }
 
@@ -80,7 +80,7 @@ impl Best {
     }
 }
 
-/// Returns the index in the first column of results; in other files, the number of the row.
+/// Returns the index in the first column of results, or the number of the row in other files.
 fn point(table: &Table, row: usize) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));

@@ -71,7 +71,7 @@ fn page(description: &Description) -> String {
     tables.join("\n")
 }
 
-/// A line with the best row, and a line per axis.
+/// Returns a line with the best row, and a line for each axis.
 fn best(best: &Best) -> String {
     let shown = Shown::of_column(&best.column, &best.unit, [best.value]);
     let direction = if best.aim == "max" { "largest" } else { "smallest" };
@@ -151,7 +151,7 @@ fn csv(description: &Description) -> Option<String> {
     String::from_utf8(writer.into_inner().ok()?).ok()
 }
 
-/// Returns a value with all digits.
+/// Returns a value as text with all digits.
 fn exact(place: &Place) -> String {
     match place {
         Place::Number(number) => text::float(*number),

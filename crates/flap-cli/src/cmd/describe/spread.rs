@@ -16,7 +16,7 @@ pub(super) struct Spread {
     pub(super) mean: f64,
     /// Standard deviation, with the divisor `count` - 1.
     pub(super) sd: f64,
-    /// Standard error of the mean: `sd` over the square root of `count`.
+    /// Standard error of the mean: `sd` divided by the square root of `count`.
     pub(super) se: f64,
     pub(super) min: f64,
     pub(super) p5: f64,

@@ -82,7 +82,7 @@ fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<
     Ok(())
 }
 
-/// Returns a note if the wing's root is on the stroke axis, but the root of the design `base` is not.
+/// Returns a note if the root of the wing is on the stroke axis, but the root of the wing of the design `base` is not.
 fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     let index = Parameter::index(plan.parameters(), "wing_offset")?;
     let (place, remedy) = match plan.base()[index] {

@@ -50,7 +50,7 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
 /// A model with the values of its parameters, if a preset or a file gives values.
 struct Values {
     robot: Robot,
-    /// The first lines of the page.
+    /// The first lines of the printed list.
     lines: [String; 2],
     /// Values in SI units, with NaN for a parameter that is not set; `None` for a model without values.
     numbers: Option<Vec<f64>>,
@@ -98,7 +98,7 @@ fn of_model(model: &dyn Simulator) -> String {
     format!("model {}: {}", model.name(), model.doc())
 }
 
-/// Returns the first lines of the page.
+/// Returns the first lines of the printed list.
 fn head(lines: &[String; 2]) -> String {
     lines.iter().map(|line| wrapped(line, 0) + "\n").collect::<String>() + "\n"
 }
@@ -112,7 +112,7 @@ struct Entry {
     name: String,
     /// Value in the preset or file, in SI units; empty if there is no value.
     value: String,
-    /// Value with a prefix, the unit and the standard error; without a value, the unit.
+    /// Value with a unit prefix and the standard error, or only the unit if there is no value.
     shown: String,
     unit: &'static str,
     symbol: &'static str,

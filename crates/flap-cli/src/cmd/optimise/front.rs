@@ -71,7 +71,7 @@ fn columns(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<String> {
     columns
 }
 
-/// The rows, with all digits.
+/// The rows of the front, with all digits.
 fn cells(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<Vec<String>> {
     let row = |(number, point): (usize, &FrontPoint)| {
         let mut row = vec![number.to_string()];

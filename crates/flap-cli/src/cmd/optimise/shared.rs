@@ -27,7 +27,7 @@ pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemErr
     error.help.iter().fold(Failure::usage(format!("{place}: {error}")), Failure::help)
 }
 
-/// The settings of a search.
+/// Returns the settings of a search.
 pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     let run = RunOptions::default();
     Settings {

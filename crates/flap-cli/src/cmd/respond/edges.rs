@@ -54,7 +54,7 @@ pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result
     Ok(Exit::Done)
 }
 
-/// Text of the edges of a plan.
+/// The output for the edges of all designs of a plan.
 struct Output<'a> {
     plan: &'a Plan,
     along: &'a Along,
@@ -81,7 +81,7 @@ impl Output<'_> {
         if assignments.is_empty() { String::new() } else { format!("{}: ", assignments.join(", ")) }
     }
 
-    /// Returns a line about a design without edges.
+    /// Returns a line of text about a design without edges.
     fn no_edge(&self, curve: &Curve, edges: &Edges) -> Option<String> {
         let design = self.design(curve);
         if let Some(reason) = curve.invalid() {
@@ -101,7 +101,7 @@ impl Output<'_> {
         ))
     }
 
-    /// Returns the edges of a design for a terminal: a line and a table for each.
+    /// Returns the edges of a design for a terminal: a line and a table for each edge.
     fn text(&self, curve: &Curve, edges: &[Edge]) -> String {
         let design = self.design(curve);
         let edge = |edge| {

@@ -45,7 +45,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Records the written rows in the sidecar.
+/// Records the number and the checksums of the written rows in the sidecar.
 fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
     if is_damaged {
         // Damaged rows remain damaged in another format: the checksums are for the rows that were computed.

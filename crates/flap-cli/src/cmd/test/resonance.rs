@@ -12,7 +12,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Samples of a free motion per period of the first mode.
+/// Number of samples of a free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
 /// Residual of the damped sine above which a note is printed, as a fraction of the motion.

@@ -24,7 +24,7 @@ const MEASURES: [(&str, &str); 6] = [
     ("power_supply_mw", "supply"),
 ];
 
-/// The measure whose change is a difference.
+/// The measure whose change is printed as a difference instead of a percentage.
 const DIFFERENCE: &str = "stroke_mean_deg";
 
 pub(super) fn run(args: &TermsArgs) -> Result<Exit, Failure> {

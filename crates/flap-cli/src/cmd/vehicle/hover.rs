@@ -30,7 +30,7 @@ const LIFT: usize = 2;
 /// column.
 const NOTHING: f64 = 1e-12;
 
-/// Returns the name and the format of an output file, before anything is computed.
+/// Returns the name and the format of an output file, before any computation.
 pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path, LinearFormat), Failure> {
     let format = LinearFormat::of(path).ok_or_else(|| {
         let failure = Failure::usage(format!("--export {}: the ending names no format", path.display()));

@@ -23,7 +23,7 @@ use crate::table::{Table, six_digits};
 /// Units of the components.
 const UNITS: [&str; 6] = ["mN", "mN", "mN", "uN*m", "uN*m", "uN*m"];
 
-/// Columns of the map for programs, before the components.
+/// Columns of the map in csv, before the columns of the components.
 const NAMES: [&str; 6] = ["section", "name", "unit", "from", "to", "count"];
 
 pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Exit, Failure> {
@@ -95,7 +95,7 @@ fn term_name(map: &WrenchMap, term: &[usize]) -> String {
     }
 }
 
-/// Returns the map to be read.
+/// Returns the map as text for a terminal.
 fn page(map: &WrenchMap, chosen: &Chosen) -> String {
     let width = console::width();
     let mut ranges = Table::with_headings(&["input", "from", "to"]);
@@ -128,7 +128,7 @@ fn page(map: &WrenchMap, chosen: &Chosen) -> String {
     )
 }
 
-/// Returns the map below [`NAMES`] and components, with all digits.
+/// Returns the map with all digits: rows of the columns [`NAMES`] and of the components.
 fn cells(map: &WrenchMap, chosen: &Chosen) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut put = |head: [&str; 6], numbers: Vec<f64>| {

@@ -18,7 +18,7 @@ pub(super) struct Data<'a> {
     rows: usize,
     /// Rows of the file.
     of: usize,
-    /// The distance between the page's rows in the file.
+    /// The step between the rows of the page in the file: 2 if the page has every second row.
     stride: usize,
     /// True if numbers have single precision.
     single: bool,

@@ -51,16 +51,16 @@ pub enum Begin {
 
 /// A job after [`begin`].
 pub enum Begun<'a> {
-    /// Rows must be written.
+    /// The rows of the job must be written.
     Writing(Box<Writing<'a>>),
-    /// All rows exist already.
+    /// All rows of the job exist already.
     Complete {
         /// True if all rows are periodic.
         all_periodic: bool,
     },
 }
 
-/// Result file of a job while rows are written.
+/// The result file of a job while the job writes rows.
 pub struct Writing<'a> {
     job: &'a Job<'a>,
     target: Target,
@@ -321,7 +321,7 @@ pub enum JobError {
     },
 }
 
-/// Returns the differences of existing rows, as the end of a message.
+/// Returns the differences between existing rows and the rows of the job, as the end of a message.
 fn other_rows(changes: &[String]) -> String {
     if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
 }

@@ -13,7 +13,7 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::notation::text::digits;
 
-/// Number of rows in a block, which has a checksum and is a frame in compressed files.
+/// Number of rows in a block. Each block has a checksum, and is a frame in compressed files.
 ///
 /// Blocks begin at the same rows for any number of threads and in resumed runs, so the bytes of files do not depend
 /// on them. Rows in an incomplete frame are lost if the process is killed. Larger blocks would hardly make files
@@ -74,7 +74,7 @@ impl Checksums {
 pub(crate) struct TextDigest {
     whole: Xxh3Default,
     block: Xxh3Default,
-    /// True if `block` contains bytes.
+    /// True if the block `block` contains bytes.
     is_begun: bool,
     lines: u64,
     /// Checksum of the header, then checksums of blocks.

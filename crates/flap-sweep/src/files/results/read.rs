@@ -58,7 +58,7 @@ pub struct Reader {
 pub struct Missed {
     /// Number of lines that are not rows.
     pub rows: u64,
-    /// Reason for an unreadable rest after the last row.
+    /// Reason why the rest of the file after the last row is unreadable.
     pub rest: Option<String>,
 }
 

@@ -50,7 +50,7 @@ pub enum RowError {
         /// Name of the column.
         column: String,
     },
-    /// The status does not exist.
+    /// The row has an unknown status.
     #[error("row {row}: `{status}` is not a status")]
     Status {
         /// Number of the row.
@@ -100,7 +100,7 @@ impl RowCheck {
         RowCheck::of(plan, plan.selection().clone(), rows)
     }
 
-    /// Returns a check of the rows of other points than `plan` selects.
+    /// Returns a check for rows of the given points instead of the points that `plan` selects.
     pub fn of(plan: &Plan, selection: Selection, rows: Option<u64>) -> RowCheck {
         let columns = Layout::of(plan).columns();
         let status = columns.iter().position(|column| column.name == "status").unwrap_or(0);

@@ -101,7 +101,7 @@ impl TextRows {
         if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
 
-    /// Ends the file, also within a frame.
+    /// Ends the file, also in the middle of a frame.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.

@@ -41,11 +41,11 @@ pub struct Sidecar {
     pub points: u64,
     /// Shard, such as `2/3`; `None` for all points.
     pub shard: Option<String>,
-    /// Start of the first session, as RFC 3339 in UTC.
+    /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// End of the last session, as RFC 3339 in UTC.
+    /// End time of the last session, as RFC 3339 in UTC.
     pub finished: Option<String>,
-    /// Running time of all sessions (s).
+    /// Total running time of all sessions of the sweep (s).
     pub seconds: Option<f64>,
     /// Number of worker threads.
     pub threads: usize,
@@ -179,7 +179,7 @@ impl Sidecar {
         }
     }
 
-    /// Records the end of the sweep, complete or interrupted, after `seconds` of running.
+    /// Records that the sweep ended after `seconds` of running, complete or interrupted.
     pub fn finish(&mut self, summary: &Summary, finished: String, seconds: f64) {
         self.state = if summary.is_interrupted() { State::Interrupted } else { State::Complete };
         self.summary = Some(summary.clone());
@@ -190,7 +190,7 @@ impl Sidecar {
         self.seconds = Some(seconds);
     }
 
-    /// Records the failure of the sweep with the message `error`, after `seconds` of running.
+    /// Records that the sweep failed with the message `error` after `seconds` of running.
     pub fn fail(&mut self, error: String, finished: String, seconds: f64) {
         self.state = State::Failed;
         self.error = Some(error);
@@ -244,7 +244,7 @@ pub enum SidecarError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Evidence of the change.
+        /// Description of the change.
         reason: &'static str,
     },
 }

@@ -18,7 +18,7 @@ const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to
 
 /// Returns the distribution of `parameter`. If there are mistakes, reports the mistakes and returns `None`.
 ///
-/// `base` is the parameter's value without sampling.
+/// `base` is the value of the parameter without a sample.
 pub(super) fn read(
     parameter: &Parameter,
     base: Value,

@@ -19,7 +19,7 @@ use crate::plan::{PointsFile, Source};
 /// Largest number of reported cells. A file with more mistakes has the wrong columns.
 const MOST_CELLS: usize = 10;
 
-/// Largest number of bytes in a line. A line of headings or numbers has far fewer.
+/// Largest number of bytes in a line. A usual line of headings or numbers is much shorter.
 const LONGEST_LINE: usize = 1 << 20;
 
 /// Returns the points of the file that the section names.

@@ -53,7 +53,7 @@ pub(super) fn list(description: &str, items: &Value) -> Value {
     json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
 }
 
-/// Returns the schema of a number, bare or as text. The text has a unit if `has_unit` is true.
+/// Returns the schema of a number, with or without quotes. Quoted text has a unit if `has_unit` is true.
 pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     // A number, then a unit if required. Units other than `1/m` begin with neither a digit nor a point.
     let pattern = if has_unit {
@@ -64,7 +64,8 @@ pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     json!({"description": description, "type": ["number", "string"], "pattern": pattern})
 }
 
-/// Returns the schema of a number of more than zero, bare or as text. The text has a unit if `has_unit` is true.
+/// Returns the schema of a number of more than zero, with or without quotes. Quoted text has a unit if `has_unit` is
+/// true.
 pub(super) fn positive(description: &str, has_unit: bool) -> Value {
     let mut schema = quantity(description, has_unit);
     schema["exclusiveMinimum"] = json!(0);

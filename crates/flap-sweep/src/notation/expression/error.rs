@@ -10,7 +10,7 @@ use crate::notation::{nearest, text};
 /// A mistake in an expression, with its place in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// Bytes of the text with the mistake. Empty if something is missing.
+    /// Position of the bytes with the mistake in the text. The range is empty if the mistake is missing text.
     pub span: Range<usize>,
     /// Mistake.
     pub problem: ExpressionProblem,
@@ -25,7 +25,7 @@ pub enum ExpressionProblem {
     /// The text is empty.
     #[error("the expression is empty")]
     Empty,
-    /// A character without meaning.
+    /// A character that has no meaning in expressions.
     #[error("`{}` is not allowed in an expression", .0.escape_debug())]
     Character(char),
     /// Text that begins like a number but is not a number, such as `2x`.
@@ -37,10 +37,10 @@ pub enum ExpressionProblem {
     /// Text without a closing quote.
     #[error("a closing quote is missing")]
     OpenQuote,
-    /// Another element is expected here.
+    /// The expression requires another element at this position.
     #[error("expected {0}")]
     Expected(&'static str),
-    /// An operator of other languages, with the operator to use instead.
+    /// An operator of another language, with the operator of expressions to use instead.
     #[error("`{0}` is not an operator")]
     Foreign(&'static str, &'static str),
     /// A comparison of a comparison, such as `1 < x < 2`.

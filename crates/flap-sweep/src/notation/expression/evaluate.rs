@@ -92,13 +92,13 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
 /// One operation. Conditions are 1 for true, 0 for false and NaN for unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Operation {
-    /// Pushes a number onto the stack.
+    /// Pushes a constant number onto the stack.
     Push(f64),
     /// Pushes one of the values onto the stack.
     Read(usize),
-    /// Replaces the topmost number.
+    /// Replaces the topmost number on the stack.
     Unary(Unary),
-    /// Replaces the two topmost numbers.
+    /// Replaces the two topmost numbers on the stack.
     Binary(Binary),
     /// Replaces the topmost number on the stack by a function of this number.
     Apply(fn(f64) -> f64),
@@ -136,7 +136,7 @@ pub(super) enum Function {
     One(fn(f64) -> f64),
     /// Function of two numbers.
     Two(fn(f64, f64) -> f64),
-    /// Function of two or more numbers, applied pairwise.
+    /// Function of two or more numbers, which is applied to pairs of numbers.
     Many(fn(f64, f64) -> f64),
 }
 
@@ -206,7 +206,7 @@ fn max(a: f64, b: f64) -> f64 {
     -min(-a, -b)
 }
 
-/// Returns -1, 0 or 1.
+/// Returns the sign of a number: -1, 0 or 1.
 fn sign(a: f64) -> f64 {
     if a == 0.0 || a.is_nan() { a } else { a.signum() }
 }

@@ -12,7 +12,7 @@ use crate::notation::nearest;
 /// overflow the stack.
 const MOST_NESTED: usize = 100;
 
-/// Precedence of operators, from loose to tight.
+/// Precedence of operators, in rising order.
 mod power {
     pub(super) const ANY: u8 = 0;
     pub(super) const OR: u8 = 1;
@@ -51,7 +51,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
     }
 }
 
-/// An operand between two operators.
+/// An operand of an operator.
 struct Operand {
     /// `None` after a mistake, so that the mistake is not reported twice.
     kind: Option<Kind>,
@@ -63,7 +63,7 @@ struct Parser<'a> {
     next: (Token<'a>, Range<usize>),
     scope: &'a dyn Scope,
     operations: Vec<Operation>,
-    /// Mistakes after which the rest of the text can be checked.
+    /// Mistakes that do not prevent a check of the rest of the text.
     errors: Vec<ExpressionError>,
     nested: usize,
 }

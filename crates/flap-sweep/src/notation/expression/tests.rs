@@ -132,7 +132,7 @@ fn reads_are_the_places_of_the_names() {
 const OPERATOR: &str =
     "expected an operator; values are in SI units and written without them; products need a `*`";
 
-/// Texts with the parts at fault and the whole messages.
+/// Texts with their wrong parts and the whole messages.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases: [(&str, &[(&str, &str)]); 35] = [

@@ -145,7 +145,7 @@ pub(crate) struct Number<'t> {
 /// Returns the number at the beginning of `text`, and its length in bytes.
 ///
 /// # Errors
-/// If `text` does not start with a number, or the number continues wrongly (`1e-3e`, `1.2.3`, `1,5`).
+/// An error if `text` does not start with a number, or other characters follow the number (`1e-3e`, `1.2.3`, `1,5`).
 pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
@@ -197,7 +197,7 @@ impl Number<'_> {
     /// Returns the float nearest to this number times ten to the power `shift`.
     ///
     /// # Errors
-    /// If the result is too large for a float, or too small without being zero.
+    /// An error if the result is too large for a float, or if a result other than zero is too small for a float.
     pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitProblem> {
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
         let value: f64 = text.parse().map_err(|_| UnitProblem::BadNumber(self.mantissa.to_owned()))?;

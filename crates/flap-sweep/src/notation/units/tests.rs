@@ -53,7 +53,7 @@ fn other_factors_are_applied_once() {
     }
 }
 
-/// Text, expected unit, the part at fault, the whole message.
+/// Text, expected unit, the wrong part of the text, and the whole message.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases = [

@@ -68,7 +68,7 @@ pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     }
 }
 
-/// A position in the text.
+/// The current position in the text of a unit.
 struct Reader<'t> {
     text: &'t str,
     at: usize,
@@ -97,7 +97,7 @@ impl<'t> Reader<'t> {
         UnitError { span: self.at..self.at + length, problem: UnitProblem::BadUnit(expected) }
     }
 
-    /// Returns the sign of the powers after `*` or `/`.
+    /// Returns the sign of the powers after `*` (1) or `/` (-1).
     fn operator(&mut self) -> Result<i32, UnitError> {
         if self.take("/") {
             Ok(-1)
@@ -278,7 +278,7 @@ pub(super) struct Symbol {
     pub(super) factor: f64,
     /// True if the unit allows prefixes.
     prefixes: bool,
-    /// Usual forms, the SI form first, for messages.
+    /// Usual forms of the unit for messages, beginning with the SI form.
     usual: &'static [&'static str],
 }
 
@@ -358,7 +358,8 @@ pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
     })
 }
 
-/// Returns usual ways to write a quantity in the SI unit `unit`, which comes first. Empty for a pure number.
+/// Returns the usual units of a quantity with the SI unit `unit`, beginning with the SI unit. The list is empty for a
+/// pure number.
 pub(super) fn usual(unit: &str) -> Vec<String> {
     if unit.is_empty() {
         return Vec::new();

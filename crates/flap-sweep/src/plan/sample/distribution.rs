@@ -5,7 +5,7 @@
 /// A distribution of values in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Equally likely listed values.
+    /// Listed values, which are equally likely.
     Among(Vec<f64>),
     /// Uniform distribution between two values.
     Uniform {
@@ -35,7 +35,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Returns the value below which the share `u` of all values lies. `u` must be more than 0 and less than 1.
+    /// Returns the value below which the fraction `u` of all values lies. `u` must be more than 0 and less than 1.
     pub fn quantile(&self, u: f64) -> f64 {
         match self {
             Distribution::Among(values) => {
@@ -74,12 +74,12 @@ fn between(from: f64, to: f64, u: f64) -> f64 {
     from + (to - from) * u
 }
 
-/// Returns the share of values below `z` of the standard normal distribution.
+/// Returns the fraction of the standard normal distribution below `z`.
 pub(super) fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Returns the value below which the share `p` of the standard normal distribution lies, to about 16 digits.
+/// Returns the value below which the fraction `p` of the standard normal distribution lies, to about 16 digits.
 ///
 /// Wichura, "The percentage points of the normal distribution", Appl. Statist. 37, 477 (1988), algorithm AS 241,
 /// function PPND16.
@@ -125,7 +125,7 @@ const CENTRE: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Coefficients for the tails, down to shares of about 1e-11.
+/// Coefficients for the tails, down to fractions of about 1e-11.
 const NEAR: [[f64; 8]; 2] = [
     [
         1.423_437_110_749_683_577_34,

@@ -1,4 +1,4 @@
-//! The answer to a problem.
+//! The result of an optimisation problem.
 
 use flap_core::simulate::{NoSlope, Row};
 
@@ -59,7 +59,7 @@ pub struct Active {
     pub name: String,
     /// The number in the condition, or the value at the end of the axis in SI units.
     pub limit: f64,
-    /// The multiplier: the change of the optimal number per unit of the limit.
+    /// The Lagrange multiplier: the change of the optimal value of the goal per unit of the limit.
     pub per_unit: f64,
     /// The change of the optimal number in per cent of its magnitude, per per cent of the limit.
     pub percent: f64,
@@ -116,11 +116,11 @@ pub struct Optimum {
     pub points: u64,
     /// See [`Optimum::points`].
     pub computed: u64,
-    /// Rows computed in all.
+    /// Total number of computed rows.
     pub rows: u64,
     /// Number of computed rows with derivatives.
     pub sloped: u64,
-    /// The reasons why derivatives were missing.
+    /// The reasons for missing derivatives.
     pub missing: Vec<NoSlope>,
     /// True if the search ended with a pattern search, which needs no derivatives.
     pub is_polished: bool,
@@ -136,7 +136,7 @@ impl Optimum {
 }
 
 impl Active {
-    /// The effect of the bound or limit on the optimal number, called `goal`, as a sentence without a full stop.
+    /// The effect of the bound or limit on the optimal value of `goal`, as a sentence without a full stop.
     pub fn sentence(&self, goal: &str) -> String {
         let Active { name, .. } = self;
         let of = match self.edge {

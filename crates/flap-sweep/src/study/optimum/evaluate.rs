@@ -9,7 +9,7 @@ use super::problem::Problem;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
-/// The step of differences of rows, in coordinates, where a row lacks a derivative.
+/// The step of the differences, in coordinates, that replace a missing derivative of a row.
 const STEP: f64 = 2e-3;
 
 /// The same setting for designs at their resonance, because the resonance frequency has an error.
@@ -24,7 +24,7 @@ pub(super) struct Trial {
     pub(super) goal: f64,
     /// Both sides of each limit: first the side that must be smaller, then the side that must be larger.
     pub(super) sides: Vec<[f64; 2]>,
-    /// The largest share by which a limit is exceeded; zero if all hold, infinite if the point has no periodic motion.
+    /// The largest relative excess over a limit. Zero if all limits hold, infinite if the point has no periodic motion.
     pub(super) excess: f64,
     /// Derivatives with respect to each coordinate: of the goal, then of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,

@@ -20,7 +20,7 @@ pub struct Goal<'t> {
 pub struct Front {
     /// The points of the front, from the best value of the first goal to the best value of the second goal.
     pub points: Vec<FrontPoint>,
-    /// Rows computed in all.
+    /// Total number of computed rows.
     pub rows: u64,
     /// Number of computed rows with derivatives.
     pub sloped: u64,
@@ -31,24 +31,24 @@ pub struct Front {
 pub struct FrontPoint {
     /// The values of both goals.
     pub goals: [f64; 2],
-    /// The design with the best value of the first goal, for a limit on the second.
+    /// The design with the best value of the first goal, for a limit on the second goal.
     pub best: Optimum,
 }
 
 /// The reason why there is no Pareto front.
 #[derive(Debug, thiserror::Error)]
 pub enum FrontError {
-    /// A goal or a condition has a mistake. The number is the goal's place.
+    /// A goal or a condition has a mistake. Contains the index of the goal.
     #[error("{1}")]
     Problem(usize, ProblemError),
-    /// Rows could not be computed.
+    /// The rows of the problem could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
 }
 
 /// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. Their limits on the
 /// second goal are evenly spaced. Each search starts from the points beside it. `stops` gets the number of finished points of
-/// the front and the number of all points; true stops the search.
+/// the front and the number of all points. If `stops` returns true, the search ends.
 ///
 /// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///

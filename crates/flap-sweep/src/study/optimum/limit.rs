@@ -51,7 +51,7 @@ impl Limit {
     }
 }
 
-/// The parts of a text between each `and` outside parentheses.
+/// The parts of a text that are separated by `and` outside of parentheses.
 fn pieces(text: &str) -> Vec<&str> {
     let mut pieces = Vec::new();
     let (mut depth, mut begin) = (0_i32, 0);

@@ -16,9 +16,9 @@ use crate::plan::{Plan, Value};
 /// The direction in which the goal is better: smaller or larger values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
-    /// Larger numbers are better.
+    /// Larger values of the goal are better.
     Largest,
-    /// Smaller numbers are better.
+    /// Smaller values of the goal are better.
     Smallest,
 }
 
@@ -43,7 +43,7 @@ pub enum Which {
     Condition(usize),
 }
 
-/// A mistake in a problem.
+/// A mistake in the statement of a problem.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ProblemError {

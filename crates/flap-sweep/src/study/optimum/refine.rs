@@ -18,7 +18,7 @@ const KEPT_AWAY: f64 = 1e-6;
 /// errors of this size.
 const MISSED: f64 = 5e-7;
 
-/// The relative change of the number below which a refinement ends.
+/// The relative change of the goal below which a refinement ends.
 const SMALL_CHANGE: f64 = 1e-6;
 
 /// The change of coordinates below which a refinement ends.
@@ -33,7 +33,7 @@ const MOST_RUNS: usize = 4;
 /// The first and the smallest step of the pattern search, in coordinates.
 const PATTERN: [f64; 2] = [0.02, 1e-4];
 
-/// Most points of the pattern search, per direction.
+/// Largest number of points of the pattern search, per direction.
 const MOST_TESTS: u64 = 40;
 
 /// The distance from a limit, divided by the limit's size, below which the pattern search follows the limit.
@@ -46,7 +46,7 @@ struct Local {
     constraints: Vec<(f64, Vec<f64>)>,
 }
 
-/// The end of a refinement.
+/// The end point of a refinement.
 pub(super) struct Refined {
     pub(super) best: Rc<Trial>,
     /// True if the last steps were steps of a pattern search.

@@ -64,7 +64,7 @@ impl Region {
     /// The region of a plan's axes.
     ///
     /// # Errors
-    /// The parameter whose values have no bounds.
+    /// The error for a parameter whose values have no bounds.
     pub(super) fn of(plan: &Plan) -> Result<Region, usize> {
         let mut region = Region::default();
         for axis in plan.axes().as_slice() {
@@ -114,7 +114,7 @@ impl Region {
         self.variables.iter().map(|variable| variable.coordinate(values[variable.parameter])).collect()
     }
 
-    /// The enumerated values of a point.
+    /// The values of the choices of a point.
     pub(super) fn choice(&self, values: &[f64]) -> Vec<f64> {
         self.enumerated.iter().map(|&parameter| values[parameter]).collect()
     }

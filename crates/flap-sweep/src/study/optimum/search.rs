@@ -24,7 +24,7 @@ use crate::run::{RunError, RunOptions};
 /// One of the pairs of limits must hold. If the value hardly changes, the coordinates of the ends differ more.
 const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
-/// The time between two looks at the caller's wish to stop.
+/// The time between two checks for a request to stop.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Settings of a search.
@@ -53,7 +53,7 @@ impl Default for Settings {
     }
 }
 
-/// The end of a refinement.
+/// The end point of a refinement.
 struct End {
     trial: Trial,
     varied: Vec<(usize, f64)>,
@@ -205,7 +205,7 @@ fn end_of(
     }
 }
 
-/// The answer from the ends of all refinements.
+/// The result of the problem, from the end points of all refinements.
 fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     let mut order: Vec<&End> = ends.iter().collect();
     let sign = problem.aim.sign();

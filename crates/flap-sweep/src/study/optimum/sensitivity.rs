@@ -9,7 +9,7 @@ use super::problem::Problem;
 /// The distance from a limit, divided by the limit's size, below which the limit may be active.
 const NEAR: f64 = 1e-4;
 
-/// The distance from a limit where the end was found by a pattern search.
+/// The distance from a limit, for an end point that a pattern search found.
 const NEAR_PATTERN: f64 = 5e-3;
 
 /// The distance from a bound, in coordinates, below which the bound may be active.
@@ -81,7 +81,8 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
     (active, left_over)
 }
 
-/// The answer's words for a holder. `multiplier` is the gain per unit by which the limit moves outwards.
+/// The description of an active bound or limit. `multiplier` is the gain of the goal per unit by which the limit is
+/// relaxed.
 fn described(problem: &Problem, at: &Trial, holder: Holder, multiplier: f64) -> Active {
     // The change of the number itself, not the gain.
     let change = -problem.aim.sign() * multiplier;

@@ -15,7 +15,7 @@ const MOST_VALUES: f64 = 1e6;
 pub struct AlongError {
     /// Description of the mistake in one line.
     pub message: String,
-    /// Advice; may be empty.
+    /// Advice for the user; may be empty.
     pub help: &'static str,
 }
 

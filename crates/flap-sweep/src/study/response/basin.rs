@@ -1,4 +1,4 @@
-//! Basins of attraction in bistable bands: the share of initial states whose motions go to each branch.
+//! Basins of attraction in bistable bands: the fraction of initial states whose motions settle on each branch.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{

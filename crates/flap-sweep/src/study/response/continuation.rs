@@ -14,14 +14,15 @@ use nalgebra::{DMatrix, DVector};
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan};
 
-/// First, shortest and longest distance between orbits. 1 is the width of the band, and the largest magnitude of a
+/// Initial, shortest and longest distance between neighbouring orbits. 1 is the width of the band, and the largest
+/// magnitude of a
 /// state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
 /// Largest number of orbits of a branch.
 const MOST: usize = 2000;
 
-/// Number of Newton iterations above which a step is repeated with a shorter length. With fewer iterations, the
+/// Number of Newton iterations above which a step is repeated with a shorter step length. With fewer iterations, the
 /// length grows.
 const SLOW: usize = 8;
 const QUICK: usize = 3;

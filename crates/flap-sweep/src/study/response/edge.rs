@@ -79,7 +79,7 @@ impl EdgeRange {
 pub struct Edges {
     /// Edges, in the order of the bands at which the edges were found.
     pub edges: Vec<Edge>,
-    /// Values of the first parameter at which a band ends, but no edge was found.
+    /// Values of the first parameter at which a band ends, but at which no edge was found.
     pub missed: Vec<f64>,
 }
 
@@ -126,7 +126,7 @@ pub struct EdgePoint {
 pub enum EdgeMark {
     /// Cusp: both folds of a band meet, and the edge turns back in the plane.
     Cusp,
-    /// The second parameter is the smallest or largest nearby.
+    /// Turn: the second parameter has a local minimum or maximum along the edge.
     Turn,
 }
 
@@ -148,7 +148,7 @@ pub enum EdgeEnd {
 }
 
 impl EdgeMark {
-    /// Returns the name in results.
+    /// Returns the name that results use.
     pub fn name(self) -> &'static str {
         match self {
             EdgeMark::Cusp => "cusp",
@@ -161,7 +161,7 @@ impl EdgeKind {
     /// All kinds.
     pub const ALL: [EdgeKind; 3] = [EdgeKind::Fold, EdgeKind::PeriodDoubling, EdgeKind::Torus];
 
-    /// Returns the name in results.
+    /// Returns the name that results use.
     pub fn name(self) -> &'static str {
         match self {
             EdgeKind::Fold => "fold",

@@ -31,7 +31,8 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges, MOST};
 use crate::plan::{Along, Plan};
 
-/// First, shortest and longest distance between points of an edge. 1 is about the range of a parameter, and the largest
+/// Initial, shortest and longest distance between neighbouring points of an edge. 1 is about the range of a parameter,
+/// and the largest
 /// magnitude of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 
@@ -129,7 +130,7 @@ fn power_of_two(width: f64) -> f64 {
     width.log2().round().exp2()
 }
 
-/// Returns true if a point is on the line through the points of a trace.
+/// Returns true if a point is on the polygonal line through the points of a trace.
 fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     trace.windows(2).any(|ends| {
         let chord = &ends[1] - &ends[0];

@@ -12,7 +12,7 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes, is_steep};
 use crate::plan::{Along, Plan};
 use crate::resonance::sequence::PointSequence;
 
-/// A curve in progress.
+/// The computation of a curve that is in progress.
 pub(super) struct Follow<'a> {
     plan: &'a Plan,
     along: &'a Along,

@@ -70,7 +70,7 @@ impl<'a> Responses<'a> {
     /// Returns the basins of both branches at the values of `curve` at which the branches have different orbits.
     ///
     /// # Errors
-    /// [`Unfinished`] if the model computes rows alone, if an orbit cannot be sampled, or after an interruption.
+    /// [`Unfinished`] if the model computes only rows, if an orbit cannot be sampled, or after an interruption.
     pub fn basins(
         self,
         curve: &Curve,

@@ -16,13 +16,14 @@ pub struct Verdict {
     pub range: [f64; 2],
     /// Unit of the parameter.
     pub unit: &'static str,
-    /// Longest step between neighbouring values. A narrower band of hysteresis may be missed.
+    /// Longest step between neighbouring values. The response may miss a band of hysteresis that is narrower than this
+    /// step.
     pub step: f64,
-    /// Longest step across which the state changes by more than a tenth.
+    /// Longest step between neighbouring values among the steps in which the state changes by more than a tenth.
     pub steep_step: f64,
     /// Largest difference of the stroke (deg, peak to peak) between the branches where they have the same motion.
     pub difference: f64,
-    /// Bands without a single orbit, in ascending order of the parameter.
+    /// Bands in which the curve is not a single orbit, in ascending order of the parameter.
     pub bands: Vec<Band>,
     /// Reason why the design has no response.
     pub invalid: Option<String>,
@@ -48,7 +49,7 @@ pub enum BandKind {
     },
     /// Motions that are not periodic with the drive.
     Irregular {
-        /// Each kind of motion once: status, and length in drive periods.
+        /// Each kind of motion in the band, listed once: the status, and the length in drive periods.
         what: Vec<(Status, u32)>,
     },
 }
@@ -173,12 +174,12 @@ fn describe((status, period): (Status, u32)) -> String {
     }
 }
 
-/// Returns `121.5 Hz`, to six digits.
+/// Returns a value with its unit, with six digits, such as `121.5 Hz`.
 pub(super) fn at(value: f64, unit: &'static str) -> String {
     length(value, [value; 2], unit)
 }
 
-/// Returns `from 121.5 to 136 Hz`, or `at 14 mm`.
+/// Returns a range as text, such as `from 121.5 to 136 Hz`, or `at 14 mm` for one value.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale([from, to], unit);
     let [from, to] = [from, to].map(|value| six_digits(value * factor));
@@ -186,7 +187,7 @@ fn span([from, to]: [f64; 2], unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// Returns `0.5 Hz`, with the prefix of the range.
+/// Returns a length of steps as text, such as `0.5 Hz`, with the unit prefix of the range.
 fn length(value: f64, range: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale(range, unit);
     format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()

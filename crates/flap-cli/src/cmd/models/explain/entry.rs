@@ -15,7 +15,7 @@ pub(super) struct Entry {
     what: String,
     /// Models with this name; empty if the name does not depend on the model.
     models: Vec<&'static str>,
-    /// Text after the models.
+    /// Text that follows the list of models.
     rest: String,
     /// Indented lines.
     pub(super) text: String,
@@ -38,7 +38,7 @@ impl Entry {
         Entry { models: vec![model], ..Entry::new(name, what, text) }
     }
 
-    /// Returns the entry with text after the models.
+    /// Returns the entry with a text that follows the list of models.
     pub(super) fn with_rest(self, rest: impl Into<String>) -> Entry {
         Entry { rest: rest.into(), ..self }
     }

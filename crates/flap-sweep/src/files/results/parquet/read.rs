@@ -66,7 +66,7 @@ impl ParquetReader {
     }
 }
 
-/// Rejects columns with times, because the library reads nanoseconds as whole numbers.
+/// Rejects columns with times, because the Parquet library reads nanoseconds as whole numbers.
 fn refuse_times(schema: &Type) -> io::Result<()> {
     let is_time = |column: &Type| {
         matches!(
@@ -78,7 +78,7 @@ fn refuse_times(schema: &Type) -> io::Result<()> {
     time.map_or(Ok(()), |column| Err(other_kind(column.name())))
 }
 
-/// Returns the error of a column whose cells flap does not read.
+/// Returns the error for a column with a type of cells that flap cannot read.
 fn other_kind(column: &str) -> io::Error {
     let message = format!(
         "column {column} cannot be read: cells are whole numbers and floating-point ones of 32 or 64 bits, flags, and text"
@@ -86,7 +86,7 @@ fn other_kind(column: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
-/// Rejects files whose decompression library is not part of flap.
+/// Rejects files with a compression that flap does not support.
 fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
     let columns = metadata.row_groups().iter().flat_map(RowGroupMetaData::columns);
     let other = columns.map(ColumnChunkMetaData::compression).find(|compression| {
@@ -148,7 +148,8 @@ fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     })
 }
 
-/// Largest size of a decompressed page: 256 MiB. Pages of other programs have about 1 MiB, flap's are smaller.
+/// Largest size of a decompressed page: 256 MiB. Pages of other programs have about 1 MiB, and pages of flap are
+/// smaller.
 const LARGEST_PAGE: u64 = 256 << 20;
 
 /// First byte of a field that is a whole number and follows the previous field, in Thrift's compact protocol.
