@@ -4,8 +4,7 @@
 pub const MARKED: [u32; 3] = [5, 50, 95];
 
 /// Returns the value below which the fraction `share` (0 to 1) of the ascending `values` lies, by linear interpolation;
-/// NaN if
-/// there are no values.
+/// NaN if there are no values.
 pub fn percentile(values: &[f64], share: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;

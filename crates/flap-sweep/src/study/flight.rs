@@ -2,8 +2,8 @@
 //! hover.
 //!
 //! The body is rigid. The force and torque of the air on the wings at each instant act on the body. The wings respond
-//! to velocity and rates
-//! of the body, but not to the acceleration of the body. The inertial forces of the light wings do not act on the body.
+//! to velocity and rates of the body, but not to the acceleration of the body. The inertial forces of the light wings
+//! do not act on the body.
 //!
 //! A feedback of the states changes the inputs at the beginning of each wing beat. The feedback uses means over the
 //! last beat.

@@ -207,8 +207,7 @@ impl WrenchMap {
     pub const SAMPLES: u32 = 400;
 
     /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. All other parameters have the `values` of
-    /// a
-    /// point.
+    /// a point.
     ///
     /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is called
     /// now and then. If it returns true, there is no map.

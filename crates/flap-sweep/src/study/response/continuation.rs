@@ -15,8 +15,7 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan};
 
 /// Initial, shortest and longest distance between neighbouring orbits. 1 is the width of the band, and the largest
-/// magnitude of a
-/// state component.
+/// magnitude of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
 /// Largest number of orbits of a branch.

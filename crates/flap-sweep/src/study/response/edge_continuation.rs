@@ -32,8 +32,7 @@ use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRa
 use crate::plan::{Along, Plan};
 
 /// Initial, shortest and longest distance between neighbouring points of an edge. 1 is about the range of a parameter,
-/// and the largest
-/// magnitude of a state component.
+/// and the largest magnitude of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 
 /// Smallest cosine of the angle between tangents of neighbouring points.
