@@ -75,7 +75,7 @@ impl Failure {
         Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
     }
 
-    /// Returns the failure for results that have changed since flap wrote them.
+    /// Returns the failure for results that another program has changed.
     pub(crate) fn damaged(message: String) -> Failure {
         Failure::System(message, Vec::new()).help("replace the file by an undamaged copy")
     }

@@ -85,7 +85,7 @@ impl Log {
         Log { last: now, begin: None }
     }
 
-    /// Returns a line of progress if it is time to print the next line.
+    /// Returns the next line of progress, if the time since the last line is long enough.
     fn line(&mut self, progress: Progress, units: &str, now: Instant) -> Option<String> {
         let Progress { finished, points } = progress;
         let (begun, before) = *self.begin.get_or_insert((now, finished));

@@ -30,7 +30,7 @@ pub(crate) struct Opened {
     head: String,
     /// The plan of `head`, in which all parameters have the published values.
     published: Plan,
-    /// One value per parameter, from the first point. The value is NaN if the parameter is computed from other
+    /// Value of each parameter, from the first point. The value is NaN if the parameter is computed from other
     /// parameters.
     values: Vec<f64>,
     /// The row of the published design, computed at the first request.
@@ -236,7 +236,7 @@ fn setting_line(name: &str, kind: SettingKind, settings: &SolverSettings) -> Opt
     value.map(|value| format!("{name} = {value}\n"))
 }
 
-/// Returns a name as a key of TOML, in quotes unless it is a word.
+/// Returns a name as a key of TOML. A name that is not a single word is in quotes.
 fn key(name: &str) -> String {
     toml_edit::Key::new(name).display_repr().into_owned()
 }

@@ -29,7 +29,7 @@ impl Sink for Rows {
     }
 }
 
-/// Returns a cell as JSON. JSON has no infinite numbers, so they are text.
+/// Returns a cell as JSON. JSON has no infinite numbers, so an infinite number becomes text.
 pub(crate) fn value(cell: Cell<'_>) -> Value {
     match cell {
         Cell::Whole(number) => number.into(),

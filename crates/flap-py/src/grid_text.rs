@@ -1,7 +1,7 @@
 //! Converts a dictionary to the text of a grid file, so that messages can show the lines of mistakes.
 //!
-//! Tables keep the order of the dictionary, because the last axis varies fastest. The user's objects may raise exceptions while
-//! they are read: [`convert::failed`] converts these to errors.
+//! Tables keep the order of the dictionary, because the last axis varies fastest. The user's objects may raise
+//! exceptions when they are read: [`convert::failed`] converts these exceptions to errors.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;

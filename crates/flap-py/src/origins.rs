@@ -9,7 +9,7 @@ use toml::{Table, Value};
 
 use crate::grid;
 
-/// The description of a design, empty if it has none, and the sources of its parameters by name.
+/// The description of a design, which may be empty, and the sources of the design's parameters by name.
 #[derive(IntoPyObject)]
 pub(crate) struct Origins {
     description: String,

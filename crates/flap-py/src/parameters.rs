@@ -36,7 +36,7 @@ pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
     Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))
 }
 
-/// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own.
+/// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own value.
 pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
     let text = CString::new(format!("`{0}` has no effect: every wing sets its own `{0}`", parameter.name))?;
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)

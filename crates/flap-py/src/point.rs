@@ -16,7 +16,7 @@ use crate::{convert, design, error, sweep};
 /// A design point and its plan.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
-    /// One value per parameter.
+    /// Value of each parameter, in the order of the parameters.
     pub(crate) values: Vec<f64>,
     /// The model with a waveform or a stroke of the call.
     sampled: Option<Box<dyn Simulator>>,

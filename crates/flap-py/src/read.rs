@@ -59,7 +59,7 @@ struct Contents {
     is_verified: bool,
 }
 
-/// The plan of the rows, and the program that wrote them.
+/// The plan of the rows, and the program that wrote the rows.
 struct Origin {
     plan: Plan,
     flap: String,

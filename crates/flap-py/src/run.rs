@@ -103,8 +103,8 @@ pub(crate) fn trajectory<'py>(
     motion::into_python(py, sampled, meanings, &chosen.meta(py)?)
 }
 
-/// Returns a row as a dictionary. Its entry `measures` has the model's measures, called `names`, then the measures of the grid's
-/// `[measure]`. Unknown numbers and flags are NaN.
+/// Returns a row as a dictionary. The entry `measures` has the model's measures, called `names`, then the measures of
+/// the grid's `[measure]`. Unknown numbers and flags are NaN.
 pub(crate) fn row_to_dict<'py>(
     py: Python<'py>,
     names: &[&str],

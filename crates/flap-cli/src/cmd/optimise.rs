@@ -157,7 +157,7 @@ fn remark(problem: &Problem, best: &Optimum) {
     }
 }
 
-/// The unit of the goal, if it is a measure or a parameter.
+/// The unit of the goal, if the goal is a measure or a parameter.
 fn unit<'p>(plan: &'p Plan, goal: &str) -> &'p str {
     let column = plan.rows().columns().iter().find(|column| column.name == goal);
     let parameter = || plan.parameters().iter().find(|parameter| parameter.name == goal);

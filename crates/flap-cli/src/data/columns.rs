@@ -13,9 +13,9 @@ pub(crate) struct Table {
     pub(crate) rows: usize,
     /// Number of rows in the file.
     pub(crate) of: usize,
-    /// Parameters of the sample, if the sidecar lists them.
+    /// Parameters of the sample, if the sidecar lists sampled parameters.
     pub(crate) sample: Vec<String>,
-    /// Axes along which points were added between the values, if the sidecar lists them.
+    /// Refined axes, along which points were added between the values, if the sidecar lists refined axes.
     pub(crate) refined: Vec<RefinedAxis>,
 }
 

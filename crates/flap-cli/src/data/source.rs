@@ -25,9 +25,9 @@ const MOST_ROWS: usize = 20_000_000;
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
-    /// Parameters of the sample, if the sidecar lists them.
+    /// Parameters of the sample, if the sidecar lists sampled parameters.
     sample: Vec<String>,
-    /// Refined axes, if the sidecar lists them.
+    /// Refined axes, if the sidecar lists refined axes.
     refined: Vec<RefinedAxis>,
     path: PathBuf,
     tells: bool,
@@ -72,7 +72,7 @@ impl Source {
         self.units.of_column(&self.names()[column])
     }
 
-    /// Returns the parameters of the sample, if the sidecar lists them.
+    /// Returns the parameters of the sample, if the sidecar lists sampled parameters.
     pub(crate) fn sample(&self) -> &[String] {
         &self.sample
     }
@@ -202,7 +202,7 @@ fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -
     code
 }
 
-/// Returns the plan of results, if their sidecar has a usable one.
+/// Returns the plan of results, if the sidecar contains a usable plan.
 fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     let beside = sidecar_of(results);
     let plan = job::plan_of(&beside, sidecar?).ok();

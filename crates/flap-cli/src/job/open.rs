@@ -113,7 +113,7 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Ok((open(results, read)?, plan, sidecar))
 }
 
-/// Returns the plan of results with the points that its refinement added, if `point` is one of them.
+/// Returns the plan of results. If the refinement of the plan added `point`, the plan includes the added points.
 ///
 /// The rows determine the points of a refinement.
 pub(crate) fn with_refinement(

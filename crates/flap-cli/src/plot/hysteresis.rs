@@ -30,7 +30,7 @@ struct Curve {
     compared: Comparison,
 }
 
-/// A jump from one branch to the other: its ends and its colour.
+/// A jump from one branch to the other branch: the ends and the colour of the jump.
 struct Jump {
     x: f64,
     from: f64,
@@ -156,7 +156,7 @@ impl Curve {
         points
     }
 
-    /// Returns the jumps of a branch, halfway between the rows around them.
+    /// Returns the jumps of a branch. A jump is halfway between the rows before and after the jump.
     fn jumps(&self, kind: usize, colour: &str) -> impl Iterator<Item = Jump> {
         let points = &self.branches[kind];
         self.after(kind).iter().map(move |&row| Jump {

@@ -64,7 +64,7 @@ pub(super) fn short(value: f64) -> String {
     digits(value, 6)
 }
 
-/// Returns the numbers with four digits, or with up to six where four do not distinguish them.
+/// Returns the numbers with four digits, or with up to six digits if four digits do not distinguish the numbers.
 pub(super) fn distinct(values: &[f64]) -> Vec<String> {
     let texts = |most: u8| values.iter().map(|&value| digits(value, most)).collect::<Vec<_>>();
     let is_distinct = |texts: &Vec<String>| texts.windows(2).all(|two| two[0] != two[1]);

@@ -138,7 +138,7 @@ fn name(input: &str, unit: &str) -> String {
     if words.unit.is_empty() { words.words } else { format!("{}, per {}", words.words, words.unit) }
 }
 
-/// Returns the words of a column; if it has no words, `None` for each row.
+/// Returns the words of a column, or `None` for each row of a column without words.
 fn words(table: &Table, column: &str) -> Result<Vec<String>, Failure> {
     let text = |code: &u32, words: &[String]| {
         if *code == NO_WORD { String::new() } else { words[*code as usize].clone() }

@@ -1,4 +1,4 @@
-//! Scatter plots: two measures of every design, coloured by a third.
+//! Scatter plots: two measures of every design as points, coloured by a third column.
 
 use flap_sweep::picture::colours::{MISSING, PLAIN};
 use kuva::render::layout::ComputedLayout;

@@ -40,7 +40,8 @@ pub(super) struct Request<'a> {
     pub(super) end: usize,
     /// The measure that is drawn over a parameter.
     pub(super) response: Option<usize>,
-    /// Benefit, cost and size of the motion: three different measures, as far as the file has them.
+    /// Measures for benefit, cost and size of the motion. The three measures differ, and a measure may be missing in
+    /// the file.
     pub(super) three: [Option<usize>; 3],
 }
 
@@ -508,7 +509,7 @@ fn has_both_ways(table: &Table, branch: usize) -> bool {
     ["up", "down"].iter().all(|way| words.iter().any(|word| word == way))
 }
 
-/// Returns an error if differences of the numbers exceed the largest float, so that no axis can show them.
+/// Returns an error if differences of the numbers exceed the largest float, so that no axis can show the numbers.
 fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
     /// Margins and ticks require the rest of the range of floating-point numbers.
     const LARGEST: f64 = f64::MAX / 16.0;

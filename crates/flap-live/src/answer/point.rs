@@ -26,7 +26,7 @@ pub(crate) struct Numbers {
     reason: Option<String>,
     /// Warnings about changed parameters whose values are far from the values of the preset.
     warnings: Vec<String>,
-    /// The natural frequencies, if the model has them.
+    /// The natural frequencies, if the model has natural frequencies.
     modes: Option<Vec<Mode>>,
     /// The natural frequencies of the published design.
     published_modes: Option<Vec<Mode>>,

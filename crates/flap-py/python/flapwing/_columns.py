@@ -46,7 +46,8 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """Return a column of flags as True and False. Unknown flags are False; use `known` to find them."""
+        """Return a column of flags as True and False. Unknown flags are False. The function `known` returns a mask of
+        known flags."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:

@@ -91,7 +91,7 @@ class Data:
         return Data(columns, self.units, self.grid_axes, self.meta, self.axis_values)
 
     def unit(self, name: str) -> str:
-        """Return the unit of a column, as flap writes it."""
+        """Return the unit of a column in the notation of flap."""
         known = self.units.get(name)
         # In a file without a sidecar, parameters have no units.
         is_known = known is not None and (known != "" or "model" in self.meta)
@@ -139,8 +139,8 @@ class Data:
         return self._at_the_middle([name for name in left if name not in shown])
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
-        """Return one row for each combination of values in the columns `names`. Other axes are fixed at their middle
-        values, as `flap plot` does. A warning ends with the text `remedy`.
+        """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are
+        fixed at their middle values, as in `flap plot`. A warning ends with the text `remedy`.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return self
@@ -353,7 +353,7 @@ class Shown:
 
 
 def _callers_level() -> int:
-    """Return the stack level of the user's call, counted from the function that calls this one."""
+    """Return the stack level of the user's call, counted from the function that calls `_callers_level`."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
         level, frame = level + 1, frame.f_back

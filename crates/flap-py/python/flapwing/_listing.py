@@ -76,7 +76,8 @@ def states(design: Design, /) -> dict[str, State]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        The same as for `params`. A vehicle has the states of each wing; the name of the wing is a prefix of the state.
+        The same designs and models as for `params`. A vehicle has the states of each wing; the name of the wing is a
+        prefix of the state.
 
     Returns
     -------

@@ -1,4 +1,5 @@
-"""Errors of arguments: values of a wrong type, objects that raise while they are read, and unknown names."""
+"""Errors of arguments: values of a wrong type, objects that raise an exception when they are read, and unknown
+names."""
 
 from __future__ import annotations
 

@@ -38,11 +38,11 @@ def sweep(
         The design space (see `Grid`). A preset is a design space with one point. The table ``[output]`` of the grid
         chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
-        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. Rows are written as soon as they are computed. The
+        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row as soon as possible. The
         file has the same bytes as a file of ``flap sweep --out``. A second file in the same folder, the sidecar,
-        records the origin of the rows. If `out` has unfinished rows of the same grid, the sweep continues them. If
-        `out` has all rows, no point is run. If `out` contains anything else, the sweep raises an error. By default,
-        rows are kept in memory, with about half a kilobyte for each row.
+        records the origin of the rows. If `out` has unfinished rows of the same grid, the sweep continues after these
+        rows. If `out` has all rows, no point is run. If `out` has other contents, the sweep raises an error. By
+        default, rows are kept in memory, with about half a kilobyte for each row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional

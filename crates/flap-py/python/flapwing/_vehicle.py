@@ -130,7 +130,7 @@ class Vehicle(_Entries):
         The design of the wings: the name of a preset, the path of a device file, or entries of a grid, such as
         ``{"preset": "jafferis2016", "params": {"drive_voltage_pp": "180 V"}}``.
     wings : sequence of Wing or dict
-        One or more wings. Each wing is a `Wing`, or a dictionary with the same entries.
+        A list of one or more wings. Each wing is a `Wing`, or a dictionary with the same entries.
     about : sequence of three numbers or texts, optional
         The point about which torques are computed, such as the centre of mass: numbers in metres, or text with units.
         Default: the origin.
@@ -292,7 +292,7 @@ def _vector(name: str, given: Any) -> list[Any]:
 
 
 def _table(name: str, given: Any, example: str, keys: Sequence[str] | None = None) -> dict[str, Any]:
-    """Return a dictionary; raise ValueError if it has keys other than `keys`."""
+    """Return a dictionary. Raise ValueError if the dictionary has keys that are not in `keys`."""
     if not isinstance(given, Mapping):
         raise refused(name, given, f"it must be a dictionary of {example}")
     for key in given:

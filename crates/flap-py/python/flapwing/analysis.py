@@ -101,8 +101,8 @@ def sensitivities(
     measure : str
         A measure of the preset's model.
     parameters : mapping or iterable of str, optional
-        The parameters to change. A mapping gives each parameter its own relative change, or the two values to compute
-        (in SI units). Default: all parameters with a number that is not zero. Parameters that are computed from other
+        The parameters to change. In a mapping, each parameter has a relative change, or the two values to compute (in
+        SI units). Default: all parameters with a number that is not zero. Parameters that are computed from other
         parameters are left out. Parameters that cannot have the changed values, such as whole numbers, are left out
         too.
     change : float
@@ -293,9 +293,9 @@ class Statistics:
     standard_deviation : float
         The sample standard deviation (divisor ``designs - 1``). The value is nan for one design.
     standard_error : float
-        The standard error of the mean, for designs that are drawn independently of each other: the standard deviation
-        divided by the square root of `designs`. For a Latin hypercube or a Sobol' sequence, this standard error is an
-        upper estimate. For a grid, the standard error has no meaning.
+        The standard error of the mean, for independently drawn designs: the standard deviation divided by the square
+        root of `designs`. For a Latin hypercube or a Sobol' sequence, this standard error is an upper estimate. For a
+        grid, the standard error has no meaning.
     smallest, largest : float
         The smallest and the largest value of the measure.
     percentiles : dict of float to float

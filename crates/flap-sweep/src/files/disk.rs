@@ -1,4 +1,4 @@
-//! Operations on files: make them durable, replace them as a whole, compare and remove them.
+//! Operations that make files durable, replace files as a whole, compare files, and remove files.
 
 use std::fs::{self, File};
 use std::io::{self, Stdout, Write};
@@ -69,7 +69,7 @@ pub(crate) fn is_free(path: &Path) -> bool {
     }
 }
 
-/// Creates a new file for reading and writing. It may replace an empty file.
+/// Creates a new file for reading and writing. The new file may replace an empty file.
 ///
 /// # Errors
 /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free)
@@ -126,7 +126,7 @@ pub fn is_empty(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
 }
 
-/// Removes the file at `path`, if there is one.
+/// Removes the file at `path`, if the file exists.
 pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -173,8 +173,8 @@ pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
     }
 }
 
-/// Returns true if both names belong to the same file. Devices and pipes never count as the same, because they store
-/// nothing.
+/// Returns true if both names belong to the same file. Devices and pipes never count as the same file, because devices
+/// and pipes store nothing.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let is_file = |path| fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
     is_file(a) && is_file(b) && matches!((system::id_at(a), system::id_at(b)), (Ok(a), Ok(b)) if a == b)

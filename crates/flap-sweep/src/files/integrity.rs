@@ -32,7 +32,7 @@ pub enum OnDamage {
 /// Largest number of ranges in a message. The message also states the number of further ranges.
 const MOST_LISTED: usize = 5;
 
-/// Differences between a file and the file that was written.
+/// Differences between a result file and the file that flap wrote.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
 pub struct Damage {
@@ -152,7 +152,7 @@ pub enum OpenError {
     /// The sidecar cannot be read or is damaged.
     #[error(transparent)]
     Sidecar(#[from] SidecarError),
-    /// The results have changed since flap wrote them.
+    /// Another program has changed the results.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -165,7 +165,7 @@ pub enum OpenError {
 /// A note about results for the user.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
-    /// The results have changed since flap wrote them.
+    /// Another program has changed the results.
     #[error("{} is damaged: {damage}", path.display())]
     Damaged {
         /// The file.
@@ -197,7 +197,7 @@ pub enum Note {
 /// Reason for results that cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unverified {
-    /// There is no sidecar.
+    /// The results have no sidecar.
     #[error("there is no sidecar beside the file")]
     NoSidecar,
     /// The sidecar has no checksums.
@@ -433,7 +433,7 @@ pub enum Integrity {
     },
     /// The results cannot be checked.
     Unverified(Unverified),
-    /// The results have changed since flap wrote them.
+    /// Another program has changed the results.
     Damaged(Damage),
 }
 

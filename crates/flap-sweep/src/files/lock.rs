@@ -1,4 +1,4 @@
-//! Lock of results, so that only one process writes to them.
+//! Lock of results, so that only one process writes to the results.
 //!
 //! The lock is a lock of the operating system on an empty file beside the results. The operating system releases the
 //! lock when the process ends. If a process is killed, its lock file remains without a lock.

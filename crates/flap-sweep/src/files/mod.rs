@@ -1,8 +1,8 @@
 //! Result files: formats, and the files beside results that record the origin of the rows and the progress of a run.
 //!
-//! `beside` names the files, `disk` writes them, and [`results`] reads and writes rows. [`journal`] and [`sidecar`]
-//! are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a result file and
-//! locks it, a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
+//! `beside` names the files beside results, `disk` writes files, and [`results`] reads and writes rows. [`journal`] and
+//! [`sidecar`] are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a
+//! result file and locks it, a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
 
 pub mod beside;
 pub mod csv_sink;

@@ -1,11 +1,11 @@
 //! Files beside results that flap wrote. No other files are ever removed or replaced.
 //!
 //! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the
-//! journal beside them, because a journal is begun only if no file has their name.
+//! journal in the same folder, because a journal is begun only if no file has the name of waiting rows.
 //!
 //! With `--restart`, the earlier results keep their names until the new results are complete. Until then the new
 //! results of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the
-//! new results are a replacement, so another file of this name is never taken for one.
+//! new results are a replacement, so flap never mistakes another file of this name for a replacement.
 //!
 //! Results without a sidecar count as not verified, not as damaged. [`commit`] therefore removes the earlier sidecar,
 //! renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call completes the
@@ -67,8 +67,8 @@ pub fn unfinished(results: &Path) -> Option<PathBuf> {
     past.header.replaces.then_some(new)
 }
 
-/// Returns the results that `flap results resume` continues: the unfinished replacement if there is one, otherwise
-/// `results`.
+/// Returns the results that `flap results resume` continues: the unfinished replacement of `results`, or `results` if
+/// there is no replacement.
 pub fn to_resume(results: &Path) -> PathBuf {
     unfinished(results).filter(|new| sidecar_of(new).exists()).unwrap_or_else(|| results.to_owned())
 }
@@ -85,7 +85,7 @@ pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }
 
-/// Discards the unfinished replacement of `results`, if there is one.
+/// Discards the unfinished replacement of `results`, if there is a replacement.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.

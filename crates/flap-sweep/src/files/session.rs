@@ -201,13 +201,13 @@ impl Session {
         self.seconds_before += seconds;
     }
 
-    /// Returns the format of the file that contains the rows until they are complete.
+    /// Returns the format of the file that contains unfinished rows.
     fn text_format(&self) -> Format {
         if self.format.is_columnar() { Format::CsvZstd } else { self.format }
     }
 
     /// Writes all rows of the complete results at `path`, which belong to the same plan, as the first rows. `summary`
-    /// counts them.
+    /// counts these rows.
     ///
     /// # Errors
     /// The error of the operating system if a file cannot be read or written.
@@ -229,8 +229,8 @@ impl Session {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// Returns the path of the file that contains the rows until they are complete. For a Parquet file, this file is
-    /// not the result file.
+    /// Returns the path of the file that contains unfinished rows. For a Parquet file, this file is not the result
+    /// file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
     }

@@ -34,7 +34,7 @@ pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
     /// Values of the preset.
     pub(super) preset: Vec<Value>,
-    /// Values of the device, if the grid starts from one.
+    /// Values of the device, if the grid starts from a device.
     pub(super) device: Option<Vec<Value>>,
     /// For each parameter that is not set, description of the parameters from which it is computed.
     pub(super) unset: Vec<Option<&'static str>>,
@@ -130,8 +130,8 @@ impl Scope for Names<'_> {
     }
 }
 
-/// Returns the expression of `entry`. It must be of the kind `wanted`, and its value must be known before points are
-/// run.
+/// Returns the expression of `entry`. The expression must be of the kind `wanted`, and its value must be known before
+/// points are run.
 ///
 /// If there are mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(

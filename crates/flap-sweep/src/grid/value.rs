@@ -248,8 +248,8 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     }
 }
 
-/// Reports a parameter that is a choice, which accepts a list and no `shape`, such as "ranges". Returns false if it
-/// is no choice.
+/// Reports a parameter that is a choice, which accepts a list and no `shape`, such as "ranges". Returns false if the
+/// parameter is not a choice.
 pub(super) fn report_choice(
     parameter: &Parameter,
     entry: &Entry<'_>,

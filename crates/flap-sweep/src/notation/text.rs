@@ -1,4 +1,5 @@
-//! Numbers and options as text, for result files and the terminal. Also similar names, and positions in texts.
+//! Numbers and options as text, for result files and the terminal. Also functions for similar names, and for positions
+//! in texts.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

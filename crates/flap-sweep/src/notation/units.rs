@@ -1,8 +1,8 @@
 //! Quantities with units in grid files: `"200 V"`, `"1.52 uN*m/rad"`, `"45 °"`.
 //!
 //! A quantity is a number, then a unit: symbols with SI prefixes, joined by `*`, `·` and `/`, with powers such as
-//! `^2` or `²`. Powers of ten of units are applied to the text of the number before it is rounded to a float, so
-//! `"135 um"` is exactly the float `135e-6`.
+//! `^2` or `²`. Powers of ten of units are applied to the text of the number, before the number is rounded to a float.
+//! For example, `"135 um"` is exactly the float `135e-6`.
 
 mod number;
 mod prefixed;

@@ -76,7 +76,7 @@ pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f6
     of_number(parameter, number.map_err(ValueError::NoQuantity)?)
 }
 
-/// Returns the number itself, if `parameter` accepts it: a number in SI units, or the index of an option.
+/// Returns the number, if `parameter` accepts the number: a number in SI units, or the index of an option.
 ///
 /// # Errors
 /// [`ValueError::OutOfRange`] if the number is out of range, [`ValueError::NoOption`] if no option has this index.

@@ -1,4 +1,4 @@
-//! Branches of a response, and the jumps between them.
+//! Branches of a response, and the jumps between the branches.
 
 use super::colours::{DARK, SERIES};
 

@@ -72,8 +72,8 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
 
 /// Returns Spearman's rank correlation of two columns, from -1 to 1, over rows in which both are finite.
 ///
-/// Equal values share the mean of their ranks. NaN if there are fewer than three such rows, or if a column is
-/// constant in them.
+/// Equal values share the mean of their ranks. NaN if there are fewer than three such rows, or if a column is constant
+/// in these rows.
 pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     let (x, y): (Vec<f64>, Vec<f64>) =
         x.iter().zip(y).filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, y)| (*x, *y)).unzip();

@@ -1,5 +1,5 @@
-//! Axes: the values of one varied parameter, or of several parameters that vary together. Also the parameter that a
-//! response follows.
+//! Axes: the values of one varied parameter, or of several parameters that vary together. Also the followed parameter
+//! of a response.
 //!
 //! Values are computed on demand, so an axis of 10^9 values takes no memory.
 
@@ -12,7 +12,7 @@ use super::sample::{Design, Distribution, normal_quantile};
 pub enum Values {
     /// Listed values.
     List(Vec<f64>),
-    /// Listed and unchecked values from a program. Some may be out of range.
+    /// Listed and unchecked values from a program. Some of these values may be out of range.
     Unchecked(Vec<f64>),
     /// `count` equidistant values from `from` to `to`, both included.
     Linear {

@@ -35,7 +35,7 @@ pub enum ChangeError {
         /// Mistake in the value.
         error: Box<ValueError>,
     },
-    /// These parameters have no value.
+    /// The contained parameters have no value.
     #[error("these parameters have no value: {}", .0.join(", "))]
     Missing(Vec<String>),
     /// The plan would have more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS) points.

@@ -20,9 +20,9 @@ pub struct Gradient {
 /// Change of a parameter to which derivatives refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
-    /// One per cent of the parameter.
+    /// Derivatives are per 1 % of the parameter.
     Cent,
-    /// One SI unit of the parameter.
+    /// Derivatives are per SI unit of the parameter.
     Unit,
 }
 

@@ -30,7 +30,7 @@ pub struct Plan {
     pub(super) space: Space,
     pub(super) selection: Selection,
     pub(super) followed: Option<Along>,
-    /// One initial state per point; `None` for rest. Empty if all motions begin at rest.
+    /// The initial state of each point; `None` for a motion from rest. Empty if all motions begin at rest.
     pub(super) begins: Vec<Option<Vec<f64>>>,
     /// Names of the state's components in rows; empty if rows contain no state.
     pub(super) states: Vec<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Space {
     pub(crate) resonance: Option<AtResonance>,
     /// Name of the preset.
     pub(crate) preset: &'static str,
-    /// One value per parameter: the preset or the device, with `[params]` applied.
+    /// Value of each parameter: the value of the preset or the device, or of `[params]`.
     pub(crate) base: Vec<Value>,
     /// Parameters whose values have units in the file, in `[params]` or along an axis.
     pub(crate) with_units: WithUnits,
@@ -130,7 +130,7 @@ impl Plan {
         self.space.preset
     }
 
-    /// Returns one value per parameter before the axes are applied: the preset with `[params]` applied.
+    /// Returns the value of each parameter before the axes are applied: the value of the preset, or of `[params]`.
     pub fn base(&self) -> &[Value] {
         &self.space.base
     }

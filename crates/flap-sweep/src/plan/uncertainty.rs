@@ -61,7 +61,7 @@ impl Uncertainty {
     /// Returns the lower triangle L of the correlation matrix R = L Lᵀ, with a row for each of
     /// [`Uncertainty::errors`].
     ///
-    /// `None` if R is not positive definite, so that the correlations contradict each other.
+    /// `None` if R is not positive definite: the correlations then contradict each other.
     pub(crate) fn factor(&self) -> Option<Vec<Vec<f64>>> {
         let n = self.errors.len();
         let mut matrix = DMatrix::identity(n, n);

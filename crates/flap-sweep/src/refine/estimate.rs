@@ -32,8 +32,8 @@ impl Edge {
     /// the jump or kink. The larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges
     /// the larger error counts, because nothing between the ends is known.
     ///
-    /// If the measure changes more than twice as much as beside the edge, it may jump: the estimate is half of the
-    /// change.
+    /// If the measure changes more than twice as much as beside the edge, the measure may jump. The estimate is then
+    /// half of the change.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }

@@ -71,7 +71,7 @@ pub(super) struct Mesh {
     /// Largest number of halvings of a box.
     most: u32,
     measures: usize,
-    /// Measures of all points, one point after another.
+    /// Measures of all points, in the order of the points.
     measured: Vec<f64>,
     /// Number of each point in the mesh.
     numbers: HashMap<Place, usize>,

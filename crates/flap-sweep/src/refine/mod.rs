@@ -4,8 +4,8 @@
 //! each box is estimated (`estimate`). Boxes with large errors are halved, and the middles of their edges are the next
 //! points (`mesh`). Points are added in rounds until all estimates are small enough or there are enough points.
 //!
-//! A round depends on the settings and on the rows of earlier rounds, as they are written. A resumed run reads the
-//! rows from its file and gets the same points.
+//! A round depends on the settings and on the written rows of earlier rounds. A resumed run reads the rows from its
+//! file and gets the same points.
 
 mod estimate;
 mod mesh;

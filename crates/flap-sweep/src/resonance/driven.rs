@@ -154,8 +154,8 @@ impl LargeImpulse {
     pub const HELP: &str = "give at most 180 deg, such as \"20 deg\"";
 }
 
-/// Returns the amplitude (rad) of an impulse, if it is at most 180°. With a larger impulse, the wing would pass through
-/// the body.
+/// Returns the amplitude (rad) of an impulse, if the amplitude is at most 180°. With a larger impulse, the wing would
+/// pass through the body.
 ///
 /// # Errors
 /// [`LargeImpulse`] for a larger amplitude.

@@ -54,7 +54,7 @@ pub(super) struct Search<'a> {
     /// Lowest and highest frequency (Hz), or the reason why a search is impossible.
     ends: Result<[f64; 2], SearchError>,
     stage: Stage,
-    /// All points run.
+    /// All points that were run.
     seen: Vec<Seen>,
     /// Frequencies of the latest points (Hz).
     asked: Vec<f64>,
@@ -291,7 +291,7 @@ impl PointSequence for Search<'_> {
     }
 }
 
-/// Returns the maximum of the parabola through three points, or the middle value if it has no maximum.
+/// Returns the maximum of the parabola through three points, or the middle value if the parabola has no maximum.
 fn summit(points: &[[f64; 2]; 3]) -> f64 {
     let [[x0, y0], [x1, y1], [x2, y2]] = *points;
     let (left, right) = ((y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1));
@@ -360,7 +360,7 @@ impl Maximum {
         Some(if step.abs() >= tolerance { x + step } else { x + tolerance.copysign(step) })
     }
 
-    /// Returns the step to the vertex of the parabola through the three best points, if it is reliable.
+    /// Returns the step to the vertex of the parabola through the three best points, if the step is reliable.
     fn to_the_parabolas_top(&self) -> Option<f64> {
         let [[x, fx], [w, fw], [v, fv]] = self.best;
         let r = (x - w) * (fx - fv);

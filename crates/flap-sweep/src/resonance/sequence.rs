@@ -78,7 +78,7 @@ struct Open<S> {
 }
 
 impl<S: PointSequence> Open<S> {
-    /// Returns the sequence with its next points, or as an error the sequence itself if it has ended.
+    /// Returns the sequence with its next points, or as an error the sequence, if the sequence has ended.
     fn begin(mut sequence: S) -> Result<Open<S>, S> {
         let probes = sequence.probes();
         if probes.is_empty() {

@@ -84,7 +84,7 @@ pub struct Progress {
     pub points: u64,
 }
 
-/// Error that ends a run. The rows written before it are complete and in order.
+/// Error that ends a run. The rows that were written before the error are complete and in order.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Rows could not be written.
@@ -93,7 +93,7 @@ pub enum RunError {
     /// The threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[source] io::Error),
-    /// The model violated its contract. This is a bug in the program.
+    /// The model violated its contract, which is a bug in the program.
     #[error("bug in the model: {0}")]
     Model(String),
     /// Rows from another process do not belong to this run.
@@ -102,7 +102,7 @@ pub enum RunError {
     /// Fetching rows from other processes failed.
     #[error("rows cannot be fetched: {0}")]
     Fetch(String),
-    /// A worker panicked. This is a bug in the program.
+    /// A worker panicked, which is a bug in the program.
     #[error("a worker panicked: {0}")]
     Panic(String),
 }

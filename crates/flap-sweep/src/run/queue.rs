@@ -1,10 +1,10 @@
 //! Queue between workers and the thread that collects outcomes: units to run, outcomes in order, and the end of the
 //! run.
 //!
-//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. Then the next outcome is
-//! either present, so collecting this outcome makes room. Otherwise the unit of the next outcome is running on another worker,
-//! which does not wait. A worker leaves the queue when it ends, also after a panic. If a worker ends with unfinished
-//! units, the run fails.
+//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. If the next outcome is
+//! then present, collecting this outcome makes room. Otherwise the unit of the next outcome is running on another
+//! worker, which does not wait. A worker leaves the queue when it ends, also after a panic. If a worker ends with
+//! unfinished units, the run fails.
 //! Collecting waits only while there are workers, and a dropped run aborts its workers.
 //!
 //! After a stop, workers have a short time to finish their units. Units that still run after this time are dropped.

@@ -92,7 +92,7 @@ pub struct Summary {
     pub unsatisfied: Vec<Unsatisfied>,
     /// The first few invalid points.
     pub invalid: Vec<InvalidPoint>,
-    /// Result of the refinement of the grid, once it has ended.
+    /// Result of the refinement of the grid, after the end of the refinement.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refined: Option<Refined>,
 }

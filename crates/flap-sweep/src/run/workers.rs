@@ -80,7 +80,7 @@ impl<T: Send + 'static> Run<T> {
         self.queue.stop();
     }
 
-    /// Starts the threads, unless they have been started.
+    /// Starts the threads, unless the threads run already.
     fn start(&mut self) {
         // The run has its own threads: a pool of the caller would not survive a fork.
         for _ in 0..std::mem::take(&mut self.workers) {

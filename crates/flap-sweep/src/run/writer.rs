@@ -40,8 +40,8 @@ pub trait Sink {
     /// The error of the write operation.
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
-    /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed
-    /// there.
+    /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed after
+    /// these rows.
     ///
     /// # Errors
     /// The error of storing the rows.
@@ -71,7 +71,8 @@ pub trait Sink {
 /// Rows as text, in the order of the rows.
 pub type Written = Box<dyn Iterator<Item = io::Result<StringRecord>>>;
 
-/// Writer of the rows of a plan to a sink, which also counts them. Its errors are [`RunError::Sink`].
+/// Writer of the rows of a plan to a sink. The writer also counts the rows. All errors of the writer are
+/// [`RunError::Sink`].
 pub struct RowWriter<'a> {
     /// Plan with the points of all rounds so far.
     plan: Cow<'a, Plan>,

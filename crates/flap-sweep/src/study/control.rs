@@ -165,7 +165,7 @@ pub struct Trim {
 /// Reason for a failed trim.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TrimError {
-    /// There are more targets than inputs.
+    /// The trim has more targets than inputs.
     #[error("{targets} targets need at least {targets} inputs, not {inputs}")]
     FewInputs {
         /// Number of targets.

@@ -81,7 +81,7 @@ impl ExperimentError {
     }
 }
 
-/// Runs a chirp, if it has at most [`CYCLES_MAX`] drive periods.
+/// Runs a chirp. The chirp must have at most [`CYCLES_MAX`] drive periods.
 ///
 /// # Errors
 /// - [`ExperimentError::LongChirp`] and [`ExperimentError::ManySamples`] if the chirp is too long

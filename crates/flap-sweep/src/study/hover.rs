@@ -440,12 +440,12 @@ fn participation(a: &SMatrix<f64, DYNAMIC, DYNAMIC>, eigenvalue: Complex<f64>) -
 }
 
 impl HoverMode {
-    /// Returns the time in which the motion grows to twice its size (s), or `None` if it does not grow.
+    /// Returns the time (s) in which the motion grows to twice its size, or `None` if the motion does not grow.
     pub fn time_to_double(&self) -> Option<f64> {
         (self.eigenvalue.re > 0.0).then(|| LN_2 / self.eigenvalue.re)
     }
 
-    /// Returns the time in which the motion decays to half its size (s), or `None` if it does not decay.
+    /// Returns the time (s) in which the motion decays to half its size, or `None` if the motion does not decay.
     pub fn time_to_half(&self) -> Option<f64> {
         (self.eigenvalue.re < 0.0).then(|| -LN_2 / self.eigenvalue.re)
     }

@@ -19,8 +19,7 @@ pub struct Linked<'p> {
 
 /// Returns the linked parameters of a plan, in the order of the model's table. The list is empty for a vehicle.
 ///
-/// A parameter is linked if it is neither varied nor derived, is not zero, and scales with a parameter that is varied
-/// or derived.
+/// A linked parameter is not varied, derived or zero, and scales with a parameter that is varied or derived.
 pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     if plan.vehicle().is_some() {
         return Vec::new();

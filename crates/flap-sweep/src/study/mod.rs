@@ -1,7 +1,7 @@
 //! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked parameters.
 //!
-//! Also most important parameters, effects of terms, surveys, optima, and quadratic maps of vehicles.
-//! Also experiments on single points.
+//! Further studies are most important parameters, effects of terms, surveys, optima, and quadratic maps of vehicles.
+//! The module also contains experiments on single points.
 
 pub mod control;
 pub mod deviation;

@@ -457,8 +457,8 @@ fn unused(rows: &[Row]) -> Vec<(Status, usize)> {
     counted.filter(|(_, rows)| *rows > 0).collect()
 }
 
-/// Returns the solution of an overdetermined system with the smallest sum of squared errors; `None` if it is not
-/// unique.
+/// Returns the solution of an overdetermined system with the smallest sum of squared errors; `None` if the solution is
+/// not unique.
 fn least_squares(matrix: DMatrix<f64>, sides: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let decomposed = matrix.svd(true, true);
     let singular = &decomposed.singular_values;

@@ -18,8 +18,8 @@ pub(crate) fn id_of(file: &File) -> io::Result<(u64, u64)> {
 /// Returns the identity of the file at `path`, as [`id_of`] does. Links are followed.
 ///
 /// # Errors
-/// The error of the operating system. A file that is removed while it is open may give
-/// [`io::ErrorKind::PermissionDenied`] until it is closed.
+/// The error of the operating system. If a file is removed while it is open, the error may be
+/// [`io::ErrorKind::PermissionDenied`] until the file is closed.
 pub(crate) fn id_at(path: &Path) -> io::Result<(u64, u64)> {
     information(Handle::from_path_any(path)?).map(|found| id(&found))
 }

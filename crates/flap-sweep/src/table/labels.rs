@@ -78,7 +78,7 @@ pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// First words of names of measures that are benefits or costs. Longer matches precede shorter ones.
+/// First words of names of measures that are benefits or costs. Longer matches precede shorter matches.
 const BETTER: [(&str, Direction); 9] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),

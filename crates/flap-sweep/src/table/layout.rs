@@ -279,7 +279,7 @@ impl Entry<'_> {
     }
 }
 
-/// Endings of names, each with its unit in words. Longer matches precede shorter ones.
+/// Endings of names, each with its unit in words. Longer matches precede shorter matches.
 const ENDINGS: [(&str, &str); 30] = [
     ("_gf_per_w", "gf/W"),
     ("_deg_per_v", "deg/V"),

@@ -110,8 +110,8 @@ pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option
 
 /// A sample of points that are spread over a plan.
 ///
-/// Until the last point of the sample is done, further points keep all lanes full, as in a sweep. Otherwise the slowest points
-/// would run alone and distort the time.
+/// Until the last point of the sample is done, further points keep all lanes full, as in a sweep. Without the further
+/// points, the slowest points of the sample would run alone and distort the time.
 struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
@@ -245,7 +245,7 @@ impl Trial<'_> {
         None
     }
 
-    /// Ends the sample if it is large enough, has all points, or took long enough.
+    /// Ends the sample if the sample is large enough, has all points, or took long enough.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
             || self.looked_at >= self.plan.len()
@@ -318,7 +318,7 @@ mod tests {
 
     use super::*;
 
-    /// All points of a plan, and their work.
+    /// All points of a plan, and the work for each point.
     struct All<'a> {
         plan: &'a Plan,
         next: u64,

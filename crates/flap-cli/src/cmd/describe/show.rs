@@ -27,7 +27,7 @@ pub(super) fn text(description: &Description, format: OutputFormat) -> Result<St
     }
 }
 
-/// Tables, one below the other.
+/// The tables of a summary, from top to bottom.
 fn page(description: &Description) -> String {
     let mut tables = Vec::new();
     if !description.statuses.is_empty() {

@@ -194,7 +194,7 @@ fn object(map: &WrenchMap, chosen: &Chosen, vehicle: &Vehicle) -> String {
     format!("{{\n{}\n}}\n", lines.join(",\n"))
 }
 
-/// Returns the text of a value, with one line per entry if it is a list of lists or of objects.
+/// Returns the text of a value, with one line per entry for a list of lists or of objects.
 fn listed(value: &Value) -> String {
     match value {
         Value::Array(entries) if entries.iter().any(|entry| entry.is_array() || entry.is_object()) => {

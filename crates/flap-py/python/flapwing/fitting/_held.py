@@ -62,7 +62,8 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names)
 
 
 def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
-    """Return the smallest and the largest value of a range, in SI units. None is an open end."""
+    """Return the smallest and the largest value of a range, in SI units. An end of None means that the range is open at
+    this end."""
     place = f"hold_out[{name!r}]"
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(

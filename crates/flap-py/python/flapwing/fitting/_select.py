@@ -264,7 +264,7 @@ class _Work:
         """Return the predicted decrease of chi-square if a further parameter is freed, and the start of that fit.
 
         The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
-        One evaluation gives the derivatives for all candidates at their values in the design.
+        One evaluation computes the derivatives for all candidates, at the values of the candidates in the design.
         """
         active = self.space(state.names)
         beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
@@ -363,7 +363,7 @@ def select(
         The readings, as for `fit`.
     candidates : list of str, or dict
         The parameters that may be freed, with bounds as for `fit`. `flapwing.candidates` returns a suitable dictionary.
-        Until a candidate is freed, it has its value in the design.
+        A candidate that is not free has its value in the design.
     start : list of str, or dict
         The parameters that are free from the beginning, with bounds as for `fit`.
     budget : int, optional

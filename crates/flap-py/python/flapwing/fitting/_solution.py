@@ -36,7 +36,7 @@ class Estimate:
         True if the interval extends to the lower or upper bound of the parameter. The data then give no limit for the
         parameter on this side.
     profile : Profile or None
-        The profile likelihood of the parameter, if it was computed.
+        The profile likelihood of the parameter, if the fit computed profiles.
     at_bound : bool
         True if the estimate of the parameter is at a bound of the parameter.
     """

@@ -108,7 +108,7 @@ def flight(
     Raises
     ------
     ValueError
-        A table is no flight, or a group is unknown. There are more than four flights, or a number of names that differs
+        A table is no flight, or a group is unknown. There are more than four flights, or the number of names differs
         from the number of flights. With `ax`: several panels.
 
     Examples

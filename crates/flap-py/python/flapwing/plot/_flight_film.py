@@ -69,7 +69,7 @@ def flight_film(
         The vehicle with the positions and sizes of its wings. Default: the vehicle of the flight. If the flight is a
         file, `vehicle` is required.
     views : sequence of str
-        One to three views: ``"side"`` (from the right), ``"top"`` and ``"front"``. Default: side and top.
+        A list of one to three views: ``"side"`` (from the right), ``"top"`` and ``"front"``. Default: side and top.
     frames : int
         Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
         takes about 0.1 s to draw.

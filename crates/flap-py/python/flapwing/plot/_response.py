@@ -44,7 +44,7 @@ def response(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
-        several results: a mapping of names to results, or a list. Each design then has one line.
+        several results: a mapping of names to results, or a list. With several results, each design has one line.
     y : str, optional
         The measure to draw. Default: the peak-to-peak stroke.
     x : str, optional
@@ -124,7 +124,7 @@ def response_panels(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
-        several results: a mapping of names to results, or a list. Each design then has one line.
+        several results: a mapping of names to results, or a list. With several results, each design has one line.
     measures : sequence of str
         The measures to draw, from top to bottom.
     x : str, optional

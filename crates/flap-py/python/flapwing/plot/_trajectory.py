@@ -56,7 +56,8 @@ def trajectory(
     ----------
     table : Table, data frame, mapping of columns, or path
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
-        trajectories: a mapping of names to trajectories, or a list. Each design then has one colour.
+        trajectories: a mapping of names to trajectories, or a list. With several trajectories, each design has one
+        colour.
     signals : str or sequence of str
         The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
         each column has its own axes. Default: stroke and pitch.
@@ -226,7 +227,8 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
 
 
 def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarray, str]:
-    """Return the rate of a signal and its unit: from the rate's column if there is one, else from the samples."""
+    """Return the rate of a signal and its unit: from the column of the rate, or from the samples if there is no such
+    column."""
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name

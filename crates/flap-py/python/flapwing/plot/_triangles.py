@@ -36,7 +36,7 @@ def form_no_grid(data: Data, x: str, y: str) -> bool:
 
 
 class Points:
-    """Points in the plane of two parameters, and the triangles between them."""
+    """Points in the plane of two parameters, and the triangles between the points."""
 
     def __init__(self, data: Data, x: str, y: str, scales: tuple[str | None, str | None], values: np.ndarray) -> None:
         self.x, self.y = data.shown(x), data.shown(y)

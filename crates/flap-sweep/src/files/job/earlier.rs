@@ -100,8 +100,8 @@ impl<'a> Job<'a> {
         Ok(outcome)
     }
 
-    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. Otherwise it
-    /// fails.
+    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. Otherwise the
+    /// function returns an error.
     fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
@@ -164,7 +164,7 @@ impl<'a> Job<'a> {
 
     /// Returns the first line of the grid file that has changed since the results at `place` were begun, in words.
     ///
-    /// `None` unless they are `other` rows.
+    /// `None` if the unfinished results are not rows of the kind `other`.
     fn changed_since(&self, place: &Path, other: bool) -> Option<String> {
         let before = Sidecar::read(&sidecar_of(place)).ok().filter(|_| other)?;
         self.changed_line(&before)

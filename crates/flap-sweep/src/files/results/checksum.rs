@@ -15,9 +15,10 @@ use crate::notation::text::digits;
 
 /// Number of rows in a block. Each block has a checksum, and is a frame in compressed files.
 ///
-/// Blocks begin at the same rows for any number of threads and in resumed runs, so the bytes of files do not depend
-/// on them. Rows in an incomplete frame are lost if the process is killed. Larger blocks would hardly make files
-/// smaller.
+/// Blocks begin at the same rows for any number of threads and in resumed runs. The bytes of files therefore do not
+/// depend on threads and interruptions. Rows in an incomplete frame are lost if the process is killed. Larger blocks
+/// would hardly
+/// make files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
 /// Number of checksums in one line of a sidecar. Ten million rows take 3,300 such lines, a ten-thousandth of the

@@ -94,7 +94,7 @@ fn toml_text(value: &impl Serialize) -> String {
 pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
 
 impl<'a> Recorded<'a> {
-    /// Returns the entries of a file, if flap wrote them.
+    /// Returns the entries of a file, if flap wrote the file.
     pub fn of(entries: &'a [(String, String)]) -> Option<Recorded<'a>> {
         let entries: BTreeMap<&str, &str> =
             entries.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();

@@ -255,7 +255,7 @@ pub enum ParseError {
     /// The text does not have the format of a sidecar.
     #[error("{0}")]
     Format(String),
-    /// The text has changed since it was written.
+    /// The text is not the text that flap wrote.
     #[error("{0}")]
     Damaged(&'static str),
 }

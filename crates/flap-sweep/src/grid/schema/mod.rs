@@ -1,8 +1,8 @@
 //! JSON schema of grid files, from the tables that the check of grid files uses. Editors use the schema to complete
 //! keys and show mistakes.
 //!
-//! The schema accepts every grid that the check accepts. It rejects unknown keys, options and types. It does not
-//! check units, formulas and contradictions.
+//! The schema accepts every grid that the check accepts. The schema rejects unknown keys, options and types. The schema
+//! does not check units, formulas and contradictions.
 
 mod model;
 mod sections;

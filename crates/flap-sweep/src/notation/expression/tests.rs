@@ -128,7 +128,7 @@ fn reads_are_the_places_of_the_names() {
     assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
 }
 
-/// Message at a token that is no operator but should be one.
+/// Message at a token where an operator is expected.
 const OPERATOR: &str =
     "expected an operator; values are in SI units and written without them; products need a `*`";
 
@@ -217,7 +217,7 @@ fn hostile_nesting_is_refused() {
 }
 
 proptest! {
-    /// No text panics, and spans always lie within the text.
+    /// Parsing of random text never panics, and the positions of mistakes are always within the text.
     #[test]
     fn any_text_is_handled(words in prop::collection::vec(0..24_usize, 0..12), other in "\\PC{0,16}") {
         const WORDS: [&str; 24] = [

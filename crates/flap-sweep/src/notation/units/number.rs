@@ -46,7 +46,7 @@ pub enum UnitProblem {
     },
     /// The unit is malformed.
     BadUnit(&'static str),
-    /// The expected unit is not a unit of flap, and the unit in the text is a different one.
+    /// The expected unit is not a unit of flap, and the unit in the text is a different unit.
     NotConverted {
         /// Unit in the text.
         unit: String,

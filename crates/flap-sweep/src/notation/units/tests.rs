@@ -137,7 +137,7 @@ proptest! {
         prop_assert_eq!(parse_as(&format!("{value:?} V"), "V"), Ok(value));
     }
 
-    /// No text causes a panic, and spans always lie within the text.
+    /// Parsing of random text never panics, and the positions of mistakes are always within the text.
     #[test]
     fn any_text_is_handled(text in "[0-9eE.+-]{0,4} ?[a-zA-Zµ°²⁻%*/^()· 0-9]{0,8}", other in "\\PC{0,12}") {
         for text in [text, other] {

@@ -96,7 +96,7 @@ pub struct Optimum {
     pub status: Status,
     /// The value of the goal at the best design.
     pub goal: f64,
-    /// One value per parameter.
+    /// Value of each parameter, in the order of the parameters.
     pub values: Vec<f64>,
     /// The row of the best design: the measures of the model, then the measures of the plan.
     pub row: Row,

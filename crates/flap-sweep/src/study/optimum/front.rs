@@ -46,9 +46,10 @@ pub enum FrontError {
     Run(#[from] RunError),
 }
 
-/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. Their limits on the
-/// second goal are evenly spaced. Each search starts from the points beside it. `stops` gets the number of finished points of
-/// the front and the number of all points. If `stops` returns true, the search ends.
+/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. The limits
+/// of the points on the second goal are evenly spaced. The search for a point starts from the neighbouring points of
+/// the front. `stops` gets the number of finished points of the front and the number of all points. If `stops`
+/// returns true, the search ends.
 ///
 /// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///

@@ -4,8 +4,8 @@
 //! turns again and joins the other branch.
 //!
 //! Pseudo-arclength continuation follows the branch (H. B. Keller, 1977). The unknowns are the state at the beginning
-//! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last
-//! two.
+//! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two
+//! orbits.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};

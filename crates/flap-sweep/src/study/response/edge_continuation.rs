@@ -483,7 +483,7 @@ fn test(kind: EdgeKind, m: &DMatrix<f64>) -> f64 {
     }
 }
 
-/// Returns the matrix of all 2 × 2 minors. Its eigenvalues are the products of two eigenvalues of `m`.
+/// Returns the matrix of all 2 × 2 minors. The eigenvalues of the result are the products of two eigenvalues of `m`.
 fn second_compound(m: &DMatrix<f64>) -> DMatrix<f64> {
     let n = m.nrows();
     let pairs: Vec<[usize; 2]> = (0..n).flat_map(|j| (0..j).map(move |i| [i, j])).collect();

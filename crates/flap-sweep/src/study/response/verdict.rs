@@ -21,7 +21,8 @@ pub struct Verdict {
     pub step: f64,
     /// Longest step between neighbouring values among the steps in which the state changes by more than a tenth.
     pub steep_step: f64,
-    /// Largest difference of the stroke (deg, peak to peak) between the branches where they have the same motion.
+    /// Largest difference of the stroke (deg, peak to peak) between the branches at values where both branches have the
+    /// same motion.
     pub difference: f64,
     /// Bands in which the curve is not a single orbit, in ascending order of the parameter.
     pub bands: Vec<Band>,
