@@ -29,7 +29,7 @@ fn rows_without_their_estimate_cannot_be_chosen_by_it() {
         "preset = \"ozaki2018-large\"\n[solver]\naccuracy = 1e-14\n[output]\ncolumns = [\"lift_mean_mn\"]\n";
     let folder = Folder::with_grid(grid);
     folder.ends(0, "sweep grid.toml --out rows.csv").says(
-        "1 row misses the accuracy of [solver]: lower rtol there, or add `error_estimate` to `columns`\n",
+        "1 row misses the accuracy of [solver]: use a smaller rtol, or add `error_estimate` to `columns`\n",
     );
     assert_eq!(folder.read("rows.csv").lines().next(), Some("point,status,lift_mean_mn"));
     folder.refuses(

@@ -15,7 +15,7 @@ const STATUSES: [&str; 7] = [
     "the motion has not settled after max_cycles drive periods: it is quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
     "the state became infinite or not a number: check the parameters against their units",
     "one drive period needs more than max_steps integration steps: check the parameters against their units, or raise max_steps in [solver]",
-    "the parameters are impossible together, or a derived parameter is out of its range; `flap run GRID --point N` prints the reason",
+    "the combination of parameter values is impossible, or a derived parameter is out of range; `flap run GRID --point N` prints the reason",
 ];
 
 #[test]

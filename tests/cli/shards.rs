@@ -187,7 +187,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
         format!(
             "error: the shards were computed by several builds of flap, whose rows may differ: grid.1of3.csv by build {build} of \
              flap {flap}, grid.2of3.csv by build zfed of flap {flap}\n\
-             help: sweep all shards with the same build, or use --mixed-builds to merge them as they are\n"
+             help: sweep all shards with the same build, or use --mixed-builds to merge these shards\n"
         )
     );
     assert!(!folder.path("merged.parquet").exists());

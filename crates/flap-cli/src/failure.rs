@@ -320,9 +320,8 @@ impl From<MergeError> for Failure {
         let message = error.to_string();
         match error {
             MergeError::Parts(_) => Failure::usage(message),
-            MergeError::Builds(_) => Failure::usage(message).help(
-                "sweep all shards with the same build, or use --mixed-builds to merge them as they are",
-            ),
+            MergeError::Builds(_) => Failure::usage(message)
+                .help("sweep all shards with the same build, or use --mixed-builds to merge these shards"),
             MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
         }

@@ -73,7 +73,7 @@ impl Bar {
 /// Time between two lines of progress.
 const PAUSE: Duration = Duration::from_secs(60);
 
-/// The progress as lines.
+/// Progress that is printed as lines of text.
 struct Log {
     last: Instant,
     /// Time and number of finished units at the beginning. Units of earlier sessions were not computed in this session.

@@ -24,7 +24,8 @@ pub(crate) fn meaning(status: Status) -> &'static str {
              raise max_steps in [solver]"
         }
         Status::Invalid => {
-            "the parameters are impossible together, or a derived parameter is out of its range; `flap run GRID --point N` \
+            "the combination of parameter values is impossible, or a derived parameter is out of range; `flap run GRID \
+--point N` \
              prints the reason"
         }
     }

@@ -328,7 +328,7 @@ fn many_rows_are_thinned_and_said() {
     }
     fs::write(folder.path("many.csv"), text).unwrap();
     let picture = drawn(&folder, "many.csv --kind pareto");
-    picture.says("20000 of 50000 points are drawn, evenly chosen; the front is of all");
+    picture.says("20000 of 50000 points are drawn, evenly chosen; the front is the front of all points");
     assert!(count(&picture.svg, "<circle") < 20_100);
     let picture = drawn(&folder, "many.csv --by drive_voltage_pp");
     assert!(picture.svg.len() < 1_000_000, "{}", picture.svg.len());

@@ -53,8 +53,9 @@ pub(crate) fn run(args: &OptimiseArgs) -> Result<Exit, Failure> {
             return front::run(args, &plan, [largest, smallest], points);
         }
         (Some(_), Some(_), None) => {
-            let failure =
-                Failure::usage("--maximise and --minimise together have a front, not one best design");
+            let failure = Failure::usage(
+                "--maximise and --minimise together give a front of designs, not one best design",
+            );
             return Err(failure
                 .help("add --points N, or keep one of these options and limit the other goal with --where"));
         }

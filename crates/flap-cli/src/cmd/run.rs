@@ -71,7 +71,7 @@ fn settle(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exi
     let mut row = chosen.simulator().run_point(&chosen.run(), None);
     plan.add_own_measures(values, &mut row.measures);
     if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
-        return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
+        return Err(Failure::usage(format!("the combination of parameter values is impossible: {reason}")));
     }
     let gradient = measure.map(|measure| Gradient::of(chosen, &row, measure)).transpose()?;
     match gradient {

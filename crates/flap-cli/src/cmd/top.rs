@@ -97,7 +97,7 @@ fn value(by: &str, cell: &str) -> Result<f64, Failure> {
         return Ok(f64::NAN);
     }
     cell.parse().map_err(|_| {
-        Failure::usage(format!("column `{by}` contains text such as `{cell}`, which have no order"))
+        Failure::usage(format!("column `{by}` contains text such as `{cell}`, and text has no order"))
             .help("choose a column of numbers with --by")
     })
 }

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let export = args.export.as_deref().map(|path| hover::check_output(path, &chosen.plan)).transpose()?;
     if args.format != OutputFormat::Table && args.damping && args.hover {
         let failure = Failure::usage("--damping and --hover are two tables, but csv and json contain one");
-        return Err(failure.help("run the command twice"));
+        return Err(failure.help("run the command once with --damping and once with --hover"));
     }
     let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
     let targets = targets(&args.trim, &vehicle.mass_properties(&chosen.values))?;
@@ -145,7 +145,7 @@ fn targets(given: &[(String, String)], body: &MassProperties) -> Result<Vec<Targ
             for target in hover::targets(body)? {
                 if targets.iter().any(|other| other.component == target.component) {
                     let name = COMPONENTS[target.component];
-                    return Err(Failure::usage(format!("--trim: `{name}` is given beside `{HOVER}`")));
+                    return Err(Failure::usage(format!("--trim: `{name}` and `{HOVER}` cannot be combined")));
                 }
                 targets.push(target);
             }

@@ -307,7 +307,7 @@ fn value(name: &str, cell: &str) -> Result<f64, Failure> {
         _ => cell.parse().ok(),
     };
     found.ok_or_else(|| {
-        Failure::usage(format!("column `{name}` contains text such as `{cell}`: they cannot be compared"))
+        Failure::usage(format!("column `{name}` contains text such as `{cell}`, and text has no order"))
             .help(format!("write --where {name}={cell}"))
     })
 }

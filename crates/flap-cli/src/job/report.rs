@@ -78,7 +78,7 @@ fn report_warnings(plan: &Plan, done: &Done) {
         let it = if inaccurate == 1 { "it" } else { "them" };
         console::say(&match &done.place {
             _ if !Layout::of(plan).has("error_estimate") => {
-                format!("{said}: lower rtol there, or add `error_estimate` to `columns`")
+                format!("{said}: use a smaller rtol, or add `error_estimate` to `columns`")
             }
             _ if is_rerun(plan) => {
                 let rtol = plan.solver().rtol;
@@ -92,14 +92,14 @@ fn report_warnings(plan: &Plan, done: &Done) {
                 shell_word(&place.to_string_lossy()),
                 beside(place, "accurate")
             ),
-            None => format!("{said} (see the column error_estimate): lower rtol there"),
+            None => format!("{said} (see the column error_estimate): use a smaller rtol"),
         });
     }
     if negative_power > 0 {
         let rows = count(negative_power, "row");
         let verb = if negative_power == 1 { "has" } else { "have" };
         console::say(&format!(
-            "{rows} {verb} negative mean power: the air gives energy to the wing there (see the manual, Models, Direct drive)"
+            "{rows} {verb} negative mean power: the air adds energy to the wing (see the manual, Models, Direct drive)"
         ));
     }
     if at_range_end > 0 {

@@ -34,7 +34,9 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let best = front(&designs.places, (x_aim == Aim::Max, y_aim == Aim::Max));
     let (drawn, all) = (designs.shown.len(), designs.places.len());
     if drawn < all {
-        console::say(&format!("{drawn} of {all} points are drawn, evenly chosen; the front is of all"));
+        console::say(&format!(
+            "{drawn} of {all} points are drawn, evenly chosen; the front is the front of all points"
+        ));
     }
 
     let mut notes = selection.notes.clone();

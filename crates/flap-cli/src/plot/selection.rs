@@ -292,7 +292,7 @@ fn frequency(request: &Request, axes: &Axes) -> Option<usize> {
     request.place("drive_frequency").filter(|column| axes.columns.contains(column))
 }
 
-/// Returns the kind of the request, or a kind that suits the file.
+/// Returns the kind of picture that the user requested, or a kind that suits the file.
 fn kind(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     let kind = match request.args.kind {
         Some(kind) => kind,

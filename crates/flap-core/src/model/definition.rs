@@ -146,7 +146,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// elsewhere must check them, or this function does so with [`Invalid::unless_within`].
     ///
     /// # Errors
-    /// [`Invalid`] if parameters are impossible together, or a derived constant is not finite: see
+    /// [`Invalid`] if the combination of parameter values is impossible, or a derived constant is not finite: see
     /// [`Invalid::together`] and [`Invalid::unless_finite`].
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 

@@ -18,7 +18,7 @@ pub enum Invalid {
         /// Allowed range.
         allowed: Range,
     },
-    /// Parameters that are each within their range, but impossible together.
+    /// Parameters that are each within range, but an impossible combination.
     #[error("{reason}")]
     Together {
         /// Names of the parameters.

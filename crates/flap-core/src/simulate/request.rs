@@ -89,7 +89,7 @@ pub struct Period {
 /// Reason for an incomplete motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unfinished {
-    /// The parameters are impossible together.
+    /// The combination of parameter values is impossible.
     #[error(transparent)]
     Invalid(#[from] Invalid),
     /// The request is impossible.

@@ -57,7 +57,7 @@ impl Row {
         }
     }
 
-    /// Returns the row of a point whose parameters are impossible together, with the reason.
+    /// Returns the row of a point with an impossible combination of parameter values, with the reason.
     pub fn invalid(reason: impl Display) -> Row {
         Row { reason: Some(reason.to_string()), ..Row::empty(Status::Invalid) }
     }
@@ -90,7 +90,7 @@ pub enum Status {
     Diverged,
     /// More than `max_steps` integration steps in one drive period, or steps too small to advance time.
     StepLimit,
-    /// The parameters are impossible together.
+    /// The combination of parameter values is impossible.
     Invalid,
 }
 

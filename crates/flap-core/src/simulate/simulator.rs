@@ -169,7 +169,7 @@ pub trait Gradients: Sync {
 /// Motions are computed on scalars. Each method returns these errors:
 ///
 /// - [`Unfinished::Interrupted`] if the run is interrupted
-/// - [`Unfinished::Invalid`] if the values are impossible together
+/// - [`Unfinished::Invalid`] if the combination of values is impossible
 /// - [`Unfinished::Request`] if the request is impossible
 /// - [`Unfinished::Diverged`] or [`Unfinished::StepLimit`] if the motion fails
 pub trait Motions: Gradients {
@@ -214,7 +214,7 @@ pub trait Motions: Gradients {
     /// effect.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the values are impossible together.
+    /// [`Unfinished::Invalid`] if the combination of values is impossible.
     fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished>;
 }
 
@@ -237,7 +237,7 @@ pub trait Experiments: Sync {
     /// Returns states and signals along an imposed motion. Signals of the actuator are NaN.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the values are impossible together, [`Unfinished::Request`] if stroke and pitch
+    /// [`Unfinished::Invalid`] if the combination of values is impossible, [`Unfinished::Request`] if stroke and pitch
     /// have different durations.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished>;
 
@@ -245,7 +245,7 @@ pub trait Experiments: Sync {
     /// excites.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the values are impossible together.
+    /// [`Unfinished::Invalid`] if the combination of values is impossible.
     fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished>;
 
     /// Returns the signals whose frequencies describe a free motion. The first one is the signal that an impulse

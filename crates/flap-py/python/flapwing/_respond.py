@@ -50,7 +50,7 @@ def respond(
         Longest step of the followed parameter at the ends of bistable bands and where the response is steep. Default: a
         sixteenth of the shortest step.
     unstable : bool, optional
-        If True, the branches are continued around the ends of bistable bands. The table then also has the unstable
+        If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.
     return_states : bool, optional
         Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.

@@ -242,7 +242,7 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<String> {
         match self {
             ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),

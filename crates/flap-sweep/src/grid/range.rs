@@ -120,7 +120,7 @@ fn missing_keys(entries: &[Entry<'_>]) -> String {
     missing.join(", ")
 }
 
-/// Returns `count` values from the first to the last end of the range.
+/// Returns `count` values, which include both ends of the range.
 fn counted(
     ends: &Ends<'_, '_>,
     n: &Entry<'_>,

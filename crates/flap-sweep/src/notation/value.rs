@@ -37,7 +37,7 @@ impl ValueError {
         }
     }
 
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<String> {
         match self {
             ValueError::NoOption { options, .. } => Some(format!("options: {}", options.join(", "))),

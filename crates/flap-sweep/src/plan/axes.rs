@@ -179,7 +179,7 @@ pub struct Axes {
 
 /// Error of axes with more than [`Axes::MAX_POINTS`] points in total.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the axes have more than 2^63 points between them")]
+#[error("the axes have more than 2^63 points in total")]
 pub struct TooManyPoints {
     /// Index of the axis that exceeds the limit.
     pub axis: usize,

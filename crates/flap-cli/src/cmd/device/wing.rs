@@ -138,7 +138,7 @@ fn material(args: &WingArgs) -> Result<Option<Material>, Failure> {
         (None, None) => None,
         _ => {
             return Err(Failure::usage("--thickness and --density are required together".to_owned())
-                .help("the product of both is the mass of the membrane per area".to_owned()));
+                .help("thickness times density is the mass of the membrane per area".to_owned()));
         }
     };
     let spar = args.spar.unwrap_or(0.0);

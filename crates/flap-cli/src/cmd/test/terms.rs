@@ -49,7 +49,7 @@ pub(super) fn run(args: &TermsArgs) -> Result<Exit, Failure> {
     let found = effects(plan, &run);
     if found.is_empty() {
         return Err(Failure::usage(format!("the model {} has no terms in flap's list", simulator.name()))
-            .help("`flap test terms` knows the terms of bimorph, direct-drive and four-bar"));
+            .help("`flap test terms` supports the models bimorph, direct-drive and four-bar"));
     }
     let change = |effect: &Effect, place: usize, column: &str| {
         let (before, after) = (row.measures[place], effect.measures()?[place]);

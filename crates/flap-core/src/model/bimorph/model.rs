@@ -61,9 +61,9 @@ type Column = Derived<Bimorph, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(w t), in (-180, 180]; the drive has the phase of the difference F_1 - F_2 of the plates' forces",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(w t), from -180 to 180; the drive has the phase of the difference F_1 - F_2 of the plates' forces",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), DRIVE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, in (-180, 180]",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, from -180 to 180",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg divided by drive_voltage_pp: the vertical axis of Figs. 4a and 5",
         |_, c, cycle| cycle.stroke.measure(PeakToPeak) * DEGREES / (2.0 * c.drive.amplitude)),

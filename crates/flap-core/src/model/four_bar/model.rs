@@ -53,9 +53,9 @@ type Column = Derived<FourBar, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, in (-180, 180]",
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, from -180 to 180",
         |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
-    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, in (-180, 180]: the phase shift of Arabagi et al. 2013",
+    Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, from -180 to 180: the phase shift of Arabagi et al. 2013",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
         |_, _, cycle| grams_force(cycle.lift.mean)),

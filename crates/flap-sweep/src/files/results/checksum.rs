@@ -34,8 +34,8 @@ pub struct Checksums {
     pub header: String,
     /// Number of rows in each block except the last.
     pub block_rows: u32,
-    /// Lower half of the XXH3 of every block of rows. Half of the hash is sufficient to locate damage that `text`
-    /// detects.
+    /// Lower half of the XXH3 of every block of rows. The lower half is sufficient, because these checksums only locate
+    /// damage that the checksum `text` detects.
     pub blocks: String,
     /// Checksum of the bytes of the file; `None` if the file was not written from undamaged rows.
     pub file: Option<FileSum>,

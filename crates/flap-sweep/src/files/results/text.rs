@@ -19,7 +19,7 @@ const WINDOW_LOG_MAX: u32 = 27;
 
 /// Writer of one header line, then one line per row.
 ///
-/// [`Format::Csv`] is plain text. Other formats have compressed frames of [`BLOCK_ROWS`] rows.
+/// [`Format::Csv`] is plain text. All formats except [`Format::Csv`] have compressed frames of [`BLOCK_ROWS`] rows.
 pub struct TextRows {
     lines: Lines<Frames>,
     rows_in_block: u32,

@@ -239,7 +239,7 @@ pub enum SidecarError {
         /// Mistake in the file.
         reason: String,
     },
-    /// The file has changed since flap wrote it.
+    /// Another program has changed the file.
     #[error("{} is damaged: {reason}", path.display())]
     Damaged {
         /// The file.

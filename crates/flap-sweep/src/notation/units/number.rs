@@ -93,7 +93,7 @@ impl UnitError {
         }
     }
 
-    /// Returns advice, if there is any.
+    /// Returns advice for the user, if there is advice for this mistake.
     pub fn help(&self) -> Option<String> {
         match &self.problem {
             UnitProblem::NoNumber => {

@@ -39,7 +39,7 @@ const MOST_TESTS: u64 = 40;
 /// The distance from a limit, divided by the limit's size, below which the pattern search follows the limit.
 const NEAR: f64 = 0.02;
 
-/// A function with its constraints, at a point: each constraint is at most zero.
+/// The value of a function and of its constraints at a point. A constraint is satisfied if its value is at most zero.
 struct Local {
     value: f64,
     slopes: Vec<f64>,

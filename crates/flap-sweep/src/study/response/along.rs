@@ -78,7 +78,7 @@ impl Along {
         &plan.parameters()[self.parameter]
     }
 
-    /// Returns one value per parameter of the model, for a design with the followed parameter at `value`.
+    /// Returns the value of each parameter of the model, for a design with the followed parameter at `value`.
     pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
         let mut values = design.values.clone();
         values[self.parameter] = value;
