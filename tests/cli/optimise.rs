@@ -104,7 +104,11 @@ fn mistakes_have_their_place_and_help() {
             "use deg",
         ),
         ("--maximise lift_mean_mn --where stroke_pp_deg", "a number, not a condition", "write a comparison"),
-        ("--maximise lift_mean_mn --minimise cycles", "give a front of designs, not one best design", "add --points N"),
+        (
+            "--maximise lift_mean_mn --minimise cycles",
+            "give a front of designs, not one best design",
+            "add --points N",
+        ),
         ("--maximise lift_mean_mn --points 3", "--points needs both --maximise and --minimise", ""),
         ("", "required arguments were not provided", "--maximise"),
     ] {

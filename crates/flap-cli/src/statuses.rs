@@ -25,8 +25,7 @@ pub(crate) fn meaning(status: Status) -> &'static str {
         }
         Status::Invalid => {
             "the combination of parameter values is impossible, or a derived parameter is out of range; `flap run GRID \
---point N` \
-             prints the reason"
+             --point N` prints the reason"
         }
     }
 }
