@@ -84,7 +84,7 @@ impl Table {
     /// Returns the text, with two blanks between columns: one line per row or, with a `width`, lines of at most `width` characters.
     ///
     /// With a `width`, the cells of the last column are wrapped. If the columns still do not fit, the columns are split
-    /// into several tables, from top to bottom. Each of these tables has the first column, or the columns of
+    /// into several tables, from top to bottom. Each part of a split table has the first column, or the columns of
     /// [`Table::with_keys`].
     pub(crate) fn text_within(&self, width: Option<usize>) -> String {
         let widths = self.widths();

@@ -5,13 +5,13 @@ const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_s
 /// The chart library.
 const CHART_LIBRARY: &str = include_str!("../web/uplot/uPlot.iife.min.js");
 
-/// Returns the page of results with this heading. `data` is JSON for the code of the page.
+/// Returns the page of results with the given heading. `data` is JSON for the code of the page.
 pub fn results(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/results.js"));
     filled(include_str!("../web/results.html"), heading, include_str!("../web/results.css"), data, script)
 }
 
-/// Returns the live page with this heading. `data` is JSON for the code of the page.
+/// Returns the live page with the given heading. `data` is JSON for the code of the page.
 #[cfg(feature = "server")]
 pub(crate) fn live(heading: &str, data: &str) -> String {
     let script = include_str!(concat!(env!("OUT_DIR"), "/live.js"));

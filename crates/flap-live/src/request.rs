@@ -114,7 +114,7 @@ pub(crate) enum Refused {
 }
 
 impl Refused {
-    /// Returns the refusal of impossible values, with this reason.
+    /// Returns the refusal of impossible values, with the given reason.
     pub(crate) fn impossible(error: impl Into<String>) -> Refused {
         Refused::Impossible { error: error.into(), help: None, parameter: None }
     }

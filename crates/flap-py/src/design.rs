@@ -39,7 +39,7 @@ pub(crate) fn alone(plan: Plan, set: &[usize]) -> PyResult<Plan> {
 
 /// Returns the plan of a model with the values of keywords, and the parameters that the keywords set.
 ///
-/// Returns `None` if there is no such model. Other parameters have the values of a preset.
+/// Returns `None` if no model has the given name. Other parameters have the values of a preset.
 pub(crate) fn plan_of_model(
     design: &Bound<'_, PyAny>,
     keywords: Option<&Bound<'_, PyDict>>,

@@ -160,7 +160,7 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
     }
 }
 
-/// Returns the exception that Python raises for this error of the operating system.
+/// Returns the exception that Python raises for the given error of the operating system.
 pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
     let message = format!("{what}: {error}");
     match error.kind() {

@@ -108,7 +108,7 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
     Ok((index, values.collect::<PyResult<_>>()?))
 }
 
-/// Returns the plan whose rows have only these measures.
+/// Returns the plan whose rows have only the given measures.
 fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let known: Vec<String> = plan.measured().map(str::to_owned).collect();
     plan.with_columns(names).map_err(|error| match error {
@@ -125,7 +125,7 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the plan whose rows have derivatives with respect to these parameters.
+/// Returns the plan whose rows have derivatives with respect to the given parameters.
 fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let mut by = Vec::with_capacity(names.len());
     for name in names {

@@ -1,4 +1,4 @@
-//! Parameters from Python: their names, and their values from keywords.
+//! Names of parameters in calls from Python, and values of parameters from keywords.
 
 use std::ffi::CString;
 

@@ -211,7 +211,7 @@ fn deviations(plan: &Plan) -> String {
 }
 
 /// Returns the parameters that stay the same although they usually change with a varied parameter, and formulas for
-/// these parameters. The text is empty if there are no such parameters.
+/// these parameters. The text is empty if no parameter stays the same in this way.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();

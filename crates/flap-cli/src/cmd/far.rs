@@ -1,4 +1,5 @@
-//! Warnings about values that are far from the values of the preset. Most such values are mistakes.
+//! Warnings about values that are far from the values of the preset. Values that are far from the preset are usually
+//! mistakes.
 
 use flap_sweep::study::deviation::Deviation;
 

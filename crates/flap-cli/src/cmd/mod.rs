@@ -1,4 +1,4 @@
-//! Commands, one module each, and the code that they share.
+//! Commands, with one module for each command, and code that several commands use.
 
 pub(crate) mod check;
 pub(crate) mod describe;

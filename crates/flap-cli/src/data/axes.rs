@@ -108,8 +108,8 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
 /// Smallest number of points at which a sample crossed with axes is recognised without its sidecar.
 const FEWEST: usize = 8;
 
-/// Returns true if the values of two columns determine each other but have different orders. Only samples have such
-/// columns.
+/// Returns true if the values of two columns determine each other but have different orders. Only samples have columns
+/// of this kind.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)

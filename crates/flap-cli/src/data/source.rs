@@ -18,7 +18,7 @@ use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
 
-/// Largest number of rows that are read. All numbers of these rows are in memory.
+/// Largest number of rows that are read. All numbers of the rows that are read are in memory.
 const MOST_ROWS: usize = 20_000_000;
 
 /// An open file of results whose header has been read.

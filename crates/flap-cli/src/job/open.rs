@@ -1,4 +1,4 @@
-//! Opens results that commands read, and reads the plans in their sidecars.
+//! Opens results that commands read, and reads the plans in the sidecars of results.
 
 use std::io::ErrorKind;
 use std::path::Path;

@@ -281,7 +281,7 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
 
 /// Returns the cells as rectangles. Neighbours overlap a little, so that no background is visible between them.
 ///
-/// `ends` has the right and the lower end of the axes. No cell extends beyond these ends.
+/// `ends` has the right and the lower end of the axes. No cell extends beyond the ends of the axes.
 fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
     for cell in cells {

@@ -79,7 +79,7 @@ pub(super) struct Taken {
     pub(super) of: usize,
 }
 
-/// Chooses the middle value of each axis in `axes`. The picture does not show these axes.
+/// Chooses the middle value of each axis in `axes`. The picture does not show the axes in `axes`.
 pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Slice {
     let mut taken = Vec::new();
     for &axis in axes {

@@ -13,7 +13,7 @@ use crate::failure::Exit;
 
 /// Returns a flag that the first SIGINT or SIGTERM sets. The second signal ends the process at once.
 ///
-/// A signal that the process ignores from its start stays ignored. Shells start background jobs in this way, which
+/// A signal that the process ignores from its start remains ignored. Shells start background jobs in this way, which
 /// protects the jobs from Ctrl-C at the terminal.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
@@ -41,7 +41,7 @@ fn is_ignored(signal: i32) -> bool {
 
 /// Makes a write beyond the file size limit of the process (`ulimit -f`) return an error instead of a signal.
 ///
-/// By default, such a signal ends the process.
+/// By default, the signal for the file size limit ends the process.
 pub(crate) fn refuse_large_files() {
     let _ = flag::register(SIGXFSZ, Arc::default());
 }

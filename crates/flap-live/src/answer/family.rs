@@ -9,7 +9,7 @@ use super::context::{AnswerContext, failed};
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
-/// The rows of a family, and the time of their computation.
+/// The rows of a family, and the time for computing the rows.
 #[derive(Serialize)]
 pub(crate) struct Family {
     #[serde(flatten)]

@@ -1,4 +1,4 @@
-//! Answers of the server: their headers, and the HTTP statuses of refusals.
+//! Answers of the server: headers of answers, and HTTP statuses of refusals.
 
 use axum::Json;
 use axum::http::header::{

@@ -64,7 +64,7 @@ pub struct Server {
     address: String,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
-    /// The process that started the server. A forked child has a copy of this struct, but not the thread.
+    /// The process that started the server. A forked child has a copy of the struct, but not the thread.
     process: u32,
 }
 

@@ -53,8 +53,8 @@ def evaluate(
         A masked array must have no masked values. If `columns` is a `Table`, only its parameters are used, not its
         measures.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
-        core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
+        with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
         that are done, and all points.

@@ -43,8 +43,8 @@ def fly(
     A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The vector x has nine states:
     the means of velocities, rates and angles over the last wing beat.
 
-    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. An example is an input
-    that leaves its range.
+    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. For example, an input
+    may leave its range.
 
     Parameters
     ----------

@@ -55,8 +55,8 @@ def respond(
     return_states : bool, optional
         Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
-        core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
+        with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the designs
         that are done, and all designs.

@@ -259,7 +259,7 @@ class DrivenPeak:
 
 @dataclass(frozen=True)
 class FrequencyGap:
-    """A range of drive frequencies without a periodic motion. The search may have missed a peak in this range.
+    """A range of drive frequencies without a periodic motion. The search may have missed a peak in such a range.
 
     Attributes
     ----------

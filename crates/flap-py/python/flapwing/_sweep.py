@@ -46,8 +46,8 @@ def sweep(
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, this is the number of threads of each task. Default: one thread per
-        core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
+        with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
         that are done, and all points.

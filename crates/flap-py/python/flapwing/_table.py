@@ -232,7 +232,7 @@ class Table:
 
     @property
     def periodic(self) -> Table:
-        """Return a table with the rows that have a periodic motion. Only these rows have measures."""
+        """Return a table with the rows that have a periodic motion. Only rows with a periodic motion have measures."""
         return self[self["status"] == "periodic"]
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -275,8 +275,8 @@ class Table:
         `curve`, the design's parameters, `branch`, and the followed parameter. Columns are variables with the
         attributes `units`, `long_name` and `description`. Points that the grid excludes have no row. The cells of an
         excluded point are nan, 0 or empty text, and columns of flags become float64. The column `point`, or the
-        parameters of the axes, locate the rows. If a table has neither `point` nor these parameters, ValueError is
-        raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is not text.
+        parameters of the axes, locate the rows. If a table has neither `point` nor the parameters of the axes,
+        ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

@@ -19,7 +19,8 @@ __all__ = ["WrenchMap", "wrench_map"]
 
 @dataclass(frozen=True, eq=False)
 class WrenchMap:
-    """A quadratic map from the inputs of a vehicle to its mean force and mean torque. `wrench_map` returns this class.
+    """A quadratic map from the inputs of a vehicle to its mean force and mean torque. `wrench_map` returns a
+    `WrenchMap`.
 
     With m inputs, each component has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. Terms of two inputs
     have the order ``1, s1, s2, s1*s1, s1*s2, s2*s2``, where s is an input scaled from -1 to 1 over its range.
@@ -33,7 +34,8 @@ class WrenchMap:
     units : list of str
         SI unit of each input.
     start, stop : array of shape (inputs,)
-        Smallest and largest value of each input (SI). The map is valid between these values.
+        Smallest and largest value of each input (SI). The map is valid for inputs between the smallest and the largest
+        value.
     components : list of str
         Columns of force and torque: ``"force_forward_mn"`` to ``"torque_yaw_unm"``, in mN and µN·m.
     powers : array of int of shape (terms, inputs)

@@ -1,5 +1,5 @@
-"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of these
-numbers.
+"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of such
+statistics.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()

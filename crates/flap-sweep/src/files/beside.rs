@@ -25,7 +25,7 @@ pub fn lock_of(results: &Path) -> PathBuf {
     with_ending(&disk::target(results), ".lock")
 }
 
-/// Returns the path of the rows before the results are complete. For a Parquet file this is [`part_of`].
+/// Returns the path of the rows before the results are complete. For a Parquet file, the path is [`part_of`].
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }

@@ -1,4 +1,4 @@
-//! Files that a command reads. The command must not write to these files.
+//! Files that a command reads. The command must not write to its input files.
 
 use std::path::{Path, PathBuf};
 
@@ -61,7 +61,7 @@ impl Inputs {
         self
     }
 
-    /// Checks results, their replacement, and the files beside both, as [`Inputs::protect`] does.
+    /// Checks results, the replacement of results, and the files beside both, as [`Inputs::protect`] does.
     ///
     /// # Errors
     /// [`Overlap`] with the first file that would be overwritten.

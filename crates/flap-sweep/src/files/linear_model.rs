@@ -112,7 +112,7 @@ impl LinearModel {
         self.hover.warnings(self.frequency, self.floquet_max)
     }
 
-    /// Writes the model in this format.
+    /// Writes the hover model in the format of the file.
     ///
     /// # Errors
     /// The error of writing to the target.

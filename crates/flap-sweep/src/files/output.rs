@@ -13,7 +13,7 @@ use super::{disk, replacement};
 /// Error of a result file that cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum CreateError {
-    /// A file of this name exists.
+    /// A file with the name of the results exists.
     #[error("{} exists already", .0.display())]
     Exists(PathBuf),
     /// The file is the unfinished result of an interrupted sweep.

@@ -96,7 +96,7 @@ pub enum RecordError {
         row: usize,
         /// Time between the two samples (s).
         step: f64,
-        /// Smallest accepted time between samples of this record (s).
+        /// Smallest accepted time between samples of a record of this kind (s).
         least: f64,
     },
     /// The samples do not define a smooth function of time.
@@ -205,7 +205,7 @@ impl Record {
     /// these columns.
     ///
     /// # Errors
-    /// - [`RecordError::Missing`] if no column has this quantity
+    /// - [`RecordError::Missing`] if no column has the requested quantity
     /// - [`RecordError::TooLarge`] if a number in the column is too large
     /// - [`RecordError::Contradiction`] if two columns differ
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {

@@ -33,8 +33,8 @@ use crate::table::layout::Cell;
 pub struct SessionOptions {
     /// Options of the run.
     pub run: RunOptions,
-    /// Time between checkpoints. Each checkpoint waits for the disk twice. A run that is killed loses the rows of
-    /// this time.
+    /// Time between checkpoints. Each checkpoint waits for the disk twice. A run that is killed loses the rows since
+    /// the last checkpoint.
     pub checkpoint: Duration,
 }
 
@@ -207,7 +207,7 @@ impl Session {
     }
 
     /// Writes all rows of the complete results at `path`, which belong to the same plan, as the first rows. `summary`
-    /// counts these rows.
+    /// counts the copied rows.
     ///
     /// # Errors
     /// The error of the operating system if a file cannot be read or written.
@@ -229,8 +229,8 @@ impl Session {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// Returns the path of the file that contains unfinished rows. For a Parquet file, this file is not the result
-    /// file.
+    /// Returns the path of the file that contains unfinished rows. For a Parquet file, the file with unfinished rows is
+    /// not the result file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
     }

@@ -272,7 +272,8 @@ fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize
         .collect()
 }
 
-/// Returns the formulas ordered so that each follows its dependencies. The result leaves out formulas in cycles, and
+/// Returns the formulas in an order in which each formula is after its dependencies. The result leaves out formulas in
+/// cycles, and
 /// formulas that depend on cycles.
 fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();

@@ -119,7 +119,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     }))
 }
 
-/// Sections of a grid file about its points.
+/// Sections of a grid file that describe the points.
 struct Points<'n> {
     base: Base,
     axes: Vec<axes::Placed>,

@@ -25,7 +25,7 @@ pub(super) struct Rows<'r> {
     pub(super) output: &'r Output,
 }
 
-/// Returns the refinement of the grid of these axes.
+/// Returns the refinement of the grid of the given axes.
 pub(super) fn read(
     section: &Entry<'_>,
     axes: &[Placed],

@@ -23,9 +23,9 @@ pub struct Quantity<'t> {
 pub enum QuantityError<E> {
     /// The quantity is compared with no column.
     Alone(String),
-    /// The rows have no column of this name.
+    /// The rows have no column with the contained name.
     Unknown(E),
-    /// The quantity does not fit the column of this name.
+    /// The quantity does not fit the column with the contained name.
     Unit(String, Box<UnitError>),
 }
 
@@ -134,8 +134,8 @@ fn unit(text: &str) -> usize {
     text.find(|letter| !is_part(letter)).unwrap_or(text.len())
 }
 
-/// The name with which the text from `start` to `end` is compared. The name is on the left or on the right of this
-/// text.
+/// The name with which the text from `start` to `end` is compared. The name is on the left or on the right of the
+/// number.
 fn compared(text: &str, start: usize, end: usize) -> Option<&str> {
     let is_sign = |letter: char| "<>=!".contains(letter);
     let left = text[..start].trim_end().trim_end_matches(['-', '+']).trim_end();

@@ -29,7 +29,7 @@ pub struct Way<'a> {
     pub bistable: &'a [bool],
 }
 
-/// Difference between the branches up and down.
+/// Bands and jumps: the differences between the branches up and down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// First and last value of each interval in which the branches differ.

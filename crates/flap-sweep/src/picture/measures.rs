@@ -27,7 +27,7 @@ impl Role {
         }
     }
 
-    /// Returns the measures for this role, beginning with the preferred measure.
+    /// Returns the measures for a role, beginning with the preferred measure.
     fn names(self) -> &'static [&'static str] {
         match self {
             Role::Response => {

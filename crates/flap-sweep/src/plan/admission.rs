@@ -11,14 +11,14 @@ use crate::notation::text;
 pub enum Admission {
     /// The point is run.
     Runs,
-    /// The point does not satisfy the conditions with these indices. The point has no row.
+    /// The point does not satisfy the conditions with the contained indices. The point has no row.
     Excluded(Vec<usize>),
     /// The point cannot be run. The row of the point contains the reason.
     Invalid(Invalid),
 }
 
 impl Plan {
-    /// Returns the decision whether the point with these values is run.
+    /// Returns the decision whether the point with the given values is run.
     pub fn judge(&self, values: &[f64]) -> Admission {
         let held: Vec<Option<bool>> =
             self.conditions().iter().map(|condition| condition.holds(values)).collect();

@@ -103,7 +103,7 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan whose rows contain only these measures, in this order.
+    /// Returns the plan whose rows contain only the given measures, in the given order.
     ///
     /// `names` are names of columns of the model or of the plan's own measures.
     ///
@@ -194,8 +194,8 @@ impl Plan {
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
-    /// Returns the plan without its preset. Parameters in `given` are set or varied later. Other parameters are
-    /// computed from these parameters.
+    /// Returns the plan without its preset. Parameters in `given` are set or varied later. All other parameters are
+    /// computed from parameters in `given`.
     ///
     /// # Errors
     /// [`ChangeError::Missing`] if `given` lacks a parameter that has no default and is not computed from other
@@ -285,20 +285,20 @@ impl Plan {
         self
     }
 
-    /// Returns the plan with these measures added at the end. Rows have no derivatives.
+    /// Returns the plan with the given measures added at the end. Rows have no derivatives.
     pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
         self.space.measures.extend(more);
         self.space.gradient = None;
         self
     }
 
-    /// Returns the plan with these conditions in place of the old conditions.
+    /// Returns the plan with the given conditions in place of the old conditions.
     pub(crate) fn with_conditions(mut self, conditions: Vec<Condition>) -> Plan {
         self.space.conditions = conditions;
         self
     }
 
-    /// The plan of one point with these values of the varied parameters. The values need not be in range.
+    /// The plan of one point with the given values of the varied parameters. The values need not be in range.
     ///
     /// # Errors
     /// [`ChangeError::TooManyPoints`], which does not occur for one point.
@@ -310,7 +310,7 @@ impl Plan {
     }
 
     /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A
-    /// parameter that is NaN is computed from other parameters, as before.
+    /// parameter that is NaN is computed from other parameters.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {
         for (known, value) in self.space.base.iter_mut().zip(values) {

@@ -164,7 +164,8 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
-/// Returns true if a parameter is zero and cannot be negative. Differences of such a parameter are one-sided.
+/// Returns true if a parameter is zero and cannot be negative. Differences with respect to such a parameter are
+/// one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
     let range = match parameters[index].kind {
         Kind::Number(range) | Kind::Following(range, _) => range,
@@ -226,7 +227,7 @@ fn published(simulator: &dyn Simulator, index: usize) -> f64 {
 /// Checks that rows can have derivatives with respect to `parameter`.
 ///
 /// # Errors
-/// [`NoShares`] if rows cannot have these derivatives.
+/// [`NoShares`] if rows cannot have derivatives with respect to the parameter.
 pub(crate) fn check(
     parameter: &Parameter,
     is_derived: bool,

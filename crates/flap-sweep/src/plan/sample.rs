@@ -134,7 +134,7 @@ pub(super) struct Permutation {
 }
 
 impl Permutation {
-    /// Returns the permutation of `count` numbers with this key.
+    /// Returns the permutation of `count` numbers for a key.
     pub(super) fn new(count: u64, key: u64) -> Permutation {
         let bits = u64::BITS - count.saturating_sub(1).leading_zeros();
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }

@@ -66,7 +66,7 @@ impl fmt::Display for Selection {
 
 /// One of several equal parts of a plan: the points whose index modulo `of` equals `number - 1`.
 ///
-/// Neighbouring points take similar time, so such parts also take similar time.
+/// Neighbouring points take similar time, so parts of this kind also take similar time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u64,

@@ -17,8 +17,8 @@ pub enum Value {
 }
 
 impl Value {
-    /// Returns the values of a preset of `model`, one per parameter. Parameters that the preset lacks have their
-    /// defaults.
+    /// Returns the values of a preset of `model`, one per parameter. Parameters that the preset lacks have default
+    /// values.
     pub(crate) fn of_preset(model: &dyn Simulator, preset: &Preset) -> Vec<Value> {
         let given = (preset.values)();
         // A vehicle has more parameters than its model.

@@ -165,7 +165,7 @@ fn side(axis: &Axis) -> Side {
 }
 
 /// Returns the plan with the points of all rounds that begin within the first `done` points. Also returns the
-/// refinement after these points.
+/// refinement after the first `done` points.
 ///
 /// `rows` are the written rows of the plan, in their order.
 ///

@@ -21,7 +21,7 @@ pub struct Chunk {
     outcomes: Vec<Outcome>,
 }
 
-/// Runs the points at these `positions` among the selected points.
+/// Runs the points at the given `positions` among the selected points.
 ///
 /// `stop` is called several times a second. After `stop` returns true, the chunk contains only the first points.
 ///
@@ -77,7 +77,7 @@ impl Chunk {
     /// `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the points are not these points.
+    /// [`RunError::Chunk`] if the points are different points.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

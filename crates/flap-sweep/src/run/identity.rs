@@ -1,4 +1,4 @@
-//! Identity of rows: everything that determines their bytes. Rows with equal identity may be in the same file.
+//! Identity of rows: everything that determines the bytes of rows. Rows with equal identity may be in the same file.
 
 use std::sync::LazyLock;
 

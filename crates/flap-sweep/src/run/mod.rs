@@ -96,7 +96,7 @@ pub enum RunError {
     /// The model violated its contract, which is a bug in the program.
     #[error("bug in the model: {0}")]
     Model(String),
-    /// Rows from another process do not belong to this run.
+    /// Rows from another process do not belong to the run.
     #[error("rows of a worker do not belong to this run: {0}")]
     Chunk(String),
     /// Fetching rows from other processes failed.

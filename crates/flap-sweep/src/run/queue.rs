@@ -7,7 +7,8 @@
 //! unfinished units, the run fails.
 //! Collecting waits only while there are workers, and a dropped run aborts its workers.
 //!
-//! After a stop, workers have a short time to finish their units. Units that still run after this time are dropped.
+//! After a stop, workers have a short time to finish their units. Units that still run after the short time are
+//! dropped.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -52,7 +53,7 @@ struct State<T> {
 }
 
 impl<T> Queue<T> {
-    /// Returns the queue of `units` with these options.
+    /// Returns the queue of `units` with the given options.
     pub(super) fn new(units: Range<u64>, options: &RunOptions, workers: usize) -> Queue<T> {
         let (window, grace) = (Window::new(units, options.window), options.grace);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };

@@ -67,7 +67,7 @@ pub struct InvalidPoint {
     pub reason: String,
 }
 
-/// Summary of the rows written so far. Journals and sidecars record the summary in this form.
+/// Summary of the rows written so far. Journals and sidecars record the summary.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Summary {
     /// Number of points to run in total; for a response, number of designs.
@@ -126,7 +126,7 @@ impl Summary {
         self.statuses.of(Status::Periodic) == self.rows
     }
 
-    /// Counts a point that does not satisfy the conditions with these indices.
+    /// Counts a point that does not satisfy the conditions with the given indices.
     pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
         self.excluded += 1;
         for &condition in unsatisfied {
@@ -134,7 +134,7 @@ impl Summary {
         }
     }
 
-    /// Adds the written row of the point with this index in the plan.
+    /// Adds the written row of the point with the given index in the plan.
     pub(super) fn add(&mut self, index: u64, row: &Row, limits: &Limits) {
         if let (Status::Invalid, Some(reason)) = (row.status, &row.reason)
             && self.invalid.len() < Summary::MOST_INVALID

@@ -25,8 +25,8 @@ pub trait Sink {
         Ok(())
     }
 
-    /// Returns the rows that earlier runs have written, as text, in the order of the rows. A refinement requires these
-    /// rows.
+    /// Returns the rows that earlier runs have written, as text, in the order of the rows. A refinement requires the
+    /// rows of earlier runs.
     ///
     /// # Errors
     /// The error of opening the file with the rows.
@@ -41,7 +41,7 @@ pub trait Sink {
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
     /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed after
-    /// these rows.
+    /// the counted rows.
     ///
     /// # Errors
     /// The error of storing the rows.
@@ -183,7 +183,7 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.done(&self.summary)?)
     }
 
-    /// Counts the next unit as excluded by the conditions with these indices. An excluded unit has no row.
+    /// Counts the next unit as excluded by the conditions with the given indices. An excluded unit has no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
         Ok(self.sink.done(&self.summary)?)

@@ -40,7 +40,7 @@ pub struct Input {
 /// Error of an unknown or unsuitable input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ControlInputError {
-    /// The vehicle has no such parameter.
+    /// The vehicle has no parameter for the input.
     #[error("the vehicle has no input `{0}`")]
     Unknown(String),
     /// The parameter is a choice.
@@ -55,7 +55,7 @@ impl Input {
     /// before `_difference` to the left-right difference.
     ///
     /// # Errors
-    /// An error if the vehicle has no such input.
+    /// An error if the vehicle has no input with the given name.
     pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
         let parameters = parameters(vehicle);
         let unknown = || ControlInputError::Unknown(name.to_owned());
@@ -364,7 +364,7 @@ pub struct Mode {
 }
 
 impl Flight<'_> {
-    /// Returns the row at these values of the vehicle's parameters. If `begin` is given, the motion starts from the
+    /// Returns the row at the given values of the vehicle's parameters. If `begin` is given, the motion starts from the
     /// state `begin`.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
         let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
@@ -490,10 +490,10 @@ impl Flight<'_> {
     }
 }
 
-/// Change of a velocity of the body in differences (m/s).
+/// Change of a velocity of the body for computing differences (m/s).
 const VELOCITY_STEP: f64 = 0.01;
 
-/// Change of a rate of the body in differences (rad/s).
+/// Change of a rate of the body for computing differences (rad/s).
 const RATE_STEP: f64 = 1.0;
 
 /// Returns the values, with the values of all wings in place of unset parameters of one wing.

@@ -28,7 +28,7 @@ const MOST_BEATS: f64 = 1e6;
 /// Settings of a flight simulation.
 #[derive(Clone, Debug)]
 pub struct FlightRequest {
-    /// Duration (s). The flight ends with the wing beat that contains this time.
+    /// Duration (s). The flight ends with the wing beat that contains the end of the duration.
     pub seconds: f64,
     /// Velocities (m/s), rates (rad/s) and angles (rad) of the body at the beginning, without the vibration of each beat.
     pub disturbance: [f64; FED_BACK],

@@ -87,7 +87,7 @@ pub enum HoverError {
          body_inertia_product must be smaller than body_inertia_roll times body_inertia_yaw"
     )]
     NotPositive,
-    /// No mass distribution has these moments of inertia.
+    /// No mass distribution has the given moments of inertia.
     #[error(
         "no body has the principal moments of inertia {:.4e}, {:.4e} and {:.4e} kg*m^2: each moment is at most the sum of \
          the other two", .0[0], .0[1], .0[2]
@@ -158,7 +158,7 @@ pub fn at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<(), HoverError> {
 
 /// Returns the derivatives of force (N) and torque (N·m) with respect to velocity (m/s) and rates (rad/s) of the body.
 ///
-/// `begin` is the state of the settled motion at these values.
+/// `begin` is the state of the settled motion at the operating point.
 ///
 /// # Errors
 /// If the model has no motion of the body, the motion is not periodic, or a derivative is missing.

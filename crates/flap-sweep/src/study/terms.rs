@@ -63,7 +63,7 @@ impl Effect {
     }
 }
 
-/// Returns the effect of each term on the design of `run`. Each effect is for a change of this term alone.
+/// Returns the effect of each term on the design of `run`. Each effect is for a change of one term alone.
 ///
 /// A term that the design leaves out is switched on with a typical size. A term that the design has is switched off.
 /// Derived parameters of the plan are updated.

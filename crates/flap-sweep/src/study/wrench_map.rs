@@ -305,7 +305,7 @@ impl WrenchMap {
         core::array::from_fn(|component| wrench[component])
     }
 
-    /// Returns the value of each term at these values of the inputs.
+    /// Returns the value of each term at the given values of the inputs.
     fn monomials(&self, values: &[f64]) -> DVector<f64> {
         let scaled: Vec<f64> = (self.inputs.iter().zip(values))
             .map(|(input, value)| (value - input.centre()) / input.half_range())

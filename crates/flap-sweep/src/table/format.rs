@@ -77,7 +77,7 @@ pub enum FormatError {
         /// Allowed endings.
         allowed: &'static str,
     },
-    /// The format is not part of this build.
+    /// The format is not part of this build of flap.
     #[error("{0}: this flap was built without Parquet")]
     WithoutParquet(String),
 }

@@ -116,7 +116,7 @@ impl<'p> Layout<'p> {
         })
     }
 
-    /// Returns true if rows have a column with this name.
+    /// Returns true if rows have a column with the given name.
     pub fn has(&self, name: &str) -> bool {
         self.entries().any(|entry| entry.column().name == name)
     }

@@ -131,7 +131,7 @@ struct Trial<'a> {
     /// Number of valid points.
     valid: u64,
     layout: Layout<'a>,
-    /// The rows of the sample as CSV, and their number.
+    /// The rows of the sample as CSV, and the number of rows.
     rows: CsvSink<Vec<u8>>,
     written: u64,
     /// Index and reason of the first invalid point.

@@ -13,7 +13,8 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::Table;
 
-/// Measures in the table, and their headers. Changes of the mean stroke are in degrees, because the mean stroke of most
+/// Measures in the table, with the headers of the columns. Changes of the mean stroke are in degrees, because the mean
+/// stroke of most
 /// designs is zero.
 const MEASURES: [(&str, &str); 6] = [
     ("stroke_pp_deg", "stroke"),

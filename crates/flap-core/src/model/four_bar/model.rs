@@ -45,7 +45,7 @@ crate::signals! {
         current: (Unit::MA, "current into the actuator (not in Arabagi et al. 2013)", [Rms, Peak]),
         tip: (Unit::UM, "displacement of the actuator's tip", [PeakToPeak, Peak]),
         power_transduced: (Unit::MW, "electrical power without the power of capacitances and of the constant part of the voltage", []),
-        power_driving: (Unit::MW, "mechanical power of the actuator without the power of its stiffness", []),
+        power_driving: (Unit::MW, "mechanical power of the actuator without the power of the actuator's stiffness", []),
     }
 }
 

@@ -72,7 +72,8 @@ def fit(
     hold_out : float, str, dict, or list of str and dict, optional
         Readings that are predicted instead of fitted: a fraction of all readings, names of data sets, or ranges of
         parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units; An end of
-        None means that the range is open at this end. The model computes these readings only once, after the search.
+        None means that the range is open at this end. The model computes the held-out readings only once, after the
+        search.
     profile : bool
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster.

@@ -74,7 +74,8 @@ class _Side:
 @dataclass(frozen=True)
 class _Walks:
     """The fit from which profiles begin: the readings, the estimate, and the covariance without the discrepancy of the
-    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at `quantile` such errors.
+    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at a distance of `quantile`
+    errors from the estimate.
     """
 
     space: Space

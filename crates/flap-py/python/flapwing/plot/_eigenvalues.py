@@ -30,7 +30,8 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
         model without a name has no legend. By default, the legend is beside the axes of a new figure, and inside axes
         that you give.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Default: axes of a
+        new figure.
 
     Returns
     -------

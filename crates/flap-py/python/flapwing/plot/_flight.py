@@ -98,7 +98,7 @@ def flight(
         False for no legends, or the place of the legends inside the axes, such as ``"upper left"``. By default, the
         legends are above the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes for one panel, in the style of their figure. Default: axes of a new figure.
+        Axes for one panel. The panel has the style of the figure with these axes. Default: axes of a new figure.
 
     Returns
     -------

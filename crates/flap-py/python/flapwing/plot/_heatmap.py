@@ -100,8 +100,8 @@ def heatmap(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
-        outside of these axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
+        colour bar are outside of the given axes. Default: axes of a new figure.
 
     Returns
     -------

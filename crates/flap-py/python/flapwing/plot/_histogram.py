@@ -53,8 +53,8 @@ def histogram(
         legend is above the axes of a new figure, and inside axes that you give. The legend contains the mean and the
         standard deviation.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Only labels are outside of these
-        axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels are
+        outside of the given axes. Default: axes of a new figure.
 
     Returns
     -------

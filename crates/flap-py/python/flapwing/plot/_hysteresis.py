@@ -50,8 +50,8 @@ def hysteresis(
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is beside the axes of a new figure, and inside axes that you give.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
-        outside of these axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
+        colour bar are outside of the given axes. Default: axes of a new figure.
 
     Returns
     -------

@@ -42,8 +42,9 @@ def pareto(
     table : Table, data frame, mapping of columns, or path
         Results of any kind.
     maximize, minimize : str or sequence of str
-        The objectives, at least two. The picture shows the first two objectives. If one of them is minimised, this
-        objective is on the horizontal axis. Default: maximise the mean lift and minimise the mean power.
+        The objectives, at least two. The picture shows the first two objectives. If one of the first two objectives is
+        minimised, the minimised objective is on the horizontal axis. Default: maximise the mean lift and minimise the
+        mean power.
     color : str, optional
         A column that sets the colours of the points: numbers with a colour bar, words with a legend.
     cmap : str, optional
@@ -60,8 +61,8 @@ def pareto(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Only labels and a colour bar are
-        outside of these axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
+        colour bar are outside of the given axes. Default: axes of a new figure.
 
     Returns
     -------

@@ -67,7 +67,8 @@ def response(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The picture has the style of the figure of these axes. Default: axes of a new figure.
+        Axes for the picture. The style of the picture is the style of the figure with these axes. Default: axes of a
+        new figure.
 
     Returns
     -------
@@ -184,8 +185,8 @@ def response_panels(
 
 
 def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
-    """Return results as one table, and the column that has one line for each value. For several results, this column
-    has the names of the results.
+    """Return results as one table, and the column that has one line for each value. For several results, the column for
+    the lines has the names of the results.
     """
     designs = several(table, label)
     if designs is None:

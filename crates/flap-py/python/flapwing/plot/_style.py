@@ -209,7 +209,7 @@ def size(factor: float) -> float:
 
 def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
     """Return a new figure whose layout fits its labels. If the user has changed the size of figures in matplotlib, the
-    figure has this width. A figure with one axes also has this height.
+    figure has this width. A figure with one axes also has the changed height.
     """
     if not _is_default("figure.figsize"):
         sides = mpl.rcParams["figure.figsize"]

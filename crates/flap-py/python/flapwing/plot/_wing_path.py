@@ -67,8 +67,8 @@ def wing_path(
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is above the axes.
     ax : matplotlib Axes, optional
-        Axes for the picture of the wing. The curves of stroke and pitch are then not drawn. The legend is inside these
-        axes.
+        Axes for the picture of the wing. The curves of stroke and pitch are then not drawn. The legend is inside the
+        given axes.
 
     Returns
     -------

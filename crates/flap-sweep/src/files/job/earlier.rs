@@ -113,7 +113,7 @@ impl<'a> Job<'a> {
 
     /// Returns true if these complete results contain the points of the axes only, although the grid is refined.
     ///
-    /// Merged shards are such results: no shard contains points of the refinement.
+    /// Merged shards are results without such points, because no shard contains points of the refinement.
     fn lacks_refinement(&self, sidecar: &Sidecar) -> bool {
         let is_refined = sidecar.summary.as_ref().is_some_and(|summary| summary.refined.is_some());
         self.plan.refine().is_some() && *self.plan.selection() == Selection::All && !is_refined

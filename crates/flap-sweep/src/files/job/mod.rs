@@ -67,7 +67,7 @@ pub struct Writing<'a> {
     /// Summary of the rows of earlier runs. The next row belongs to the point after these rows.
     pub before: Summary,
     /// Number of rows that earlier runs had written but that are missing in the file, if the job continues a run.
-    /// The job computes these rows again.
+    /// The job computes the missing rows again.
     pub lost: Option<u64>,
     /// Locks of the results and of their replacement, until the end of the job.
     locks: Vec<Lock>,
@@ -278,7 +278,7 @@ pub enum JobError {
     /// The results cannot be created.
     #[error(transparent)]
     Create(#[from] CreateError),
-    /// A file of this name contains other rows.
+    /// A file with the name of the results contains other rows.
     #[error("{} exists already{}", path.display(), other_rows(changes))]
     Exists {
         /// The file.

@@ -21,7 +21,8 @@ use crate::notation::text::digits;
 /// make files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
-/// Number of checksums in one line of a sidecar. Ten million rows take 3,300 such lines, a ten-thousandth of the
+/// Number of checksums in one line of a sidecar. Ten million rows take 3,300 lines of checksums, a ten-thousandth of
+/// the
 /// rows.
 const PER_LINE: usize = 12;
 

@@ -84,7 +84,7 @@ pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     set.map(|(parameter, base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }
 
-/// Returns `value` as TOML. For names, numbers and words this never fails.
+/// Returns `value` as TOML. The conversion of names, numbers and words never fails.
 fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
 }
@@ -120,7 +120,7 @@ impl<'a> Recorded<'a> {
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }
 
-    /// Returns the entry `key`, such as `flap.build`; empty if there is none.
+    /// Returns the entry `key`, such as `flap.build`; empty if there is no such entry.
     pub fn text(&self, key: &str) -> &'a str {
         self.0.get(key).copied().unwrap_or_default()
     }

@@ -10,7 +10,7 @@ use crate::plan::Plan;
 use crate::plan::selection::Selection;
 use crate::table::layout::{Cell, Column, Layout};
 
-/// Check of rows in their order.
+/// Check of the rows of a file, in the order of the rows.
 pub struct RowCheck {
     columns: Vec<Column>,
     status: usize,
@@ -63,7 +63,7 @@ pub enum RowError {
     Point {
         /// Number of the row.
         row: u64,
-        /// Cell of the point.
+        /// Contents of the cell with the index of the point.
         point: String,
     },
     /// The point does not follow the point of the previous row.

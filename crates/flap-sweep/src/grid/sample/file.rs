@@ -63,7 +63,7 @@ pub(super) fn read(
 struct Column<'t, 'p> {
     index: usize,
     parameter: &'p Parameter<'p>,
-    /// Unit in the heading of a column. Numbers in the cells of the column have this unit.
+    /// Unit in the heading of a column. Numbers in the cells of the column have the unit in the heading.
     unit: Option<&'t str>,
 }
 

@@ -12,11 +12,11 @@ pub enum Kind {
 /// Meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Meaning {
-    /// Number with this index in the values.
+    /// A number. Contains the index in the values.
     Number(usize),
-    /// Condition with this index in the values, as returned by [`Expression::value`](super::Expression::value).
+    /// A condition. Contains the index in the values, as returned by [`Expression::value`](super::Expression::value).
     Condition(usize),
-    /// Choice with this index in the values, whose value is the index of one of these options.
+    /// A choice. Contains the index in the values, and the options. The value is the index of an option.
     Choice(usize, &'static [&'static str]),
     /// Constant.
     Constant(f64),

@@ -57,7 +57,7 @@ pub enum UnitProblem {
     Mismatch {
         /// Unit in the text.
         unit: String,
-        /// Quantity of this unit, such as `a time`.
+        /// The quantity in words that the expected unit measures, such as `a time`.
         measures: String,
         /// Expected SI unit; empty for a pure number.
         wanted: String,
@@ -194,7 +194,7 @@ fn read_exponent(text: &str) -> i64 {
 }
 
 impl Number<'_> {
-    /// Returns the float nearest to this number times ten to the power `shift`.
+    /// Returns the float nearest to the decimal number times ten to the power `shift`.
     ///
     /// # Errors
     /// An error if the result is too large for a float, or if a result other than zero is too small for a float.

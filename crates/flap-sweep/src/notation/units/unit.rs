@@ -19,7 +19,7 @@ pub(super) struct Unit {
 impl Unit {
     const ONE: Unit = Unit { dimension: Dimension::base(0, 0, 0, 0), shift: 0, above: 1.0, below: 1.0 };
 
-    /// Returns this unit times a symbol to a power.
+    /// Returns the product of this unit and a symbol to a power.
     fn times(mut self, symbol: &Symbol, prefix: i32, power: i32) -> Unit {
         self.dimension = self.dimension.times(symbol.dimension, power);
         self.shift = self.shift.saturating_add((symbol.shift + prefix).saturating_mul(power));

@@ -10,7 +10,7 @@ pub(super) struct Sobol {
 }
 
 impl Sobol {
-    /// Returns dimension number `dimension`, from 0, scrambled with this key.
+    /// Returns dimension number `dimension`, from 0, scrambled with the given key.
     pub(super) fn new(dimension: usize, key: u64) -> Sobol {
         // The upper half; its bits are as random as the lower ones.
         let key = u32::try_from(key >> 32).unwrap_or(0);
@@ -72,7 +72,7 @@ fn scrambled(digits: u32, key: u32) -> u32 {
 /// Primitive polynomials and first direction numbers of the second and later dimensions.
 ///
 /// A polynomial over the field of two elements is given by its coefficients as bits, from the highest power to the
-/// constant. As many direction numbers m1, m2 and so on follow as its degree.
+/// constant. The direction numbers m1, m2 and so on follow. Their number is the degree of the polynomial.
 #[rustfmt::skip]
 pub(super) const DIRECTIONS: [(u32, &[u32]); 127] = [
     (3, &[1]), (7, &[1, 3]), (11, &[1, 3, 1]), (13, &[1, 1, 1]), (19, &[1, 1, 3, 3]), (25, &[1, 3, 5, 13]),

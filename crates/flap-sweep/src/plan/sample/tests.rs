@@ -32,7 +32,7 @@ fn sobol_points_before_scrambling_are_those_of_scipy() {
 }
 
 /// Each of 2^k equal intervals contains one of the first 2^k points, along every dimension. Each of 2^k equal boxes
-/// over the first two dimensions also contains one point. Scrambling preserves this.
+/// over the first two dimensions also contains one point. Scrambling preserves this property.
 #[test]
 fn scrambled_sobol_points_are_as_even_as_plain_ones() {
     let design = design(Method::Sobol, 1 << 32, 128);

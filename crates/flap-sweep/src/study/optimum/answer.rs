@@ -18,7 +18,7 @@ impl Status {
     /// All statuses.
     pub const ALL: [Status; 3] = [Status::Optimal, Status::Approximate, Status::Infeasible];
 
-    /// The word for this value.
+    /// The word for the value in results.
     pub fn name(self) -> &'static str {
         match self {
             Status::Optimal => "optimal",
@@ -40,7 +40,7 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// The word for this value.
+    /// The word for the value in results.
     pub fn name(self) -> &'static str {
         match self {
             Edge::Limit => "limit",

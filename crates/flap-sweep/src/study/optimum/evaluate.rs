@@ -31,7 +31,7 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    /// The point with this row of a plan that measures the problem.
+    /// The point with the given row of a plan that contains the problem's measures.
     pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, row: Row) -> Trial {
         let place = problem.place();
         let known = row.status == Status::Periodic && row.measures.len() > place;

@@ -39,7 +39,7 @@ pub enum Which {
     Plan,
     /// The goal: the number that must be largest or smallest.
     Goal,
-    /// The condition with this index.
+    /// A condition. Contains the index of the condition.
     Condition(usize),
 }
 

@@ -15,7 +15,7 @@ use super::sensitivity::{CONVERGED, active};
 const KEPT_AWAY: f64 = 1e-6;
 
 /// Allowed error of the distance that the search keeps from a limit, as a fraction of the limit's size. Rows have
-/// errors of this size.
+/// errors of about the allowed size.
 const MISSED: f64 = 5e-7;
 
 /// The relative change of the goal below which a refinement ends.

@@ -109,7 +109,7 @@ impl Region {
         Ok(())
     }
 
-    /// The coordinates of a point with these values.
+    /// The coordinates of a point with the given values.
     pub(super) fn coordinates(&self, values: &[f64]) -> Vec<f64> {
         self.variables.iter().map(|variable| variable.coordinate(values[variable.parameter])).collect()
     }

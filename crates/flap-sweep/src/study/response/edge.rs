@@ -133,7 +133,7 @@ pub enum EdgeMark {
 /// Reason for the end of an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EdgeEnd {
-    /// The edge leaves the range of the parameter with this index.
+    /// The edge leaves the range of a parameter. Contains the index of the parameter.
     Range(usize),
     /// The edge is a closed curve.
     Closed,

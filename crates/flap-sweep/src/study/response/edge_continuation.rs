@@ -376,7 +376,7 @@ impl Plane<'_> {
         })
     }
 
-    /// Returns the point between two points with this value of the parameter `k`.
+    /// Returns the point between two points with a given value of the parameter `k`.
     fn between(&self, k: usize, value: f64, one: &Solution, other: &Solution) -> Option<Solution> {
         let place = self.states() + k;
         let scaled = value / self.units[k];

@@ -60,7 +60,7 @@ impl<'a> Responses<'a> {
     }
 
     /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and of
-    /// `second`. `curve` is a response of this plan.
+    /// `second`. `curve` is a response of the same plan.
     ///
     /// If the computation is interrupted, the edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {

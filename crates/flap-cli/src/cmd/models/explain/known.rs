@@ -9,7 +9,7 @@ use super::entry::{Entry, of_column, of_measure, of_parameter};
 use super::tables::TABLES;
 use crate::statuses;
 
-/// Returns all names of these models with their meanings.
+/// Returns all names of the given models, with the meanings of the names.
 pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for status in Status::ALL {

@@ -1,6 +1,6 @@
 //! Columns of tables that commands print, but that rows of results do not have.
 
-/// A kind of column, and the columns of this kind with their meanings.
+/// A kind of column, and the names and meanings of the columns of this kind.
 type Columns = (&'static str, &'static [(&'static str, &'static str)]);
 
 /// Columns by the command that writes them.
