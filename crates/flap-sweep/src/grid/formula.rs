@@ -273,8 +273,7 @@ fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize
 }
 
 /// Returns the formulas in an order in which each formula is after its dependencies. The result leaves out formulas in
-/// cycles, and
-/// formulas that depend on cycles.
+/// cycles, and formulas that depend on cycles.
 fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
     let mut waiting: Vec<usize> = (0..needs.len()).collect();

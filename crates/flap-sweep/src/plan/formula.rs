@@ -13,8 +13,7 @@ pub struct Derived {
 
 impl Derived {
     /// Returns parameters with the given expressions, which are computed in the given `order`. In `order`, each
-    /// expression must be after
-    /// its dependencies.
+    /// expression must be after its dependencies.
     pub(crate) fn new(formulas: Vec<(usize, Expression)>, order: Vec<usize>) -> Derived {
         Derived { formulas, order }
     }

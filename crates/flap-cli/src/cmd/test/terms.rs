@@ -14,8 +14,7 @@ use crate::print;
 use crate::table::Table;
 
 /// Measures in the table, with the headers of the columns. Changes of the mean stroke are in degrees, because the mean
-/// stroke of most
-/// designs is zero.
+/// stroke of most designs is zero.
 const MEASURES: [(&str, &str); 6] = [
     ("stroke_pp_deg", "stroke"),
     ("stroke_mean_deg", "mean stroke"),

@@ -17,13 +17,11 @@ use crate::notation::text::digits;
 ///
 /// Blocks begin at the same rows for any number of threads and in resumed runs. The bytes of files therefore do not
 /// depend on threads and interruptions. Rows in an incomplete frame are lost if the process is killed. Larger blocks
-/// would hardly
-/// make files smaller.
+/// would hardly make files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
 /// Number of checksums in one line of a sidecar. Ten million rows take 3,300 lines of checksums, a ten-thousandth of
-/// the
-/// rows.
+/// the rows.
 const PER_LINE: usize = 12;
 
 /// Checksums of a result file: of its rows as text, and of its bytes.
