@@ -119,7 +119,7 @@ fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -
     distinct(robots.iter().flat_map(|robot| robot.parameters()).flat_map(candidates))
 }
 
-/// Returns the columns of the results on the command line; if there are none, all columns of rows of the models.
+/// Returns the columns of the results on the command line. Without results, returns all columns of rows of the models.
 fn columns() -> Vec<CompletionCandidate> {
     if let Some(names) = words().find_map(|word| columns_of(&word)) {
         return names.iter().map(|name| candidate(name, "")).collect();

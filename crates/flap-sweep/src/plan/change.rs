@@ -309,7 +309,7 @@ impl Plan {
         Ok(self.with_new_axes())
     }
 
-    /// The plan of one point whose parameters have these values, one per parameter: nothing is varied or derived. A
+    /// The plan of one point. `values` has the value of each parameter, and no parameter is varied or derived. A
     /// parameter that is NaN is computed from other parameters.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {

@@ -320,8 +320,7 @@ pub(super) struct Maximum {
 }
 
 impl Maximum {
-    /// Returns a search from three points `[place, value]` in ascending order, of which the middle one is the
-    /// highest.
+    /// Returns a search from three points `[place, value]` in ascending order. The middle point has the highest value.
     ///
     /// At an end of the range, the best point is one of the other two points.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {

@@ -1,7 +1,7 @@
 //! Decimal numbers whose exponent is shifted in the text, and mistakes in quantities.
 //!
-//! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit. With the
-//! exponent shifted in the text, the number is rounded once.
+//! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit. If the
+//! exponent is shifted in the text, the number is rounded only once.
 
 use std::fmt;
 use std::ops::Range;
