@@ -43,7 +43,7 @@ pub(crate) struct ManArgs {
     after_help = "Example:\n  flap generate schema > flap.schema.json     (and #:schema ./flap.schema.json as the first line of a grid)"
 )]
 pub(crate) struct SchemaArgs {
-    /// Include only the parameters of this preset's model, with the preset's values as defaults
+    /// Include only the parameters of the model of PRESET, with the values of PRESET as defaults
     #[arg(long, value_name = "PRESET")]
     pub(crate) preset: Option<String>,
 }

@@ -45,7 +45,7 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
-    /// Use only the rows that satisfy this condition. You can repeat --where
+    /// Use only the rows that satisfy the condition. You can repeat --where
     ///
     /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
     /// such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep,

@@ -48,7 +48,7 @@ pub(crate) struct RunArgs {
     #[arg(long, requires = "trajectory")]
     pub(crate) from_rest: bool,
 
-    /// Print the ten parameters with the largest effect on this measure
+    /// Print the ten parameters with the largest effect on the given measure
     ///
     /// The effect of a parameter is the change of the measure in the settled motion if the parameter becomes 1 %
     /// larger.

@@ -29,7 +29,7 @@ pub(crate) struct VehicleArgs {
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = target)]
     pub(crate) trim: Vec<(String, String)>,
 
-    /// Fit a quadratic map of force and torque to rows that are spread over these ranges of inputs
+    /// Fit a quadratic map of force and torque to rows that are spread over the given ranges of inputs
     ///
     /// Model-predictive controllers use such quadratic maps. Inputs have the same names as for --inputs.
     #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]

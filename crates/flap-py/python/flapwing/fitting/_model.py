@@ -43,8 +43,8 @@ def states_along(
 ) -> dict[str, Array] | None:
     """Return the states in which motions on the branches begin. Return None if there are no branches.
 
-    Each of `columns` repeats all points `times` times, once for each set of parameters. States have the components
-    `names`. All branches are followed at the same time: a batch has one point of each branch.
+    Each of `columns` repeats all points `times` times, once for each set of parameters. The initial states have the
+    components `names`. All branches are followed at the same time: a batch has one point of each branch.
     """
     if not ways:
         return None

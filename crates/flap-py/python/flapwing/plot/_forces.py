@@ -61,7 +61,7 @@ def control_matrix(
         The inputs to show, from left to right. If `table` is an array, `inputs` has the names of the columns of the
         array.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         middle value.
@@ -113,7 +113,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     x : str, optional
         The parameter on the horizontal axes of the panels. Default: the axis of the grid.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         middle value.

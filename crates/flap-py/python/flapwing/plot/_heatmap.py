@@ -89,7 +89,7 @@ def heatmap(
         with ``reduce="min"``. Without these options, the best cell has the smallest value for costs such as power, and
         the largest value for other measures.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If `reduce` is not given and
         an axis of the grid is neither drawn nor selected, the picture has only the middle value of this axis. A warning
         shows the middle value.

@@ -54,7 +54,7 @@ def response(
         The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
         grid's other axes, if the grid has another axis. If several results are given, each result has one line.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         middle value.
@@ -135,7 +135,7 @@ def response_panels(
         The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
         grid's other axes, if the grid has another axis. If several results are given, each result has one line.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give these
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         middle value.

@@ -64,8 +64,8 @@ def colours(
 
 
 def _diverging(low: float, high: float) -> Colormap:
-    """Return the part of a diverging colour map from `low` to `high`. Zero is white, and numbers of equal magnitude
-    have colours of equal strength.
+    """Return the part of a diverging colour map for numbers from `low` to `high`. Zero is white, and numbers of equal
+    magnitude have colours of equal strength.
     """
     size = max(-low, high)
     places = 0.5 + 0.5 * np.linspace(low, high, 257) / size

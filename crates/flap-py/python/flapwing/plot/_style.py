@@ -339,7 +339,8 @@ def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
-    """Draw short vertical lines at values of x, all at the same `height`, as a share of the height of the axes."""
+    """Draw short vertical lines at values of x, all at the same `height`, which is a fraction of the height of the
+    axes."""
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
