@@ -31,7 +31,7 @@ pub(crate) struct VehicleArgs {
 
     /// Fit a quadratic map of force and torque to rows that are spread over the given ranges of inputs
     ///
-    /// Model-predictive controllers use such quadratic maps. Inputs have the same names as for --inputs.
+    /// Model-predictive controllers use quadratic maps. Inputs have the same names as for --inputs.
     #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]
     pub(crate) wrench_map: Vec<NamedRange>,
 

@@ -105,7 +105,7 @@ impl Plan {
 
     /// Returns the plan whose rows contain only the given measures, in the given order.
     ///
-    /// `names` are names of columns of the model or of the plan's own measures.
+    /// `names` are names of columns of the model or of measures of the plan.
     ///
     /// # Errors
     /// [`ChangeError::NoColumn`] if there is no such column, or a column is listed twice.
@@ -188,7 +188,7 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the names of the measured columns: the model's columns, then the plan's own.
+    /// Returns the names of the measured columns: the columns of the model, then the measures of the plan.
     pub fn measured(&self) -> impl Iterator<Item = &str> + '_ {
         let of_model = self.rows().columns().iter().map(|column| column.name.as_str());
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))

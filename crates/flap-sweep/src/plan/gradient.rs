@@ -9,7 +9,7 @@ use crate::notation::text;
 /// Derivatives in rows: of each of some measures with respect to each of some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
-    /// Indices of the measures: the model's columns come first, then the plan's own.
+    /// Indices of the measures: first the columns of the model, then the measures of the plan.
     pub of: Vec<usize>,
     /// Indices into the model's parameter table.
     pub with_respect_to: Vec<usize>,

@@ -288,7 +288,7 @@ impl Plan {
         self.axes().varied().chain(self.derived().parameters())
     }
 
-    /// Adds the plan's own measures to the measures of a row, if the point has measures.
+    /// Adds the measures of the plan to the measures of a row, if the point has measures.
     pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
         // A row of the model at a known resonance lacks the columns about this resonance.
         if self.measures().is_empty() || measures.len() != self.rows().columns().len() {
@@ -346,7 +346,7 @@ impl Deref for Robot {
 pub struct Output {
     /// Path in the grid file, relative to the working directory; `None` if the grid file has no path.
     pub path: Option<PathBuf>,
-    /// Indices in the requested order: into the model's columns, followed by the plan's own measures and the columns
+    /// Indices in the requested order: into the model's columns, followed by the measures of the plan and the columns
     /// about the run. `None` for all columns.
     pub columns: Option<Vec<usize>>,
 }

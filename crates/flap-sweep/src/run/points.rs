@@ -1,4 +1,4 @@
-//! Rows of a plan: one for each point, with the plan's own measures and derivatives.
+//! Rows of a plan: one row for each point, with the measures and derivatives of the plan.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -150,11 +150,12 @@ impl Jobs for Points<'_, '_> {
     }
 }
 
-/// Relative change for derivatives of the plan's own measures, which need not be as small as for the model's
+/// Relative change for derivatives of the measures of the plan, which need not be as small as for the model's
 /// measures.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the derivatives of the plan to the measures of the row of `point`, which already contain the plan's own.
+/// Adds the derivatives of the plan to the measures of the row of `point`, which already contain the measures of the
+/// plan.
 ///
 /// The last added value contains the reasons for missing derivatives, as a sum of powers of two by their index in
 /// [`NoSlope::ALL`]. The sum is NaN if no derivative is missing. Returns false if the run was interrupted.
@@ -239,7 +240,7 @@ fn derivatives(
     pairs.collect()
 }
 
-/// Returns the derivatives of the plan's own measures with respect to one parameter, from derivatives of the model's
+/// Returns the derivatives of the measures of the plan with respect to one parameter, from derivatives of the model's
 /// measures.
 fn own(
     plan: &Plan,

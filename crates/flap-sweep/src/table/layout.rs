@@ -54,7 +54,7 @@ pub struct Place {
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Index in the measures of a row: the model's columns come first, then the plan's own.
+    /// Index in the measures of a row: first the columns of the model, then the measures of the plan.
     pub index: usize,
     /// Column. In a row's measures, 1 is true and 0 is false.
     pub column: Column,

@@ -224,12 +224,12 @@ impl Params {
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
-            doc: "17.0 mm wing on a 10.5 mm actuator, 30 V + 30 V at 209 Hz (Ozaki and Hamaguchi 2018, Table A1)",
+            doc: "17.0 mm wing on a 10.5 mm actuator, 60 V peak to peak with 30 V bias at 209 Hz (Ozaki and Hamaguchi 2018, Table A1)",
             values: || Params::ozaki2018_small().to_values(),
         },
         Preset {
             name: "ozaki2018-large",
-            doc: "32.4 mm wing on a 21.0 mm actuator, 50 V + 50 V at 109 Hz (Ozaki and Hamaguchi 2018, Table A1)",
+            doc: "32.4 mm wing on a 21.0 mm actuator, 100 V peak to peak with 50 V bias at 109 Hz (Ozaki and Hamaguchi 2018, Table A1)",
             values: || Params::ozaki2018_large().to_values(),
         },
         Preset {

@@ -250,12 +250,12 @@ impl Params {
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "arabagi2013-75hz",
-            doc: "75 Hz prototype, 150 V + 50 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
+            doc: "75 Hz prototype, 150 V peak to peak with 50 V bias (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
             values: || Params::arabagi2013_75hz().to_values(),
         },
         Preset {
             name: "arabagi2013-30hz",
-            doc: "30 Hz prototype, 180 V + 30 V (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
+            doc: "30 Hz prototype, 180 V peak to peak with 30 V bias (Arabagi, Hines and Sitti 2013); wing and actuator are assumed",
             values: || Params::arabagi2013_30hz().to_values(),
         },
     ];

@@ -74,9 +74,9 @@ def of_residuals(
 ) -> Discrepancies:
     """Return the discrepancy that explains the squares of the residuals.
 
-    The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij. Here s is the model's value for
-    standard errors in per cent, else 1. The correlation ρ falls with the distance of two points, in ranks along
-    each parameter. The decline of ρ is computed from the products of neighbouring residuals. The expected sum of
+    The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij. In this formula, s is the model's value
+    for standard errors in per cent, otherwise 1. The correlation ρ falls with the distance of two points, in ranks
+    along each parameter. The decline of ρ is computed from the products of neighbouring residuals. The expected sum of
     squares accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
     likelihood.
 

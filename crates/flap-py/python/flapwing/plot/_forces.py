@@ -210,7 +210,7 @@ def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
-    """Return the effects of the inputs to show."""
+    """Return the effects of the inputs that the picture shows."""
     for name in inputs or ():
         if name not in known:
             raise unknown("input", name, known)
