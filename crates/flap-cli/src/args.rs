@@ -129,7 +129,7 @@ Exit codes:
 
 static LINE: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Sets the words of the command line. Later calls have no effect.
+/// Sets the words of the command line. Only the first call has an effect.
 pub(crate) fn set_line(line: Vec<OsString>) {
     LINE.get_or_init(|| line);
 }

@@ -7,7 +7,7 @@ use flap_core::simulate::{self, Simulator};
 
 static MODELS: OnceLock<Vec<&'static dyn Simulator>> = OnceLock::new();
 
-/// Sets the models. Later calls have no effect.
+/// Sets the models. Only the first call has an effect.
 pub(crate) fn set(models: Vec<&'static dyn Simulator>) {
     MODELS.get_or_init(|| models);
 }

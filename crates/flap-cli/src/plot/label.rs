@@ -71,7 +71,7 @@ pub(super) fn distinct(values: &[f64]) -> Vec<String> {
     [4, 5].map(texts).into_iter().find(is_distinct).unwrap_or_else(|| texts(6))
 }
 
-/// Returns a number with at most this many digits, from 1 to 6; digits before the decimal point are never dropped.
+/// Returns a number with at most `most` digits, from 1 to 6. Digits before the decimal point are never dropped.
 pub(super) fn digits(value: f64, most: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_nan() { "none".to_owned() } else { value.to_string().replace("-0", "0") };

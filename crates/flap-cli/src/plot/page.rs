@@ -18,7 +18,7 @@ use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
-/// Largest number of rows in a page: while the user drags, a browser draws them many times.
+/// Largest number of rows in a page. A browser draws all rows many times while the user drags.
 const MOST_ROWS: usize = 1 << 17;
 
 /// Returns the page of results. If `tells` is true, prints warnings about the results to stderr.

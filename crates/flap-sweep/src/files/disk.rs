@@ -12,7 +12,7 @@ use crate::system;
 pub trait Durable: Write {
     /// Waits until the written bytes would survive a crash of the machine.
     ///
-    /// The default does nothing, for targets that a crash cannot damage.
+    /// By default, the method does nothing. The default is for targets that a crash cannot damage.
     ///
     /// # Errors
     /// The error of the operating system.

@@ -79,8 +79,8 @@ pub(crate) fn of(results: &Path) -> PathBuf {
     replacement_of(&disk::target(results))
 }
 
-/// Returns true if only the journal of the replacement `new` is left: it has replaced the earlier results, or was
-/// discarded.
+/// Returns true if only the journal of the replacement `new` is left. The replacement then has replaced the earlier
+/// results, or was discarded.
 pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }

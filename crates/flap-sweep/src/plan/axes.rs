@@ -137,7 +137,7 @@ impl Values {
     }
 }
 
-/// Returns `x` rounded to 15 significant digits. 60e-6 + 10e-6 then gives 70e-6 and not 7.000000000000001e-5.
+/// Returns `x` rounded to 15 significant digits. For example, 60e-6 + 10e-6 gives 70e-6 and not 7.000000000000001e-5.
 fn decimal(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }

@@ -21,10 +21,10 @@ use crate::duration;
 /// Largest number of points in a sample.
 const MOST: usize = 256;
 
-/// After this time, no point is added to the sample.
+/// Running time of the sample after which no further point is added to the sample.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// After this time, running points are abandoned.
+/// Running time of the sample after which running points are abandoned.
 const LONGEST: Duration = Duration::from_secs(2);
 
 /// Largest number of points that are checked in the search for points that are not excluded.

@@ -1,7 +1,7 @@
 //! Unstable orbits between the two motions of a bistable band.
 //!
-//! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end, the branch
-//! turns again and joins the other branch.
+//! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end of the band, the
+//! branch turns again and joins the other stable branch.
 //!
 //! Pseudo-arclength continuation follows the branch (H. B. Keller, 1977). The unknowns are the state at the beginning
 //! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two
