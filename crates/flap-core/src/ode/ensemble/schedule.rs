@@ -116,10 +116,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
 
     /// Integrates until the queue is empty.
     #[inline(always)]
-    fn drive(mut self, simd: R::Token, ode: &O, observer: &V, queue: &mut dyn Queue<O, V, N>) -> Occupancy
-    where
-        R::Token: Simd,
-    {
+    fn drive(mut self, simd: impl Simd, ode: &O, observer: &V, queue: &mut dyn Queue<O, V, N>) -> Occupancy {
         loop {
             self.refill(observer, queue);
             if self.active == 0 || queue.interrupted() {
