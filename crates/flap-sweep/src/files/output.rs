@@ -50,9 +50,9 @@ impl CreateError {
     }
 }
 
-/// An open result file.
+/// An open result file, and its lock.
 #[derive(Debug)]
-pub struct LockedFile {
+pub struct ResultFile {
     /// The file.
     pub file: File,
     /// Lock against other runs that write to the file; `None` for a device or a pipe.
@@ -69,13 +69,13 @@ pub struct LockedFile {
 /// - [`CreateError::Unfinished`] if the file or its replacement has a journal
 /// - [`CreateError::InTheWay`] if there is a sidecar without rows, or a file of another program with the name of the
 ///   lock file. If `overwrite` is true, a sidecar is allowed, and a file of another program with its name is not
-/// - [`CreateError::Busy`] if another run has locked the file
-/// - [`CreateError::Io`] if the file cannot be opened
-pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
+/// - [`CreateError::Busy`] if another run has locked it
+/// - [`CreateError::Io`] if it cannot be opened
+pub fn create(path: &Path, overwrite: bool) -> Result<ResultFile, CreateError> {
     let refused = CreateError::io(path);
     let open = || OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(&refused);
     if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Ok(LockedFile { file: open()?, lock: None });
+        return Ok(ResultFile { file: open()?, lock: None });
     }
     let lock = lock(path)?;
     if overwrite {
@@ -89,7 +89,7 @@ pub fn create(path: &Path, overwrite: bool) -> Result<LockedFile, CreateError> {
         let is_begun = |sidecar: Sidecar| path.exists() && sidecar.state == State::Running;
         check_sidecar(path, Sidecar::read(&sidecar_of(path)).is_ok_and(is_begun))?;
     }
-    Ok(LockedFile { file: open()?, lock: Some(lock) })
+    Ok(ResultFile { file: open()?, lock: Some(lock) })
 }
 
 /// Checks that there is no sidecar, or that the sidecar `may` be replaced.

@@ -12,7 +12,7 @@ use super::beside::sidecar_of;
 use super::csv_sink::CsvSink;
 use super::inputs::{Inputs, Overlap};
 use super::integrity::OpenError;
-use super::output::{self, CreateError, Lock, LockedFile};
+use super::output::{self, CreateError, Lock, ResultFile};
 pub use super::replacement::{to_resume, unfinished};
 use super::results::{Format, FormatError};
 use super::session::{ResumeError, Session, SessionOptions};
@@ -118,7 +118,7 @@ impl<'a> Job<'a> {
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let overwrite = self.begin == Begin::Restart;
-        let LockedFile { file, lock } = output::create(&self.out, overwrite)?;
+        let ResultFile { file, lock } = output::create(&self.out, overwrite)?;
         let Some(lock) = lock else {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
             return Ok(self.writing(Target::Stream(sink), Summary::default()).into());
