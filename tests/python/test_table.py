@@ -208,12 +208,25 @@ def test_other_compressions_are_named(table, tmp_path, compression):
         flapwing.read(path)
 
 
-@pytest.mark.parametrize("unit", ["ms", "us", "ns"])
-def test_columns_of_other_kinds_are_named(tmp_path, unit):
-    when = pandas.to_datetime(["2020-01-01"]).as_unit(unit)
-    pandas.DataFrame({"when": when}).to_parquet(tmp_path / "when.parquet")
-    with pytest.raises(ValueError, match="column when cannot be read: cells are whole numbers"):
-        flapwing.read(tmp_path / "when.parquet")
+@pytest.mark.parametrize(
+    "cells",
+    [
+        *(pandas.to_datetime(["2020-01-01"]).as_unit(unit) for unit in ("ms", "us", "ns")),
+        [b"bytes"],
+        [[1.0, 2.0]],
+        [{"key": 1.0}],
+        np.array([3], dtype=np.int8),
+        np.array([3], dtype=np.float16),
+    ],
+    ids=lambda cells: str(getattr(cells, "dtype", type(cells[0]).__name__)),
+)
+@pytest.mark.parametrize("rows", [0, 1])
+def test_columns_of_other_kinds_are_named(tmp_path, cells, rows):
+    frame = pandas.DataFrame({"good": [1.0], "other": cells})
+    table = pyarrow.Table.from_pandas(frame)
+    parquet.write_table(table.slice(0, rows), tmp_path / "other.parquet")
+    with pytest.raises(ValueError, match="column other cannot be read: cells are whole numbers"):
+        flapwing.read(tmp_path / "other.parquet")
 
 
 def test_parquet_without_its_sidecar_has_units_and_axes(table, tmp_path):

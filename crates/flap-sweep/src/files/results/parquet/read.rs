@@ -8,7 +8,7 @@ use std::sync::Once;
 
 use bytes::Bytes;
 use csv::StringRecord;
-use parquet::basic::{Compression, LogicalType};
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as PhysicalType};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData, RowGroupMetaData};
 use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
@@ -36,7 +36,7 @@ impl ParquetReader {
         let reader = guarded(|| SerializedFileReader::new(Limited(file)).map_err(io_error))?;
         refuse_compression(reader.metadata())?;
         let about = reader.metadata().file_metadata();
-        refuse_times(about.schema())?;
+        refuse_other_kinds(about.schema())?;
         let names = about.schema().get_fields().iter().map(|column| column.name().to_owned()).collect();
         let entries = about.key_value_metadata().into_iter().flatten();
         let entries = entries.filter_map(|entry| Some((entry.key.clone(), entry.value.clone()?))).collect();
@@ -66,16 +66,29 @@ impl ParquetReader {
     }
 }
 
-/// Rejects columns with times, because the Parquet library reads nanoseconds as whole numbers.
-fn refuse_times(schema: &Type) -> io::Result<()> {
-    let is_time = |column: &Type| {
-        matches!(
-            column.get_basic_info().logical_type_ref(),
-            Some(LogicalType::Time(_) | LogicalType::Timestamp(_))
-        )
-    };
-    let time = schema.get_fields().iter().find(|column| is_time(column));
-    time.map_or(Ok(()), |column| Err(other_kind(column.name())))
+/// Rejects columns whose cells flap does not read.
+fn refuse_other_kinds(schema: &Type) -> io::Result<()> {
+    let other = schema.get_fields().iter().find(|column| !is_read(column));
+    other.map_or(Ok(()), |column| Err(other_kind(column.name())))
+}
+
+/// Returns true if [`ParquetReader::next`] reads the cells of a column.
+fn is_read(column: &Type) -> bool {
+    use ConvertedType::{ENUM, INT_32, INT_64, JSON, NONE, UINT_32, UINT_64, UTF8};
+    let about = column.get_basic_info();
+    // The library reads times in nanoseconds as whole numbers.
+    let is_time = matches!(about.logical_type_ref(), Some(LogicalType::Time(_) | LogicalType::Timestamp(_)));
+    let is_repeated = about.has_repetition() && about.repetition() == Repetition::REPEATED;
+    if !column.is_primitive() || is_time || is_repeated {
+        return false;
+    }
+    match column.get_physical_type() {
+        PhysicalType::BOOLEAN | PhysicalType::FLOAT | PhysicalType::DOUBLE => true,
+        PhysicalType::INT32 => matches!(about.converted_type(), NONE | INT_32 | UINT_32),
+        PhysicalType::INT64 => matches!(about.converted_type(), NONE | INT_64 | UINT_64),
+        PhysicalType::BYTE_ARRAY => matches!(about.converted_type(), UTF8 | ENUM | JSON),
+        PhysicalType::INT96 | PhysicalType::FIXED_LEN_BYTE_ARRAY => false,
+    }
 }
 
 /// Returns the error for a column with a type of cells that flap cannot read.
