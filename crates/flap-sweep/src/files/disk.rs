@@ -57,7 +57,16 @@ impl Whole {
     /// The error of the operating system. An earlier file is then unchanged, except if making the name durable
     /// failed.
     pub(crate) fn commit(self) -> io::Result<()> {
-        self.0.commit()
+        self.0.commit().map_err(|error| {
+            // On Linux, a file without a name gets its name through /proc.
+            if cfg!(target_os = "linux") && !Path::new("/proc/self/fd").exists() {
+                io::Error::other(
+                    "/proc is not mounted: mount it, for example with `mount -t proc proc /proc`",
+                )
+            } else {
+                error
+            }
+        })
     }
 }
 
