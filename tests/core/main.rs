@@ -24,6 +24,7 @@ mod faces;
 mod floquet;
 mod four_bar;
 mod gradient;
+mod harmonics;
 mod impulses;
 mod interrupted;
 mod jafferis_figures;

@@ -13,9 +13,10 @@ use flap_core::quadrature::gauss_legendre;
 use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
 
 use crate::data::assert_close;
+use crate::harmonics::HARMONICS;
 
 /// States of stroke and pitch [φ, ψ, φ̇, ψ̇] and accelerations [φ̈, ψ̈].
-const STATES: [([f64; 4], [f64; 2]); 3] = [
+pub(crate) const STATES: [([f64; 4], [f64; 2]); 3] = [
     ([0.3, 0.7, 600.0, -500.0], [-2e5, 4e5]),
     ([-0.4, -0.9, -350.0, 800.0], [3e5, -2e5]),
     ([0.1, 0.2, 700.0, 1200.0], [1e5, 7e5]),
@@ -66,12 +67,12 @@ fn summed(
     load
 }
 
-fn components(load: &Load<f64>) -> [f64; 5] {
+pub(crate) fn components(load: &Load<f64>) -> [f64; 5] {
     [load.lift, load.drag, load.lift_moment, load.drag_moment, load.span_moment]
 }
 
 /// Asserts that two loads differ by a third, relative to the third.
-fn assert_difference(with: &Load<f64>, without: &Load<f64>, expected: &Load<f64>, subject: &str) {
+pub(crate) fn assert_difference(with: &Load<f64>, without: &Load<f64>, expected: &Load<f64>, subject: &str) {
     for ((with, without), expected) in
         components(with).into_iter().zip(components(without)).zip(components(expected))
     {
@@ -339,6 +340,9 @@ fn energy_is_balanced_with_all_terms() {
         set("hinge_stiffening", stiffness);
         set("stroke_stiffening", stiffness);
         set("modulus_decline", 1e-8);
+        for (term, value) in HARMONICS {
+            set(term, value);
+        }
         let solver = SolverSettings::default().with_rtol(1e-8);
         let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
         assert_eq!(row.status, Status::Periodic, "{name}");

@@ -23,7 +23,7 @@ pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
     of_table || of_body || (TERMS.contains(&parameter.name) && is_absent)
 }
 
-const TERMS: [&str; 20] = [
+const TERMS: [&str; 27] = [
     "drive_offset",
     "transmission_growth",
     "stroke_damping",
@@ -44,6 +44,13 @@ const TERMS: [&str; 20] = [
     "rotation_force_factor",
     "added_mass_factor",
     "axis_position",
+    "lift_coefficient_max",
+    "drag_term_0",
+    "drag_term_1",
+    "lift_term_1",
+    "lift_term_2",
+    "pressure_term_0",
+    "pressure_term_1",
 ];
 
 /// A design: a preset with some parameters changed.

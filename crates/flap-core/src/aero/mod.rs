@@ -1,7 +1,8 @@
-//! Aerodynamics that several models use: strips of the wing, added mass and rotational circulation, the chord table, the
-//! wing's outline and mass.
+//! Aerodynamics that several models use: strips of the wing, further terms of the force coefficients, added mass and
+//! rotational circulation, the chord table, the wing's outline and mass.
 
 mod chord_table;
+mod harmonics;
 mod oblique;
 mod strips;
 mod unsteady;
@@ -9,6 +10,7 @@ mod wing;
 
 pub(crate) use chord_table::chord_table;
 pub use chord_table::{ChordTable, STATIONS, Tabulated};
+pub use harmonics::{HarmonicParameters, Harmonics};
 pub use oblique::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
 pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};

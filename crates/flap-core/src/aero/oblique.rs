@@ -1,5 +1,6 @@
 //! Forces on the strips of a wing in oblique flow: the flow has a component along the stroke axis.
 
+use super::harmonics::Harmonics;
 use crate::body::Sections;
 use crate::num::Real;
 
@@ -73,17 +74,19 @@ impl<R: Real> Flow<R> {
     }
 
     /// Returns the forces along normal and chord per weight, for C_L = b_L sin 2ψ and C_D = b₁ + b₂ cos 2ψ of the effective
-    /// pitch.
+    /// pitch. The `harmonics` change C_D and b_L.
     ///
     /// ```text
     /// C_D = b₁ + b₂ (u_N² − u_C²)/U²     F_N = U u_N (C_D + 2 b_L u_C²/U²)     F_C = U u_C (2 b_L u_N²/U² − C_D)
     /// ```
     #[inline(always)]
-    pub fn harmonic_forces(&self, [b_1, b_2, b_l]: [R; 3]) -> [R; 2] {
+    pub fn harmonic_forces(&self, [b_1, b_2, b_l]: [R; 3], harmonics: &Harmonics<R>) -> [R; 2] {
         let Flow { normal, chordwise, speed } = *self;
         let inverse = self.inverse_square();
         let (along_normal, along_chord) = (normal * normal * inverse, chordwise * chordwise * inverse);
-        let c_d = b_1 + b_2 * (along_normal - along_chord);
+        let cos_2psi = along_normal - along_chord;
+        let c_d = b_1 + b_2 * cos_2psi + harmonics.drag(-cos_2psi);
+        let b_l = b_l + harmonics.lift(-cos_2psi);
         [
             speed * normal * (c_d + b_l * along_chord * 2.0),
             speed * chordwise * (b_l * along_normal * 2.0 - c_d),

@@ -6,7 +6,7 @@
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
 use super::strips::{Moving, unsteady};
-use crate::aero::{AddedMass, Circulation, RotationalForce};
+use crate::aero::{AddedMass, Circulation, Harmonics, RotationalForce};
 use crate::drive::{DriveConstants, Shape};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
@@ -134,6 +134,8 @@ crate::per_lane! {
         pub vehicle_mass: R,
         /// Nonlinear parts of the springs.
         pub stiffening: Stiffening<R>,
+        /// Further terms of the force coefficients and of the centre of pressure.
+        pub harmonics: Harmonics<R>,
         /// Rotational circulation of the sections.
         pub circulation: Circulation<R>,
         /// Normal force of the rotational drag.
@@ -265,6 +267,7 @@ impl Constants<f64> {
             surface_strain_ratio: actuator.surface_strain_ratio,
             vehicle_mass: p.vehicle_mass,
             stiffening: Stiffening::of(p.stroke_stiffening, &p.hinge),
+            harmonics: Harmonics::of(&p.harmonics),
             circulation,
             rotation,
             added,

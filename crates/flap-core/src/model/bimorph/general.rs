@@ -1,6 +1,7 @@
 //! The equations of the bimorph model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, forces of the sections along the normal, and nonlinear springs. Without such
+//! The terms are motion of the body, further terms of the attack angle, forces of the sections along the normal, and
+//! nonlinear springs. Without such
 //! terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! The paper's wing is lumped. Body motion changes the direction of the flow along the span, so the wing is cut into four
@@ -84,7 +85,9 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
                     CentreOfPressure::Directional => flow.attack(),
                     CentreOfPressure::Folded | CentreOfPressure::Literal => flow.folded_attack(),
                 };
-                (flow.harmonic_forces([c.b_1, c.b_2, c.b_l]), c.p_min + c.p_swing * (attack * FRAC_2_PI))
+                let pressure =
+                    c.p_min + c.p_swing * (attack * FRAC_2_PI) + c.harmonics.pressure(attack * 2.0);
+                (flow.harmonic_forces([c.b_1, c.b_2, c.b_l], &c.harmonics), pressure)
             },
         );
         let [lift, drag] = forces.lift_and_drag(*turned);
@@ -92,9 +95,9 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
         let span_moment = forces.pitch_moment + rotation_moment;
         Load { stroke: *phi, lift, drag, lift_moment, drag_moment, span_moment }
     } else {
-        rhs::load(c, model.centre_of_pressure, *phi, x_dot, *rate, *pitch)
+        rhs::load(c, true, model.centre_of_pressure, *phi, x_dot, *rate, *pitch)
     };
-    let load = if model.has_sections {
+    let load = if model.has_air_terms {
         let circulation = c.circulation.load(&sections, pitch_rate, *turned);
         load.with_normal(&circulation.plus(&c.rotation.load(pitch_rate)), *turned)
     } else {
@@ -126,7 +129,7 @@ fn air_with_added_mass<R: Real>(
 ) -> Air<R> {
     let motion = Motion::at(c, model, body_moves, y);
     let found = air(c, model, body_moves, &motion, y[1]);
-    if !model.has_sections {
+    if !model.has_air_terms {
         return found;
     }
     // Between the stages of a step the derivative is unknown.

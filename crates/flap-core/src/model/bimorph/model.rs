@@ -12,7 +12,7 @@ use super::rhs::{
 use super::strips::Moving;
 use super::transmission::{Law, Transmission, stroke};
 use super::variant::Bimorph;
-use crate::aero::Wing;
+use crate::aero::{HarmonicParameters, Wing};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Shape, StrokeMode, Wave, Waveform};
 use crate::model::Measure::{Peak, PeakToPeak, Supply};
@@ -176,7 +176,7 @@ impl<R: Real> Losses<R> {
     /// Returns forces and powers with the body at rest. `rate` is the stroke rate over T.
     #[inline(always)]
     fn at_rest(c: &Constants<R>, rate: R, [sin_2psi, cos_2psi]: [R; 2], psi_dot: R) -> Losses<R> {
-        let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+        let [lift, drag] = lift_and_drag(c, false, rate, [sin_2psi, cos_2psi]);
         Losses {
             lift,
             drag,
@@ -307,7 +307,7 @@ impl Model<4> for Bimorph {
             law: if *transmission_growth == 0.0 { Law::Constant } else { Law::Square },
             centre_of_pressure: *centre_of_pressure,
             body: body.terms(),
-            has_sections: p.has_sections(),
+            has_air_terms: p.has_sections() || p.harmonics != HarmonicParameters::NONE,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
             is_plain: false,
         }
@@ -319,7 +319,7 @@ impl Model<4> for Bimorph {
         Bimorph {
             law,
             body: self.body.or(other.body),
-            has_sections: self.has_sections || other.has_sections,
+            has_air_terms: self.has_air_terms || other.has_air_terms,
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
@@ -425,7 +425,7 @@ impl Model<4> for Bimorph {
         }
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
-        load(c, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
+        load(c, false, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
     /// The drive crosses the transition of the force, (6), in a fraction of a step, and the currents peak there.

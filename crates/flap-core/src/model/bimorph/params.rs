@@ -1,5 +1,6 @@
 //! Parameters of the bimorph model and their published values.
 
+use crate::aero::HarmonicParameters;
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, WaveformParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -91,6 +92,8 @@ crate::parameters! {
         /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width A_w/R, Eq.
         /// (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
+        /// Further terms of the force coefficients and of the centre of pressure.
+        harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Jafferis et al. (2016) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,

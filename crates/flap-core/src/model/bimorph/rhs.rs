@@ -7,7 +7,7 @@
 //! stroke is T x. ψ = 0 if the wing is perpendicular to its motion. ψ > 0 if the trailing edge lags a wing that moves
 //! with ẋ > 0. Lift is positive upwards. The equations describe one actuator and one wing.
 
-use core::f64::consts::FRAC_2_PI;
+use core::f64::consts::{FRAC_2_PI, PI};
 
 use super::constants::{Constants, EXPONENT_MAX};
 use super::params::CentreOfPressure;
@@ -139,10 +139,16 @@ pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
     elastic_force(c, x) / x
 }
 
-/// Returns the drag coefficient of the wing: b₁ + b₂ cos 2ψ.
+/// Returns the lift coefficient of the wing per sin 2ψ, b_L, and its drag coefficient, b₁ + b₂ cos 2ψ; with the further
+/// terms of the attack angle 90° − ψ if `harmonics`.
 #[inline(always)]
-pub(super) fn drag_coefficient<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
-    c.b_1 + c.b_2 * cos_2psi
+fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 2] {
+    let (lift, drag) = (c.b_l, c.b_1 + c.b_2 * cos_2psi);
+    if harmonics {
+        [lift + c.harmonics.lift(-cos_2psi), drag + c.harmonics.drag(-cos_2psi)]
+    } else {
+        [lift, drag]
+    }
 }
 
 /// Returns the drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
@@ -168,11 +174,16 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
 /// W_cp2 = A_w/R (p_min + (p_max − p_min) |1 − 2/π ψ̃|)
 /// ```
+///
+/// With `harmonics`, the coefficients and W_cp2 contain the further terms of the attack angle |90° − ψ̃|.
 #[inline(always)]
-pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, tilt: R, sin: R, cos: R) -> R {
+pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, harmonics: bool, tilt: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-    let arm = c.p_min + c.p_swing * (tilt * -FRAC_2_PI + 1.0).abs();
-    c.hinge_torque * arm * (drag_coefficient(c, cos_2psi) * cos + c.b_l * sin_2psi * sin)
+    let quarters = (tilt * -FRAC_2_PI + 1.0).abs();
+    let arm = c.p_min + c.p_swing * quarters;
+    let arm = if harmonics { arm + c.harmonics.pressure(quarters * PI) } else { arm };
+    let [lift, drag] = coefficients(c, harmonics, cos_2psi);
+    c.hinge_torque * arm * (drag * cos + lift * sin_2psi * sin)
 }
 
 /// Returns sin 2ψ and cos 2ψ.
@@ -211,7 +222,7 @@ pub(super) fn derivative<R: Real>(
     let force = f_1 - f_2 - restoring - drag - stroke_damping(c, &transmission, x_dot, rate);
     let x_ddot = transmission.acceleration(c, force, x_dot);
 
-    let psi_ddot = (hinge_drag(c, tilt(centre_of_pressure, psi, x_dot), sin, cos) * flow
+    let psi_ddot = (hinge_drag(c, false, tilt(centre_of_pressure, psi, x_dot), sin, cos) * flow
         + c.coupling * transmission.stroke_acceleration(x_ddot, x_dot) * cos
         + c.centrifugal * rate * rate * sin_2psi
         - c.kappa_wh * psi
@@ -240,11 +251,17 @@ pub(super) fn stroke_damping<R: Real>(
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
 /// ```
 ///
-/// Drag opposes the stroke. Its power R_cp T ẋ D is the actuator's loss to the air.
+/// Drag opposes the stroke. Its power R_cp T ẋ D is the actuator's loss to the air. `harmonics` as in [`hinge_drag`].
 #[inline(always)]
-pub(super) fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos_2psi: R) -> [R; 2] {
+pub(super) fn lift_and_drag<R: Real>(
+    c: &Constants<R>,
+    harmonics: bool,
+    rate: R,
+    [sin_2psi, cos_2psi]: [R; 2],
+) -> [R; 2] {
     let force = c.force * rate.abs() * rate;
-    [force * c.b_l * sin_2psi, force * drag_coefficient(c, cos_2psi)]
+    let [lift, drag] = coefficients(c, harmonics, cos_2psi);
+    [force * lift * sin_2psi, force * drag]
 }
 
 /// Returns the load of the air on the wing at a stroke. Lift and drag act at R_cp; for `rate` see [`lift_and_drag`].
@@ -255,6 +272,7 @@ pub(super) fn lift_and_drag<R: Real>(c: &Constants<R>, rate: R, sin_2psi: R, cos
 #[inline(always)]
 pub(super) fn load<R: Real>(
     c: &Constants<R>,
+    harmonics: bool,
     centre_of_pressure: CentreOfPressure,
     stroke: R,
     x_dot: R,
@@ -263,14 +281,15 @@ pub(super) fn load<R: Real>(
 ) -> Load<R> {
     let (sin, cos) = psi.sin_cos();
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
-    let [lift, drag] = lift_and_drag(c, rate, sin_2psi, cos_2psi);
+    let [lift, drag] = lift_and_drag(c, harmonics, rate, [sin_2psi, cos_2psi]);
+    let tilt = tilt(centre_of_pressure, psi, x_dot);
     Load {
         stroke,
         lift,
         drag,
         lift_moment: c.pressure_radius * lift,
         drag_moment: c.pressure_radius * drag,
-        span_moment: hinge_drag(c, tilt(centre_of_pressure, psi, x_dot), sin, cos) * rate.abs() * rate
+        span_moment: hinge_drag(c, harmonics, tilt, sin, cos) * rate.abs() * rate
             - c.c_c * psi_dot.abs() * psi_dot,
     }
 }

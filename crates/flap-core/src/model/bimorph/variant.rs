@@ -16,8 +16,9 @@ pub struct Bimorph {
     pub centre_of_pressure: CentreOfPressure,
     /// Terms of the body's motion.
     pub body: BodyTerms,
-    /// True with forces of the wing's sections along the normal: circulation, rotational drag, added mass.
-    pub has_sections: bool,
+    /// True with further terms of the attack angle, or forces of the wing's sections along the normal: circulation, rotational
+    /// drag, added mass.
+    pub has_air_terms: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
     /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
@@ -32,14 +33,14 @@ impl Bimorph {
         law: Law::Constant,
         centre_of_pressure: CentreOfPressure::Folded,
         body: BodyTerms::None,
-        has_sections: false,
+        has_air_terms: false,
         stiffens: false,
         is_plain: true,
     };
 
     /// Returns the variant with the right `is_plain`.
     pub(super) fn classified(self) -> Bimorph {
-        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        let is_plain = self.body != BodyTerms::All && !self.has_air_terms && !self.stiffens;
         Bimorph { is_plain, ..self }
     }
 }

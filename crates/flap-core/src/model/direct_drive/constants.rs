@@ -7,7 +7,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::chord::{BLADES, blades, elements};
 use super::params::{self, CentreOfPressure, FlowDirection, LiftSign, Params};
-use crate::aero::{AddedMass, Circulation, RotationalForce, Strips, sum};
+use crate::aero::{AddedMass, Circulation, Harmonics, RotationalForce, Strips, sum};
 use crate::body::BodyMotion;
 use crate::drive::DriveConstants;
 use crate::model::stroke_and_pitch::inertias_apart;
@@ -69,6 +69,9 @@ crate::per_lane! {
         pub drag_mean: R,
         /// Half of the drag coefficient's range, (27).
         pub drag_swing: R,
+
+        /// Further terms of the force coefficients and of the centre of pressure.
+        pub harmonics: Harmonics<R>,
 
         /// Lift per φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² (kg), (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
         pub lift: [R; 3],
@@ -199,9 +202,10 @@ impl Constants<f64> {
             mid_radius: 0.5 * r + x_r,
             mid_half_chord: 0.5 * p.midspan_chord.unwrap_or(c),
 
-            k_lift,
+            k_lift: p.lift_coefficient_max.unwrap_or(k_lift),
             drag_mean: 0.5 * (p.drag_coefficient_max + p.drag_coefficient_min),
             drag_swing: 0.5 * (p.drag_coefficient_max - p.drag_coefficient_min),
+            harmonics: Harmonics::of(&p.harmonics),
 
             lift: [
                 dynamic * r * r * p.shape_moment_21,

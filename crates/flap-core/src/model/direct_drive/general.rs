@@ -1,5 +1,5 @@
-//! The equations of the direct-drive model with the terms that the paper leaves out: motion of the body, rotational circulation,
-//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The equations of the direct-drive model with the terms that the paper leaves out: motion of the body, further terms of
+//! the attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! Body motion requires the blade elements, each of which has its own direction of flow. The forces of the air are compiled out of
 //! line, so that the terms cost nothing where they are zero.
@@ -70,7 +70,7 @@ fn air_inlined<R: Real>(
     let rate = shoulder.pitch_rate(psi_dot);
     let normal = c.circulation.load(&sections, rate, pitch).plus(&c.rotational_force.load(rate));
     if !body_moves {
-        let forces = aerodynamics(c, model.flow, side, y, pitch[0], pitch[1]);
+        let forces = aerodynamics(c, true, model.flow, side, y, pitch[0], pitch[1]);
         return Air { forces, normal, gyroscopic: phi.lit(0.0) };
     }
     let [directional, _, _] = c.attack;
@@ -83,7 +83,8 @@ fn air_inlined<R: Real>(
         |_, flow| {
             let attack = R::select(half.lt(directional), flow.attack(), flow.folded_attack());
             let law = [c.drag_mean, c.drag_swing, c.k_lift];
-            (flow.harmonic_forces(law), c.pressure_slope * attack + c.pressure_offset)
+            let place = c.pressure_slope * attack + c.pressure_offset + c.harmonics.pressure(attack * 2.0);
+            (flow.harmonic_forces(law, &c.harmonics), place)
         },
     );
     let [lift, drag] = forces.lift_and_drag(pitch);

@@ -6,7 +6,7 @@ use super::motion::with_motion;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use super::variant::DirectDrive;
-use crate::aero::{Wing, chord_table};
+use crate::aero::{HarmonicParameters, Wing, chord_table};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
@@ -173,7 +173,7 @@ impl DirectDrive {
         let (sin, cos) = psi.sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
         let (air, added, translational) = if PLAIN || self.is_plain() {
-            let air = aerodynamics(c, self.flow, side, &y, sin, cos);
+            let air = aerodynamics(c, false, self.flow, side, &y, sin, cos);
             let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
             (air, added_mass(c, sin, cos, &slope), power)
         } else {
@@ -224,7 +224,9 @@ impl Model<4> for DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
             flow: *flow_direction,
             body: body.terms(),
-            has_sections: p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0,
+            has_air_terms: p.circulation_factor != 0.0
+                || p.rotation_force_factor != 0.0
+                || p.harmonics != HarmonicParameters::NONE,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
             is_plain: false,
         }
@@ -234,7 +236,7 @@ impl Model<4> for DirectDrive {
     fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
         DirectDrive {
             body: self.body.or(other.body),
-            has_sections: self.has_sections || other.has_sections,
+            has_air_terms: self.has_air_terms || other.has_air_terms,
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
@@ -319,8 +321,8 @@ impl Model<4> for DirectDrive {
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
-        let (air, added) = if self.body == BodyTerms::None && !self.has_sections {
-            (aerodynamics(c, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
+        let (air, added) = if self.body == BodyTerms::None && !self.has_air_terms {
+            (aerodynamics(c, false, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
         } else {
             let air = general::air(c, self, self.body != BodyTerms::None, side, &y, [sin, cos]);
             (air.forces, air.with_added_mass(c, [sin, cos], &slope))

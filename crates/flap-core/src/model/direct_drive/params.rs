@@ -1,6 +1,6 @@
 //! Parameters of the direct-drive model and their published values.
 
-use crate::aero::ChordTable;
+use crate::aero::{ChordTable, HarmonicParameters};
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -143,6 +143,8 @@ crate::parameters! {
         ["air"]
         /// Density of the air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)) 1.29,
+        /// Lift coefficient of the wing at an attack angle of 45 deg. The aspect ratio A is wing_length divided by mean_chord.
+        lift_coefficient_max: Option<f64> = ("", "K_L", Following(NonNegative, "pi * A / (2 + sqrt(A^2 + 4)), Eq. (26)")) None,
         /// Drag coefficient of the wing at an attack angle of 90 deg.
         drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative)) 5.0,
         /// Drag coefficient of the wing at an attack angle of 0.
@@ -153,6 +155,8 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
+        /// Further terms of the force coefficients and of the centre of pressure.
+        harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,

@@ -42,10 +42,12 @@ pub(super) struct Aerodynamics<R> {
 /// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// `flow` selects the direction of flow for u|u| and d_cp. `side` is σ, the sign of the wing's [`mean_velocity`].
+/// `flow` selects the direction of flow for u|u| and d_cp. `side` is σ, the sign of the wing's [`mean_velocity`]. With
+/// `harmonics`, C_L, C_D and d_cp contain the further terms of the attack angle.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
+    harmonics: bool,
     flow: FlowDirection,
     side: R,
     y: &[R; 4],
@@ -57,13 +59,18 @@ pub(super) fn aerodynamics<R: Real>(
 
     let sin_2psi = sin * cos * 2.0;
     let cos_2psi = cos * cos * 2.0 - 1.0;
-    let c_lift = c.k_lift * sin_2psi;
-    let c_drag = c.drag_mean + c.drag_swing * cos_2psi;
+    let mut k_lift = c.k_lift;
+    let mut c_drag = c.drag_mean + c.drag_swing * cos_2psi;
+    if harmonics {
+        k_lift = k_lift + c.harmonics.lift(-cos_2psi);
+        c_drag = c_drag + c.harmonics.drag(-cos_2psi);
+    }
+    let c_lift = k_lift * sin_2psi;
     let c_normal = c_lift * sin + c_drag * cos;
 
     let pressure = match flow {
-        FlowDirection::Uniform => uniform_flow(c, side, psi, phi_dot, w),
-        FlowDirection::Blade => blade_flow(c, psi, phi_dot, w),
+        FlowDirection::Uniform => uniform_flow(c, harmonics, side, psi, [phi_dot, w]),
+        FlowDirection::Blade => blade_flow(c, harmonics, psi, [phi_dot, w]),
     };
     Aerodynamics {
         lift: c_lift * pressure.force,
@@ -92,12 +99,18 @@ struct Pressure<R> {
 /// B_L, B_Y, B_X: quadratic forms in φ̇ and w
 /// ```
 #[inline(always)]
-fn uniform_flow<R: Real>(c: &Constants<R>, side: R, psi: R, phi_dot: R, w: R) -> Pressure<R> {
+fn uniform_flow<R: Real>(
+    c: &Constants<R>,
+    harmonics: bool,
+    side: R,
+    psi: R,
+    [phi_dot, w]: [R; 2],
+) -> Pressure<R> {
     let products = [phi_dot * phi_dot * side, phi_dot * w * side, w * w * side];
     Pressure {
         force: form(c.lift, products),
         stroke: form(c.stroke, products),
-        pitch: centre_of_pressure(c, psi, side) * form(c.pitch, products),
+        pitch: centre_of_pressure(c, harmonics, psi, side) * form(c.pitch, products),
     }
 }
 
@@ -116,13 +129,13 @@ fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
 ///
 /// The velocity of an element is zero where its flow changes direction. Nothing jumps, and there is no `side`.
 #[inline(always)]
-fn blade_flow<R: Real>(c: &Constants<R>, psi: R, phi_dot: R, w: R) -> Pressure<R> {
+fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: [R; 2]) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
     let [pitch_pp, pitch_pw, pitch_ww] = c.pitch;
     let undirected = (pitch_pp * phi_dot + pitch_pw * w) * phi_dot + pitch_ww * w * w;
     let one = psi.lit(1.0);
-    let forth = centre_of_pressure(c, psi, one);
-    let back = centre_of_pressure(c, psi, -one);
+    let forth = centre_of_pressure(c, harmonics, psi, one);
+    let back = centre_of_pressure(c, harmonics, psi, -one);
     Pressure {
         force: sums.force,
         stroke: sums.radius,
@@ -152,13 +165,14 @@ pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) 
 /// d_cp = (0.82/π) α_d + 0.05
 /// ```
 #[inline(always)]
-fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
+fn centre_of_pressure<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, side: R) -> R {
     let [directional, folded, literal] = c.attack;
     let tilt = directional * side * psi + folded * psi.abs() + literal * psi;
     let attack = -tilt + FRAC_PI_2;
     // The magnitude |α|, except in the folded reading, which is signed.
     let attack = R::select(folded.lt(attack.lit(0.5)), attack.abs(), attack);
-    c.pressure_slope * attack + c.pressure_offset
+    let place = c.pressure_slope * attack + c.pressure_offset;
+    if harmonics { place + c.harmonics.pressure(attack * 2.0) } else { place }
 }
 
 /// Returns the mass matrix and the generalised forces without the actuator's force, from Lagrange's equations
@@ -180,7 +194,7 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, psi: R, side: R) -> R {
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y: &[R; 4]) -> Balance<R> {
     let (sin, cos) = y[1].sin_cos();
-    balance_in(c, &aerodynamics(c, flow, side, y, sin, cos), y, [sin, cos])
+    balance_in(c, &aerodynamics(c, false, flow, side, y, sin, cos), y, [sin, cos])
 }
 
 /// Returns the same for these aerodynamic forces and moments.

@@ -13,8 +13,8 @@ pub struct DirectDrive {
     pub flow: FlowDirection,
     /// Terms of the body's motion.
     pub body: BodyTerms,
-    /// True with rotational circulation, or a normal force of the rotational drag.
-    pub has_sections: bool,
+    /// True with further terms of the attack angle, rotational circulation, or a normal force of the rotational drag.
+    pub has_air_terms: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
     /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
@@ -28,14 +28,14 @@ impl DirectDrive {
         drive: Drive::SINE,
         flow: FlowDirection::Uniform,
         body: BodyTerms::None,
-        has_sections: false,
+        has_air_terms: false,
         stiffens: false,
         is_plain: true,
     };
 
     /// Returns the variant with the right `is_plain`.
     pub(super) fn classified(self) -> DirectDrive {
-        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        let is_plain = self.body != BodyTerms::All && !self.has_air_terms && !self.stiffens;
         DirectDrive { is_plain, ..self }
     }
 }

@@ -76,13 +76,20 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
 /// ```text
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
 /// ```
+///
+/// With `harmonics`, the coefficients contain the further terms of the attack angle.
 #[inline(always)]
-pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
+pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [R; 2] {
     let [lift_offset, lift_amplitude, lift_slope, lift_phase] = c.lift;
     let [drag_offset, drag_amplitude, drag_slope, drag_phase] = c.drag;
     let lift = lift_slope.mul_add(attack, -lift_phase).sin();
     let (_, drag) = drag_slope.mul_add(attack, -drag_phase).sin_cos();
-    [lift_amplitude.mul_add(lift, lift_offset), drag_offset - drag_amplitude * drag]
+    let [lift, drag] = [lift_amplitude.mul_add(lift, lift_offset), drag_offset - drag_amplitude * drag];
+    if !harmonics {
+        return [lift, drag];
+    }
+    let (sin, cos) = (attack * 2.0).sin_cos();
+    [lift + sin * c.harmonics.lift(cos), drag + c.harmonics.drag(cos)]
 }
 
 /// Returns the aerodynamic forces and moments without the added mass, at a state on one `side`.
@@ -94,10 +101,12 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, attack: R) -> [R; 2] {
 /// ```
 ///
 /// The strips of both directions of flow share C_l, C_d and B, because their angles |α| add up to π. With d_cp
-/// substituted, the sums Σ c q s and Σ c q remain. The latter is a quadratic form of the rates.
+/// substituted, the sums Σ c q s and Σ c q remain. The latter is a quadratic form of the rates. With `harmonics`, C_l, C_d
+/// and d_cp contain the further terms of the attack angle; the terms of d_cp are proportional to s, too.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
+    harmonics: bool,
     side: R,
     y: &[R; 4],
     sin: R,
@@ -106,14 +115,17 @@ pub(super) fn aerodynamics<R: Real>(
     let [_, phi, theta_dot, phi_dot] = *y;
     let air = &c.air;
     let Attitude { attack, tilt } = attitude(side, phi);
-    let [c_l, c_d] = coefficients(air, attack);
+    let [c_l, c_d] = coefficients(air, harmonics, attack);
     let c_l = side * c_l;
 
     let sweep = phi_dot * cos;
     let directed = c.strips.sums(theta_dot, sweep);
     let [chord_tt, chord_tw, chord_ww] = air.chord;
     let undirected = (chord_tt * theta_dot + chord_tw * sweep) * theta_dot + chord_ww * sweep * sweep;
-    let pressure = air.pressure_upright * directed.chord + air.pressure_slope * tilt * undirected;
+    let mut pressure = air.pressure_upright * directed.chord + air.pressure_slope * tilt * undirected;
+    if harmonics {
+        pressure = pressure + air.harmonics.pressure(tilt * 2.0 + PI) * undirected;
+    }
 
     let rotation = -(phi_dot.abs() * phi_dot);
     Aerodynamics {
@@ -152,7 +164,7 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();
-    let air = aerodynamics(c, side, y, sin, cos);
+    let air = aerodynamics(c, false, side, y, sin, cos);
     let normal = dy[2] * cos - dy[0] * dy[1] * sin;
     load_in(c, &air, y, [normal, dy[3]], [sin, cos])
 }

@@ -7,7 +7,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::params::{AddedMassSign, MAX_STRIPS, Params};
 use super::strips::{Moving, arms, strips};
-use crate::aero::{Circulation, Cut, Strips, sum};
+use crate::aero::{Circulation, Cut, Harmonics, Strips, sum};
 use crate::drive::DriveConstants;
 use crate::linkage::{FourBar, LinkInertias, SliderCrank};
 use crate::model::stroke_and_pitch::inertias_apart;
@@ -83,6 +83,8 @@ crate::per_lane! {
         pub pressure_upright: R,
         /// Shift of the centre of pressure per radian, in chords, (17).
         pub pressure_slope: R,
+        /// Further terms of the force coefficients and of the centre of pressure.
+        pub harmonics: Harmonics<R>,
         /// Σ c ½ρU²cΔr per θ̇², θ̇φ̇cosφ and (φ̇cosφ)² (kg·m²).
         pub chord: [R; 3],
 
@@ -303,6 +305,7 @@ fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
         drag: [p.drag_offset, p.drag_amplitude, p.drag_slope, p.drag_phase],
         pressure_upright: FRAC_PI_2 * p.pressure_slope + p.pressure_offset - origin,
         pressure_slope: p.pressure_slope,
+        harmonics: Harmonics::of(&p.harmonics),
         chord: [
             dynamic * sum(cuts, |r, c| r * r * c * c),
             dynamic * 2.0 * kappa * sum(cuts, |r, c| r * c * c * c),

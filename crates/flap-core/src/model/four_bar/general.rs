@@ -1,5 +1,5 @@
-//! The equations of the four-bar model with the terms that the paper leaves out: motion of the body, rotational circulation,
-//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The equations of the four-bar model with the terms that the paper leaves out: motion of the body, further terms of the
+//! attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! On a moving body, each strip has its own direction of flow and its own jump of the lift. The forces of the air are compiled out of
 //! line, so that the terms cost nothing where they are zero.
@@ -45,11 +45,13 @@ fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
     let Flow { normal, chordwise, speed } = *flow;
     let attack = flow.attack();
     let forwards = direction.lit(0.0).lt(direction);
-    let [c_l, c_d] = coefficients(&c.air, R::select(forwards, attack, -attack + PI));
+    let [c_l, c_d] = coefficients(&c.air, true, R::select(forwards, attack, -attack + PI));
     let lift = c_l * direction;
     let normal_force = lift * chordwise * direction.lit(1.0).copysign(normal) + c_d * normal;
     let chord_force = lift * normal.abs() - c_d * chordwise;
-    let pressure = c.air.pressure_upright + c.air.pressure_slope * (attack - FRAC_PI_2);
+    let pressure = c.air.pressure_upright
+        + c.air.pressure_slope * (attack - FRAC_PI_2)
+        + c.air.harmonics.pressure(attack * 2.0);
     ([speed * normal_force, speed * chord_force], pressure)
 }
 
@@ -176,7 +178,7 @@ fn motion_in_air_inlined<R: Real>(
         return (motion, air);
     }
     let motion = Motion::with(Shoulder::rest(side), y);
-    let air = aerodynamics(c, side, y, -motion.pitch[0], motion.pitch[1]);
+    let air = aerodynamics(c, true, side, y, -motion.pitch[0], motion.pitch[1]);
     let rotation = air.rotation.plus(&motion.circulation(c));
     (motion, Aerodynamics { rotation, ..air })
 }

@@ -9,7 +9,7 @@ use super::rhs::{
 };
 use super::strips::Moving;
 use super::variant::FourBar;
-use crate::aero::{Wing, chord_table};
+use crate::aero::{HarmonicParameters, Wing, chord_table};
 use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
@@ -161,7 +161,7 @@ impl FourBar {
         let [theta, phi, theta_dot, phi_dot] = y;
         let (sin, cos) = phi.sin_cos();
         let air = if PLAIN || self.is_plain() {
-            aerodynamics(c, side, &y, sin, cos)
+            aerodynamics(c, false, side, &y, sin, cos)
         } else {
             general::air(c, self, side, &y)
         };
@@ -221,7 +221,7 @@ impl Model<4> for FourBar {
         FourBar {
             drive: self.drive.of_point(p.waveform.drive_shape, p.stroke.stroke_mode),
             body: p.body.terms(),
-            has_sections: p.circulation_factor != 0.0,
+            has_air_terms: p.circulation_factor != 0.0 || p.harmonics != HarmonicParameters::NONE,
             stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
             is_plain: false,
         }
@@ -231,7 +231,7 @@ impl Model<4> for FourBar {
     fn with_terms_of(&self, other: &FourBar) -> FourBar {
         FourBar {
             body: self.body.or(other.body),
-            has_sections: self.has_sections || other.has_sections,
+            has_air_terms: self.has_air_terms || other.has_air_terms,
             stiffens: self.stiffens || other.stiffens,
             ..self.clone()
         }
@@ -306,7 +306,7 @@ impl Model<4> for FourBar {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let slope = states::slope(&self.drive, drive, dy);
-        if self.body == BodyTerms::None && !self.has_sections {
+        if self.body == BodyTerms::None && !self.has_air_terms {
             load(c, side, &y, &slope)
         } else {
             general::load(c, self, side, &y, &slope)

@@ -4,7 +4,7 @@
 //! gives the series stiffness, C_rot and the position of the rotation axis. All other values are assumed and are
 //! described as such.
 
-use crate::aero::ChordTable;
+use crate::aero::{ChordTable, HarmonicParameters};
 use crate::body::BodyParameters;
 use crate::drive::{DriveConstants, StrokeParameters, WaveformParameters};
 use crate::parameter::Kind::{Choice, Following, Number};
@@ -180,6 +180,8 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
+        /// Further terms of the force coefficients and of the centre of pressure.
+        harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
         /// and Sane and Dickinson (2002). Arabagi et al. (2013) do not use this parameter.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,

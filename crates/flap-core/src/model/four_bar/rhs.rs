@@ -126,7 +126,7 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let (sin, cos) = y[1].sin_cos();
-    balance_in(c, links, &aerodynamics(c, side, y, sin, cos), y, [sin, cos])
+    balance_in(c, links, &aerodynamics(c, false, side, y, sin, cos), y, [sin, cos])
 }
 
 /// Returns the same for these aerodynamic forces and moments.

@@ -10,8 +10,8 @@ pub struct FourBar {
     pub drive: Drive,
     /// Terms of the body's motion.
     pub body: BodyTerms,
-    /// True with rotational circulation.
-    pub has_sections: bool,
+    /// True with further terms of the attack angle, or rotational circulation.
+    pub has_air_terms: bool,
     /// True with nonlinear springs.
     pub stiffens: bool,
     /// True without any of these terms in the equations of motion. It follows from them, and is stored because each step reads it
@@ -24,14 +24,14 @@ impl FourBar {
     pub const SINE: FourBar = FourBar {
         drive: Drive::SINE,
         body: BodyTerms::None,
-        has_sections: false,
+        has_air_terms: false,
         stiffens: false,
         is_plain: true,
     };
 
     /// Returns the variant with the right `is_plain`.
     pub(super) fn classified(self) -> FourBar {
-        let is_plain = self.body != BodyTerms::All && !self.has_sections && !self.stiffens;
+        let is_plain = self.body != BodyTerms::All && !self.has_air_terms && !self.stiffens;
         FourBar { is_plain, ..self }
     }
 }
