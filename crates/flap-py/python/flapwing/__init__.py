@@ -1,13 +1,13 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
 `presets` lists published designs, and `params` lists their parameters. `run` simulates one design, `trajectory` returns
-the motion of a design, and `resonance` returns the resonances of a design. `sweep` runs a whole grid, and `evaluate`
-runs a batch of points. `respond` follows designs up and down along the drive frequency or another parameter. `chirp`
-simulates a drive with a changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the
-motion of a filmed wing. `fit` fits parameters to readings, `compare` compares fits, and `select` chooses free
-parameters. `optimise` finds the best design within the axes of a grid. `wrench_map` fits a quadratic map of the forces
-and torques of a vehicle, and `fly` simulates the flight of a vehicle. `live` opens a page in the browser, with sliders
-for the parameters and curves that change with the sliders.
+its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, and `evaluate` runs a batch of points.
+`respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
+changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
+`fit` fits parameters to readings, `compare` compares fits, and `select` chooses free parameters. `fit_coefficients`
+fits the laws of lift, drag and centre of pressure to a table. `optimise` finds the best design within the axes of a
+grid. `wrench_map` fits a quadratic map of the forces and torques of a vehicle, and `fly` simulates its flight. `live`
+opens a page in the browser, with sliders for the parameters and curves that change with the sliders.
 
 Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
 Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.
@@ -20,6 +20,7 @@ units.
 `flapwing.plot` draws pictures and requires matplotlib.
 """
 
+from ._coefficients import CoefficientFit, fit_coefficients
 from ._evaluate import evaluate
 from ._experiments import chirp, forces_along, impulse, track_wing
 from ._flapwing import Diagnostic, Exclusions, Grid, GridError, __version__, presets
@@ -56,6 +57,7 @@ from .fitting import Comparison, Fit, FreeParameter, Readings, Selection, candid
 __all__ = [
     "ActiveBound",
     "BistableBand",
+    "CoefficientFit",
     "Comparison",
     "ConditionValue",
     "DampedSine",
@@ -90,6 +92,7 @@ __all__ = [
     "edges",
     "evaluate",
     "fit",
+    "fit_coefficients",
     "fly",
     "forces_along",
     "hover_eigenvalues",

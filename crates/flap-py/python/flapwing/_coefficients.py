@@ -1,0 +1,194 @@
+"""Parameters of a model from a table of force coefficients over the attack angle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _flapwing
+from ._data import Data
+from ._types import Array, Design
+
+__all__ = ["CoefficientFit", "fit_coefficients"]
+
+#: Columns of a table that can be fitted.
+_COLUMNS = ("lift_coefficient", "drag_coefficient", "pressure")
+
+#: Columns of the attack angle, with their units (rad).
+_ANGLES = {"attack_deg": np.pi / 180.0, "attack_rad": 1.0}
+
+
+@dataclass(frozen=True, eq=False)
+class CoefficientFit:
+    """Parameters of a model that reproduce a table of coefficients; see `fit_coefficients`.
+
+    `print` shows the parameters as the section `[params]` of a grid file or a device.
+
+    Attributes
+    ----------
+    params : dict of str to float
+        Values of the parameters, in the units of the model. You can pass them as keywords to `run` and other functions.
+    attack : array of shape (n,)
+        Attack angles of the table (rad).
+    fitted : dict of str to array of shape (n,)
+        For each column of the table, the values of the model at the attack angles.
+    largest_error : dict of str to float
+        For each column of the table, the largest difference between the table and the model.
+    """
+
+    params: dict[str, float]
+    attack: Array
+    fitted: dict[str, Array]
+    largest_error: dict[str, float]
+
+    def __str__(self) -> str:
+        errors = [f"# largest error of {name}: {error:.2g}" for name, error in self.largest_error.items()]
+        values = [f"{name} = {value:.6g}" for name, value in self.params.items()]
+        return "\n".join([*errors, "[params]", *values])
+
+
+def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
+    """Fit the laws of a model for lift, drag and centre of pressure to a table over the attack angle.
+
+    The laws are the same in all models, so you can simulate one design with the coefficients of several papers. The fit
+    is a linear least-squares fit. At the attack angle α, the laws are::
+
+        C_L = sin 2α (b_L + l_1 cos 2α + l_2 cos² 2α)
+        C_D = b_max sin² α + b_min cos² α + sin² 2α (d_0 + d_1 cos 2α)
+        centre of pressure = constant + slope α + sin 2α (p_c0 + p_c1 cos 2α)
+
+    The lift is zero at 0 and 90°, so a table with a lift at 90° has an error there. b_L, b_max and b_min are at least
+    zero.
+
+    Parameters
+    ----------
+    design : str, path, dict or Grid
+        A preset, a device, a grid, or the name of a model. The design determines the names of the parameters.
+    table : str, path, Table, data frame or mapping of columns
+        The column `attack_deg` or `attack_rad` contains attack angles from 0 to 90°, at least four different ones. At
+        least one other column is required: `lift_coefficient`, `drag_coefficient`, or `pressure`, the centre of
+        pressure. In `bimorph`, the centre of pressure is the distance behind the hinge's axis in mean wing widths, as
+        `pressure_min`. In the other models, it is the distance behind the leading edge in chords, as `pressure_offset`.
+        Other columns are ignored.
+
+    Returns
+    -------
+    CoefficientFit
+        The parameters and the errors of the fit.
+
+    Raises
+    ------
+    ValueError
+        The design is unknown, or its model does not have these laws. A column is missing, an angle is not between 0 and
+        90°, a number is not finite, or the table has too few angles.
+    TypeError
+        The table is of another type.
+
+    Examples
+    --------
+    >>> attack = np.linspace(0, 90, 10)
+    >>> lift = 1.8 * np.sin(2 * np.radians(attack)) ** 3
+    >>> law = flapwing.fit_coefficients("bimorph", {"attack_deg": attack, "lift_coefficient": lift})
+    >>> [round(value, 6) for value in law.params.values()]
+    [1.8, 0.0, -1.8]
+    """
+    data = Data.of(table)
+    attack = _attack(data)
+    names = [name for name in _COLUMNS if name in data]
+    if not names:
+        raise ValueError(f"the table has no column to fit\nadd one of {', '.join(_COLUMNS)}")
+    laws = _laws({str(one["name"]) for one in _flapwing.params(design)})
+    params: dict[str, float] = {}
+    fitted, errors = {}, {}
+    for name in names:
+        values = data.numbers(name)
+        if not np.isfinite(values).all():
+            raise ValueError(f"`{name}` must contain finite numbers only")
+        functions, least, parameters = laws[name]
+        solution = _solve(np.stack(functions(attack), axis=-1), values, least)
+        params |= parameters(*(float(number) for number in solution))
+        fitted[name] = np.stack(functions(attack), axis=-1) @ solution
+        errors[name] = float(np.abs(fitted[name] - values).max())
+    return CoefficientFit(params, attack, fitted, errors)
+
+
+def _attack(data: Data) -> Array:
+    """Return the attack angles of a table (rad)."""
+    given = [name for name in _ANGLES if name in data]
+    if len(given) != 1:
+        raise ValueError("the table must have one column `attack_deg` or `attack_rad` with the attack angles")
+    attack = data.numbers(given[0]) * _ANGLES[given[0]]
+    # Rounding of the unit.
+    if not ((attack >= -1e-9) & (attack <= 0.5 * np.pi + 1e-9)).all():
+        raise ValueError(f"`{given[0]}` must contain attack angles from 0 to 90 deg only")
+    if len(np.unique(attack)) < 4:
+        raise ValueError(f"`{given[0]}` must contain at least four different attack angles")
+    return attack
+
+
+def _solve(columns: Array, values: Array, least: int) -> Array:
+    """Return the least-squares solution, in which the first `least` unknowns are not negative."""
+    free = np.ones(columns.shape[1], dtype=bool)
+    while True:
+        solution = np.zeros(len(free))
+        solution[free] = np.linalg.lstsq(columns[:, free], values, rcond=None)[0]
+        negative = np.flatnonzero(solution[:least] < 0.0)
+        if len(negative) == 0:
+            return solution
+        free[negative] = False
+
+
+#: Functions of the attack angle, the number of unknowns that must not be negative, and the parameters of the unknowns.
+_Law = tuple[Callable[[Array], list[Array]], int, Callable[..., dict[str, float]]]
+
+
+def _laws(known: set[str]) -> dict[str, _Law]:
+    """Return the laws of a model with these parameters."""
+    if not {"lift_term_1", "drag_term_0", "pressure_term_0"} <= known:
+        raise ValueError("the model of the design does not have these laws\nuse bimorph, direct-drive or four-bar")
+    sine = "lift_amplitude" in known
+    at_ends = "pressure_min" in known
+
+    def lift(b: float, l_1: float, l_2: float) -> dict[str, float]:
+        law = {"lift_coefficient_max": b}
+        if sine:
+            law = {"lift_offset": 0.0, "lift_amplitude": b, "lift_slope": 2.0, "lift_phase": 0.0}
+        return {**law, "lift_term_1": l_1, "lift_term_2": l_2}
+
+    def drag(largest: float, smallest: float, d_0: float, d_1: float) -> dict[str, float]:
+        law = {"drag_coefficient_max": largest, "drag_coefficient_min": smallest}
+        if sine:
+            mean, swing = 0.5 * (largest + smallest), 0.5 * (largest - smallest)
+            law = {"drag_offset": mean, "drag_amplitude": swing, "drag_slope": 2.0, "drag_phase": 0.0}
+        return {**law, "drag_term_0": d_0, "drag_term_1": d_1}
+
+    def pressure(start: float, end: float, p_0: float, p_1: float) -> dict[str, float]:
+        law = {"pressure_min": start, "pressure_max": end}
+        if not at_ends:
+            law = {"pressure_offset": start, "pressure_slope": (end - start) / (0.5 * np.pi)}
+        return {**law, "pressure_term_0": p_0, "pressure_term_1": p_1}
+
+    return {
+        "lift_coefficient": (_lift_functions, 1, lift),
+        "drag_coefficient": (_drag_functions, 2, drag),
+        "pressure": (_pressure_functions, 0, pressure),
+    }
+
+
+def _lift_functions(attack: Array) -> list[Array]:
+    sin, cos = np.sin(2.0 * attack), np.cos(2.0 * attack)
+    return [sin, sin * cos, sin * cos**2]
+
+
+def _drag_functions(attack: Array) -> list[Array]:
+    sin, cos = np.sin(2.0 * attack), np.cos(2.0 * attack)
+    return [np.sin(attack) ** 2, np.cos(attack) ** 2, sin**2, sin**2 * cos]
+
+
+def _pressure_functions(attack: Array) -> list[Array]:
+    sin, cos = np.sin(2.0 * attack), np.cos(2.0 * attack)
+    share = attack / (0.5 * np.pi)
+    return [1.0 - share, share, sin, sin * cos]
