@@ -3,7 +3,10 @@
 import flapwing
 import numpy as np
 import pytest
-from fits import PRESET, TRUE, TRUTH, readings
+from fits import FREQUENCY, PRESET, TRUE, TRUTH, readings
+
+#: The true parameters without the hinge stiffness.
+BESIDE = {name: value for name, value in TRUTH.items() if name != "hinge_stiffness"}
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +35,16 @@ def test_a_fit_is_the_same_for_any_number_of_threads():
         for threads in (1, 2)
     )
     assert one.values == two.values
+
+
+def test_a_search_that_begins_at_a_bound_moves_away():
+    """The damping is zero in the design, which is the lower bound."""
+    free = {"hinge_stiffness": None, "hinge_damping": (0.0, "1 nN*m*s")}
+    data = readings(hinge_damping="0.3 nN*m*s")
+    result = flapwing.fit(PRESET, data, free, sigma="2 deg", starts=1, profile=False, **BESIDE)
+    one = result.estimates["hinge_damping"]
+    assert abs(one.value - 0.3e-9) < 3.5 * one.error < 0.4e-9 and result.converged
+    assert result.effort.points < 15 * len(FREQUENCY)
 
 
 def test_intervals_cover_the_truth():

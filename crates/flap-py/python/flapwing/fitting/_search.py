@@ -87,6 +87,10 @@ _LOOKS = 4
 #: Largest number of steps of a search.
 _STEPS = 40
 
+#: The cost at the end of the last search is known to this error, which changes a parameter by at most 0.014 standard
+#: errors. The numerical error of the cost has about this size.
+_COST = 1e-4
+
 
 @dataclass(frozen=True)
 class Target:
@@ -154,13 +158,23 @@ def minimise(
         x, known = answer(whole[moving])
         jacobian_there = target.jacobian(space, x, known)
         return Found(x, cost_of(target.residuals(space, x, known), target.loss), jacobian_there, True, 1)
-    # The method requires a start inside the bounds.
-    inside = np.clip(begin, space.low + 1e-9, space.high - 1e-9)
+    # The method requires a start inside the bounds. Its first trust region has the size of the start's coordinates, so
+    # the coordinates of the method have the value 1 at the start.
+    inside = np.clip(begin, space.low + 1e-9, space.high - 1e-9)[moving]
+    shift = inside - 1.0
     ended = least_squares(
-        residuals, inside[moving], jacobian, (space.low[moving], space.high[moving]), loss=target.loss, x_scale="jac",
-        ftol=tolerance, xtol=1e-7, gtol=1e-9, max_nfev=steps,
-    )  # fmt: skip
-    x, known = answer(ended.x)
+        lambda y: residuals(y + shift),
+        np.ones(len(moving)),
+        lambda y: jacobian(y + shift),
+        (space.low[moving] - shift, space.high[moving] - shift),
+        loss=target.loss,
+        x_scale="jac",
+        ftol=tolerance,
+        xtol=1e-5,
+        gtol=1e-9,
+        max_nfev=steps,
+    )
+    x, known = answer(ended.x + shift)
     return Found(x, float(ended.cost), target.jacobian(space, x, known), bool(ended.status > 0), int(ended.nfev))
 
 
@@ -211,13 +225,21 @@ def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Foun
     return sorted(found, key=lambda one: one.cost)
 
 
-def polish(model: Model, target: Target, begin: Array) -> Found:
-    """Return the best coordinates near `begin`, at the integration tolerance of the last search."""
+def polish(model: Model, target: Target, begin: Array, error: float = _COST) -> Found:
+    """Return the best coordinates near `begin`, at the integration tolerance of the last search. `error` is the largest
+    error of the cost.
+    """
 
     def ask(x: Array) -> Answer:
-        return model.at([x], rtol=FINE)[0]
+        return model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
 
-    return minimise(ask, model.space, target, begin, None)
+    cost = cost_of(target.residuals(model.space, begin, ask(begin)), target.loss)
+    return minimise(ask, model.space, target, begin, None, tolerance=tolerance_of(error, cost))
+
+
+def tolerance_of(error: float, cost: float) -> float:
+    """Return the relative tolerance of a search whose cost is about `cost` and may have the absolute error `error`."""
+    return float(np.clip(error / max(cost, 1e-300), 1e-8, 1e-3))
 
 
 def inverse(jacobian: Array) -> tuple[Array, Mask]:

@@ -222,17 +222,10 @@ class _Work:
         self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
     ) -> tuple[Array, Answer, Target]:
         """Return the end of a search from `begin`, with the standard errors at the end of the search."""
-
-        def ask(x: Array) -> Answer:
-            return model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
-
         x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
         for _ in range(_ROUNDS):
-            if len(x):
-                cost = _search.cost_of(target.residuals(model.space, x, ask(x)), "linear")
-                tolerance = float(np.clip(_COST / max(cost, 1e-300), 1e-8, 1e-3))
-                x = _search.minimise(ask, model.space, target, x, None, tolerance=tolerance).x
-            answer = ask(x)
+            x = _search.polish(model, target, x, _COST).x
+            answer = model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
             used = target.used & np.isfinite(answer.values)
             _search.new_guesses(self.sets, target, used, answer, len(x), guesses)
             before = target.sigma
