@@ -121,9 +121,8 @@ def fit(
         _check_count(model, sets, len(measured) - int(held.sum()))
         guesses = _search.first_guesses(sets)
         target = Target(measured, _search.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
-        indistinct = _intervals.indistinct(model, target, seed)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
-        made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), indistinct)
+        made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), seed)
     agreed = 0 if made.effort.agreed == 0 else sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
     made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
     return made
@@ -137,7 +136,7 @@ def _finish(
     guesses: dict[str, float],
     held: Mask,
     profile: bool,
-    indistinct: list[str],
+    seed: int,
 ) -> Fit:
     """Return the result of the fit from the best of the searches."""
     target, found, answer = _settle(model, sets, target, best, guesses)
@@ -172,7 +171,7 @@ def _finish(
         outliers=result.outliers,
         drifting=result.drifting,
         combinations=_intervals.combinations(model.space, jacobian, ("best known", "worst known")),
-        indistinct=indistinct,
+        indistinct=_intervals.indistinct(model, target, jacobian, seed),
         goodness=result.goodness,
         unsettled=_unsettled(sets, answer, held),
         without_slopes=int((answer.gaps & target.used & np.isfinite(answer.values)).sum()),

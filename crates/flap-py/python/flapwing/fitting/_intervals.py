@@ -10,10 +10,10 @@ from functools import partial
 
 import numpy as np
 
-from .._types import Array
+from .._types import Array, Places
 from ._model import FINE, Answer, Model
 from ._parameters import Coordinate, Space
-from ._search import NOTHING, Ask, Found, Target, minimise, sobol, together
+from ._search import NOTHING, Ask, Found, Target, minimise, sobol, together, tolerance_of
 
 #: Largest number of values of a profile on each side of the estimate.
 _TRIES = 6
@@ -101,7 +101,7 @@ class _Walks:
         best: Found | None = None
         reached, is_open = here, False
         # The cost must be known to a fraction of its rise.
-        tolerance = float(np.clip(0.02 / max(self.found.cost, 1e-300), 1e-8, 1e-3))
+        tolerance = tolerance_of(0.02, self.found.cost)
         for _ in range(_TRIES):
             limit = abs(end - here)
             step = min(step, limit)
@@ -191,9 +191,9 @@ _EFFECT = 1e-2
 _SHARE = 0.05
 
 
-def indistinct(model: Model, target: Target, seed: int) -> list[str]:
-    """Return one sentence for each combination of parameter changes that never affects a reading, for all values of the
-    parameters.
+def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> list[str]:
+    """Return one sentence for each combined change of parameters that affects no reading at any values of the
+    parameters. `at_estimate` has the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
     space at each set of parameters, no data of this kind can distinguish the parameters. If only a product of
@@ -202,15 +202,17 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
     of all sets have the same null space.
     """
     space = model.space
+    # A change that affects no reading at any values of the parameters affects none at the estimate.
+    idle, active = _idle(space, at_estimate)
+    if not idle and not len(_null(at_estimate)):
+        return []
     looks = sobol(space, _SETS_LOOKED_AT, seed)
     answers = model.at(looks, rtol=_RTOL)
     # Motions that do not settle have no derivatives, so the sets with most readings are used.
     settled = sorted(range(len(looks)), key=lambda place: -np.isfinite(answers[place].values).sum())[:_PLACES]
     jacobians = [target.jacobian(space, looks[place], answers[place]) for place in settled]
-    ranges = space.high - space.low
-    idle = np.linalg.norm(np.concatenate(jacobians), axis=0) * ranges < _EFFECT
-    told = [f"{label} changes no reading" for label, is_idle in zip(space.labels, idle) if is_idle]
-    active = np.flatnonzero(~idle)
+    idle, active = _idle(space, np.concatenate(jacobians))
+    told = [f"{label} changes no reading" for label in idle]
     jacobians = [jacobian[:, active] for jacobian in jacobians]
     if not len(active):
         return told
@@ -231,6 +233,12 @@ def indistinct(model: Model, target: Target, seed: int) -> list[str]:
                 told.append(f"{_in_words(space, whole)}{where} changes no reading")
             break
     return told
+
+
+def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
+    """Return the labels of the parameters without an effect on any reading, and the places of the other parameters."""
+    is_idle = np.linalg.norm(jacobian, axis=0) * (space.high - space.low) < _EFFECT
+    return [label for label, none in zip(space.labels, is_idle) if none], np.flatnonzero(~is_idle)
 
 
 def _null(jacobian: Array) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from .. import _arguments
 from .._progress import Progress, shown
 from .._types import Array, Design, Mask, Value
-from . import _data, _fit, _held, _intervals, _parameters, _report, _search
+from . import _data, _fit, _held, _parameters, _report, _search
 from ._candidates import is_number
 from ._compare import criteria, log_likelihoods
 from ._data import DataSet
@@ -528,10 +528,9 @@ def _final(work: _Work, state: _State, starts: int, seed: int, profile: bool) ->
     model = work.model(work.space(state.names))
     guesses = dict(state.guesses)
     target = replace(state.target, used=~work.held)
-    indistinct = _intervals.indistinct(model, target, seed)
     begins = [state.x, *_search.starts(model, target, starts, seed)]
     ends: list[Found] = _search.from_all(model, target, begins)
-    made = _fit._finish(model, work.sets, target, ends[0], guesses, work.held, profile, indistinct)
+    made = _fit._finish(model, work.sets, target, ends[0], guesses, work.held, profile, seed)
     agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
     made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
     return made
