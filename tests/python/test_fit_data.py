@@ -94,6 +94,19 @@ def test_data_sets_share_parameters_or_have_their_own():
     assert soft.value[0] != stiff.value[0]
 
 
+@pytest.mark.parametrize(
+    ("given", "low", "high"), [(None, 0.0, 1.0), ((0.0, None), 0.0, 1.0), ((None, "0.1 nN*m*s"), 0.0, None)]
+)
+def test_a_parameter_that_is_zero_in_the_design_has_the_bounds_of_candidates(given, low, high):
+    """The largest damping makes a torque of half of the hinge's, at the drive frequency."""
+    params = flapwing.params(PRESET)
+    largest = 0.5 * params["hinge_stiffness"].value / (2 * np.pi * params["drive_frequency"].value)
+    result = flapwing.fit(PRESET, readings(), {"hinge_damping": given}, sigma="3 %", starts=1, profile=False)
+    (one,) = result._model.space.coordinates
+    assert one.low == low and one.high == pytest.approx(1e-10 if high is None else high * largest)
+    assert flapwing.candidates(PRESET)["hinge_damping"].high == pytest.approx(largest)
+
+
 def test_what_is_known_beforehand_counts():
     data = {name: values[:3] for name, values in readings().items()}
     free = {name: flapwing.FreeParameter(prior=(value, "2 %")) for name, value in TRUTH.items()}

@@ -159,7 +159,7 @@ def test_data_that_are_refused(data, says):
         (
             ["actuator_mass"],
             ValueError,
-            "`actuator_mass` is zero in the design, so it has no default bounds\ngive free=",
+            "`actuator_mass` is zero in the design and has no typical size, so it has no default bounds\ngive free=",
         ),
         (
             {"drag_coefficient_max": (5.0, 3.0)},

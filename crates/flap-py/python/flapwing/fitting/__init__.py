@@ -4,7 +4,7 @@
 
 - `_names`, `_cells`, `_noise`: names, cells and standard errors in columns of readings
 - `_data`, `_held`: readings in the units of the model; readings that are not fitted
-- `_parameters`: free parameters, and the coordinates of the search
+- `_typical`, `_parameters`: typical sizes of terms; free parameters, and the coordinates of the search
 - `_model`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, TypeGuard
-
-import numpy as np
 
 from .. import _flapwing
 from .._flapwing import Grid
 from .._types import Design
 from ._parameters import FreeParameter
+from ._typical import typical_bounds
 
 #: Numbers that were fitted to one vehicle in the presets of `bimorph`, with the parameters of the other models that are
 #: uncertain in most robots.
@@ -31,45 +29,6 @@ _UNCERTAIN = (
     "stiffness_factor",
     "deflection_factor",
 )
-
-#: Terms that the papers leave out, and a number with wide bounds. The bounds are multiples of a typical size of the
-#: design; see `_sizes`.
-_BOUNDS = {
-    "drag_coefficient_min": (0.05, 2.0, "one"),
-    "stroke_damping": (0.0, 1.0, "stroke damping"),
-    "stroke_loss_factor": (0.0, 0.5, "one"),
-    "hinge_damping": (0.0, 0.5, "hinge damping"),
-    "hinge_loss_factor": (0.0, 0.5, "one"),
-    "transmission_growth": (-0.25, 0.5, "transmission"),
-    "stroke_stiffening": (-0.2, 1.0, "stroke stiffness"),
-    "hinge_stiffening": (-0.2, 1.0, "hinge stiffness"),
-    "hinge_stop_stiffness": (0.0, 10.0, "hinge stiffness"),
-    "modulus_decline": (0.0, 0.5, "per field"),
-    "circulation_factor": (0.0, 2.0, "one"),
-    "rotation_force_factor": (0.0, 2.0, "one"),
-    "added_mass_factor": (0.0, 2.0, "one"),
-    "plate_ratio": (0.5, 1.5, "one"),
-}
-
-
-def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units. A size that the model does not have is nan."""
-
-    def of(name: str) -> float:
-        value = values.get(name)
-        return float(value) if isinstance(value, (int, float)) and value > 0 else np.nan
-
-    rate = 2.0 * np.pi * of("drive_frequency")
-    inertia = of("wing_inertia_stroke" if "wing_inertia_stroke" in values else "leading_edge_inertia")
-    return {
-        "one": 1.0,
-        "stroke damping": inertia * rate,
-        "stroke stiffness": inertia * rate**2,
-        "hinge damping": of("hinge_stiffness") / rate,
-        "hinge stiffness": of("hinge_stiffness"),
-        "transmission": of("transmission_ratio") ** 3,
-        "per field": 2.0 * of("piezo_thickness") / of("drive_voltage_pp"),
-    }
 
 
 def candidates(design: Design, /) -> dict[str, FreeParameter]:
@@ -114,11 +73,10 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     """
     grid = Grid(design)
     listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
-    sizes = _sizes(listed)
     found = {name: FreeParameter() for name in _UNCERTAIN if is_number(listed.get(name)) and listed[name] != 0}
-    for name, (low, high, size) in _BOUNDS.items():
-        value, low, high = listed.get(name), low * sizes[size], high * sizes[size]
-        if is_number(value) and np.isfinite(high):
+    for name, (low, high) in typical_bounds(listed).items():
+        value = listed[name]
+        if is_number(value):
             # A damping of a preset that is not zero has a value of its own.
             is_own = low == 0.0 and value != 0.0
             found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)

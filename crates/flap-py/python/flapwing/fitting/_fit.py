@@ -56,8 +56,8 @@ def fit(
         One or several data sets with parameters of the operating points and with measures (see `Readings`).
     free : list of str, or dict
         The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
-        Bounds are numbers in SI units or text with units. Default bounds: a third of the design's value, and three
-        times the design's value.
+        Bounds are numbers in SI units or text with units; None is the default bound. Default bounds: a third of the
+        design's value, and three times the design's value; see `FreeParameter` for values of zero.
     sigma : float, str or dict, optional
         The standard error of readings without a column of standard errors: a number in the measure's unit, text such as
         ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for each measure. Default:

@@ -12,6 +12,7 @@ from .. import _flapwing
 from .._types import Array, Value
 from ._data import DataSet
 from ._names import Names
+from ._typical import typical_bounds
 
 #: Default bounds of a parameter, as factors on its value in the design.
 _REACH = 3.0
@@ -25,8 +26,9 @@ class FreeParameter:
     ----------
     low, high : float or str, optional
         Bounds of the parameter, in SI units or as text with units. Default: a third of the design's value, and three
-        times the design's value. The first search begins at the design's value, or at the middle of the bounds if the
-        design's value is outside of the bounds.
+        times the design's value. If the design's value is zero, the defaults are the bounds of `flapwing.candidates`;
+        a parameter without such bounds requires `low` and `high`. The first search begins at the design's value, or at
+        the middle of the bounds if the design's value is outside of the bounds.
         Bounds of zero are allowed if the parameter may be zero.
     prior : (value, error), optional
         A value that is known before the fit, and the standard error of this value: numbers in SI units, or text with
@@ -169,15 +171,18 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     nominal = float(nominal) if isinstance(nominal, (int, float)) and np.isfinite(nominal) else None
     low, high = (_value(names, name, bound) for bound in (free.low, free.high))
     if nominal is None or nominal == 0.0:
-        if low is None or high is None:
+        usual = typical_bounds(names.nominal).get(name)
+        if usual is None and (low is None or high is None):
             told = "not set" if nominal is None else "zero"
             missing = "bounds" if low is None and high is None else "lower bound" if low is None else "upper bound"
             raise ValueError(
-                f"`{name}` is {told} in the design, so it has no default {missing}\ngive free={{{name!r}: (low, high)}}"
+                f"`{name}` is {told} in the design and has no typical size, so it has no default {missing}\n"
+                f"give free={{{name!r}: (low, high)}}"
             )
+        ends = usual or (0.0, 0.0)
     else:
-        ends = sorted((nominal / _REACH, nominal * _REACH))
-        low, high = ends[0] if low is None else low, ends[1] if high is None else high
+        ends = min(nominal / _REACH, nominal * _REACH), max(nominal / _REACH, nominal * _REACH)
+    low, high = ends[0] if low is None else low, ends[1] if high is None else high
     _check_bounds(name, low, high, free, names.unit(name))
     log = low * high > 0
     if nominal is None or not low <= nominal <= high:

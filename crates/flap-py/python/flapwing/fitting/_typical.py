@@ -1,0 +1,57 @@
+"""Bounds of the terms that the papers leave out, from typical sizes of a design."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+#: Bounds of the terms that the papers leave out, and of a number with wide bounds, as multiples of a typical size of
+#: the design; see `_sizes`.
+_BOUNDS = {
+    "drag_coefficient_min": (0.05, 2.0, "one"),
+    "stroke_damping": (0.0, 1.0, "stroke damping"),
+    "stroke_loss_factor": (0.0, 0.5, "one"),
+    "hinge_damping": (0.0, 0.5, "hinge damping"),
+    "hinge_loss_factor": (0.0, 0.5, "one"),
+    "transmission_growth": (-0.25, 0.5, "transmission"),
+    "stroke_stiffening": (-0.2, 1.0, "stroke stiffness"),
+    "hinge_stiffening": (-0.2, 1.0, "hinge stiffness"),
+    "hinge_stop_stiffness": (0.0, 10.0, "hinge stiffness"),
+    "modulus_decline": (0.0, 0.5, "per field"),
+    "circulation_factor": (0.0, 2.0, "one"),
+    "rotation_force_factor": (0.0, 2.0, "one"),
+    "added_mass_factor": (0.0, 2.0, "one"),
+    "plate_ratio": (0.5, 1.5, "one"),
+}
+
+
+def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
+    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
+
+    def of(name: str) -> float:
+        value = values.get(name)
+        return float(value) if isinstance(value, (int, float)) and value > 0 else np.nan
+
+    rate = 2.0 * np.pi * of("drive_frequency")
+    inertia = of("wing_inertia_stroke" if "wing_inertia_stroke" in values else "leading_edge_inertia")
+    return {
+        "one": 1.0,
+        "stroke damping": inertia * rate,
+        "stroke stiffness": inertia * rate**2,
+        "hinge damping": of("hinge_stiffness") / rate,
+        "hinge stiffness": of("hinge_stiffness"),
+        "transmission": of("transmission_ratio") ** 3,
+        "per field": 2.0 * of("piezo_thickness") / of("drive_voltage_pp"),
+    }
+
+
+def typical_bounds(values: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """Return bounds in SI units for the terms that the papers leave out, for a design with these values of parameters.
+
+    The bounds do not depend on the values of the terms, which are zero in most designs.
+    """
+    sizes = _sizes(values)
+    found = {name: (low * sizes[size], high * sizes[size]) for name, (low, high, size) in _BOUNDS.items()}
+    return {name: bounds for name, bounds in found.items() if name in values and np.isfinite(bounds[1])}
