@@ -205,6 +205,11 @@ def test_data_that_are_refused(data, says):
             TypeError,
             "free['drag_coefficient_max']: `prior` is float\n",
         ),
+        (
+            {"hinge_stiffness": flapwing.FreeParameter(spread="5 %")},
+            ValueError,
+            "free['hinge_stiffness']: `spread` requires two or more data sets\ngive one data set for each robot",
+        ),
     ],
 )
 def test_free_parameters_that_are_refused(free, error, says):

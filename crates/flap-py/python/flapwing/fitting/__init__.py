@@ -9,7 +9,8 @@
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
 - `_structure`, `_discrepancy`, `_drift`: patterns in residuals; discrepancy of the model; disagreement of data sets
-- `_assess`: errors of an estimate, from the tests of residuals
+- `_spread`: scatter of a parameter between robots
+- `_assess`: errors of an estimate, from these tests
 - `_solution`, `_result`: the estimates and the quality of the fit; predictions of the fit
 - `_points`, `_plan`: operating points of predictions; the next readings
 - `_report`, `_device`: the result as text, and as a device
@@ -31,6 +32,7 @@ from ._plan import NextMeasurements
 from ._result import Fit, Prediction
 from ._select import Selection, SelectionStep, select
 from ._solution import Effort, Estimate, Goodness, HeldOut, Outlier, Residuals, Unsettled
+from ._spread import Spread
 from ._structure import Structure
 
 __all__ = [
@@ -53,6 +55,7 @@ __all__ = [
     "Residuals",
     "Selection",
     "SelectionStep",
+    "Spread",
     "Structure",
     "Unsettled",
     "candidates",

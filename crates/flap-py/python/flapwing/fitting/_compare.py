@@ -423,8 +423,8 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     Raises
     ------
     ValueError
-        There are fewer than two fits; the fits have different readings or a robust loss; the fits have too few readings
-        in common.
+        Fewer than two fits; fits of different readings; a robust loss; parameters with a `spread`; too few readings in
+        common.
     TypeError
         `fits` contains something other than a `Fit`.
 
@@ -448,6 +448,11 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     for name, one in zip(named, listed):
         if one._loss != "linear":
             raise ValueError(f'{name} has loss="{one._loss}", which has no likelihood\nfit again with loss="linear"')
+        if one.spreads:
+            raise ValueError(
+                f"{name} has a `spread` of {', '.join(one.spreads)}, so its number of parameters is not defined\n"
+                "compare fits with per_set=True in place of the spread"
+            )
         _check_same(named[0], listed[0], name, one)
     sides = []
     for name, one in zip(named, listed):

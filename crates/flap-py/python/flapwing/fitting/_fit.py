@@ -19,11 +19,12 @@ from ._names import Names
 from ._result import Fit
 from ._search import Found, Target
 from ._solution import Effort, Estimate, Unsettled
+from ._spread import new_spreads, spreads
 
 #: Names of the loss functions of `scipy.optimize.least_squares`.
 _LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
-#: Number of rounds in which standard errors that depend on the fit are updated.
+#: Largest number of rounds in which standard errors and spreads that depend on the fit are updated.
 _ROUNDS = 4
 
 
@@ -157,6 +158,7 @@ def _finish(
             # The whole of the estimated standard error is discrepancy.
             guesses[measure] = 0.0
     jacobian = target.jacobian(model.space, found.x, answer) / result.factors
+    slopes = model.space.slopes(found.x)
     made = Fit(
         model=model,
         sets=sets,
@@ -164,6 +166,7 @@ def _finish(
         covariance=result.covariance,
         information=jacobian.T @ jacobian,
         estimates=_estimates(model, found.x, result.covariance, profiles, result.quantile),
+        spreads=spreads(model.space, target, found.x, answer, result.covariance * np.outer(slopes, slopes)),
         quantile=result.quantile,
         sigma_known=sigma_known(sets),
         guesses=guesses,
@@ -189,8 +192,8 @@ def _finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, and estimate standard errors at the end of this search. Readings whose motion at the end of
-    the search does not settle are left out.
+    """Run the last search, with the standard errors and spreads at the end of this search. Readings without a settled
+    motion at the end are left out.
     """
     found = best
     for _ in range(_ROUNDS):
@@ -199,10 +202,14 @@ def _settle(
         used = target.used & np.isfinite(answer.values)
         _search.new_guesses(sets, target, used, answer, len(model.space), guesses)
         sigma = _search.sigmas(sets, answer.values, guesses)
-        is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
-        if is_same:
-            break
+        before, beside = target, model.space.spreads
         target = Target(target.measured, sigma, used, target.loss)
+        new = new_spreads(model.space, target, found.x, answer)
+        is_same = bool(np.allclose(sigma, before.sigma, rtol=0.01) and (used == before.used).all())
+        if is_same and np.allclose(list(new.values()), list(beside.values()), rtol=0.01, atol=0.0):
+            target = before
+            break
+        model.space.spreads = new
     return target, found, answer
 
 
@@ -292,7 +299,7 @@ def _check(loss: Any, starts: Any, seed: Any) -> None:
 
 
 def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:
-    priors = sum(one.prior is not None for one in model.space.coordinates)
+    priors = len(model.space.prior(np.zeros(len(model.space)))[0])
     if readings + priors <= len(model.space):
         counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {priors} priors" if priors else "")
         parameters = f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)}"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _flapwing
-from .._types import Array, Value
+from .._types import Array, Places, Value
 from ._data import DataSet
 from ._names import Names
 from ._typical import typical_bounds
@@ -36,12 +36,18 @@ class FreeParameter:
     per_set : bool
         True if each data set has its own value of the parameter, for example if the wing was changed between
         experiments.
+    spread : float, str or True, optional
+        For data sets of several robots of the same build: each data set has its own value of the parameter, and these
+        values scatter about a common mean (normal distribution). The spread is the standard deviation of the scatter: a
+        number in SI units, text with a unit or such as ``"5 %"`` of the mean. With True, the spread is estimated from
+        the data. Not together with `prior`.
     """
 
     low: Value | None = None
     high: Value | None = None
     prior: tuple[Value, Value] | None = None
     per_set: bool = False
+    spread: Value | bool | None = None
 
 
 @dataclass(frozen=True)
@@ -81,11 +87,24 @@ class Coordinate:
         return 0.5 * (self.high - self.low)
 
 
+@dataclass(frozen=True)
+class Group:
+    """The coordinates of a parameter whose values in the data sets scatter about a common mean."""
+
+    parameter: str
+    places: Places
+    #: The given standard deviation, in SI units or as a share of the mean; None if the standard deviation is estimated.
+    given: float | None
+    is_share: bool
+
+
 class Space:
     """All coordinates of the search of a fit."""
 
-    def __init__(self, coordinates: Sequence[Coordinate]) -> None:
-        self.coordinates = list(coordinates)
+    def __init__(self, coordinates: Sequence[Coordinate], groups: Sequence[Group] = ()) -> None:
+        self.coordinates, self.groups = list(coordinates), list(groups)
+        #: The present standard deviation of each parameter of `groups`, which a fit updates.
+        self.spreads = {one.parameter: _first_spread(one, self.coordinates[one.places[0]]) for one in groups}
         self.parameters = list(dict.fromkeys(one.parameter for one in coordinates))
         self.low = np.array([one.at(one.low) for one in coordinates])
         self.high = np.array([one.at(one.high) for one in coordinates])
@@ -102,15 +121,41 @@ class Space:
         """Return the derivative of each free parameter's value with respect to its coordinate."""
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
-    def prior(self, x: Array) -> tuple[Array, Array]:
-        """Return the residuals of the priors, and their derivatives with respect to the coordinates."""
+    def prior(self, x: Array, leave_out: str = "") -> tuple[Array, Array]:
+        """Return the residuals of the priors, and their derivatives with respect to the coordinates. The spread of the
+        parameter `leave_out` does not count.
+        """
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
         for row, (place, one) in enumerate(known):
             mean, error = one.prior or (0.0, 1.0)
             residuals[row] = (one.value(x[place]) - mean) / error
             slopes[row, place] = one.slope(x[place]) / error
+        for group in self.groups:
+            if group.parameter != leave_out:
+                contrasts, by_x = self.contrasts(group, x)
+                residuals = np.concatenate([residuals, contrasts / self.spreads[group.parameter]])
+                slopes = np.concatenate([slopes, by_x / self.spreads[group.parameter]])
         return residuals, slopes
+
+    def contrasts(self, group: Group, x: Array) -> tuple[Array, Array]:
+        """Return differences of the values of a group, and their derivatives with respect to the coordinates. The sum
+        of the squares is the sum of the squared differences from the mean of the values.
+        """
+        from scipy.linalg import helmert
+
+        matrix = helmert(len(group.places))
+        by_x = np.zeros((len(matrix), len(self)))
+        by_x[:, group.places] = matrix * self.slopes(x)[group.places]
+        return matrix @ self.values(x)[group.places], by_x
+
+
+def _first_spread(group: Group, one: Coordinate) -> float:
+    """Return the standard deviation of a group with which the search begins."""
+    if group.given is not None and not group.is_share:
+        return group.given
+    share = 0.1 if group.given is None else group.given
+    return share * (abs(one.nominal) if one.log else one.high - one.low)
 
 
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
@@ -129,13 +174,18 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
                 f"`free` has an entry that is {type(name).__name__}\nit must have names of parameters as text"
             )
     coordinates: list[Coordinate] = []
+    groups: list[Group] = []
     taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
     for name, given in ((names.parameter(name), given) for name, given in listed):
         _check(name, names, sets, taken)
         if any(one.parameter == name for one in coordinates):
             raise ValueError(f"`free` has `{name}` twice\nremove one")
-        coordinates += _coordinates(name, _free_of(name, given), names, sets)
-    return Space(coordinates)
+        parameter = _free_of(name, given)
+        made = _coordinates(name, parameter, names, sets)
+        if parameter.spread is not None and parameter.spread is not False:
+            groups.append(_group(name, parameter, names, np.arange(len(coordinates), len(coordinates) + len(made))))
+        coordinates += made
+    return Space(coordinates, groups)
 
 
 def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:
@@ -192,7 +242,7 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     if prior is not None and not low <= prior[0] <= high:
         told = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
         raise ValueError(f"{told.rstrip()}\ngive bounds that contain it, with some standard errors on both sides")
-    if not free.per_set or len(sets) == 1:
+    if (not free.per_set and free.spread in (None, False)) or len(sets) == 1:
         return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
     return [
         Coordinate(name, place, f"{name} of {one.name}", unit, log, low, high, nominal, prior)
@@ -226,6 +276,30 @@ def _value(names: Names, name: str, given: Any) -> float | None:
         raise type(error)(f"free[{name!r}]: {error}") from None
 
 
+def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Group:
+    """Return the group of a parameter with a spread. Raise ValueError if the spread is impossible."""
+    if len(places) < 2:
+        raise ValueError(f"free[{name!r}]: `spread` requires two or more data sets\ngive one data set for each robot")
+    if free.prior is not None:
+        raise ValueError(f"free[{name!r}] has a `prior` and a `spread`\nkeep one of them")
+    if free.spread is True:
+        return Group(name, places, None, False)
+    size, is_share = _error(names, name, "the spread", free.spread)
+    return Group(name, places, size, is_share)
+
+
+def _error(names: Names, name: str, told: str, given: Any) -> tuple[float, bool]:
+    """Return a standard error or deviation: in SI units, or as a share with True."""
+    text = given.strip() if isinstance(given, str) else ""
+    try:
+        size = float(text[:-1]) / 100 if text.endswith("%") else _value(names, name, given)
+    except ValueError as mistake:
+        raise ValueError(f"free[{name!r}]: {told} is {given!r}\n{mistake}") from None
+    if size is None or not 0 < size < np.inf:
+        raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")
+    return size, text.endswith("%")
+
+
 def _prior(names: Names, name: str, given: Any) -> tuple[float, float]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(
@@ -234,11 +308,5 @@ def _prior(names: Names, name: str, given: Any) -> tuple[float, float]:
         )
     mean = _value(names, name, given[0])
     assert mean is not None
-    text = given[1].strip() if isinstance(given[1], str) else ""
-    try:
-        error = abs(mean) * float(text[:-1]) / 100 if text.endswith("%") else _value(names, name, given[1])
-    except ValueError as mistake:
-        raise ValueError(f"free[{name!r}]: the error of the prior is {given[1]!r}\n{mistake}") from None
-    if error is None or not error > 0:
-        raise ValueError(f"free[{name!r}]: the error of the prior is {given[1]!r}\nit must be more than zero")
-    return mean, error
+    error, is_share = _error(names, name, "the error of the prior", given[1])
+    return mean, error * (abs(mean) if is_share else 1.0)

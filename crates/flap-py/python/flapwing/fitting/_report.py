@@ -9,6 +9,7 @@ import numpy as np
 
 from ._assess import DOUBTFUL, POOR, TOO_GOOD
 from ._solution import Estimate, Solution
+from ._spread import Spread
 
 #: Largest number of unsettled readings, and of outliers, that the report lists.
 _LISTED = 5
@@ -71,8 +72,16 @@ def _verdict(one: Estimate) -> str:
     return "at the end of its range" if one.at_bound else ""
 
 
+def _spread(one: Spread) -> str:
+    high = f"{one.high:.2g}" if np.isfinite(one.high) else "open"
+    known = "given" if one.is_given else f"95 % from {one.low:.2g} to {high}"
+    told = f"{one.parameter} of all robots: mean {one.mean:.5g}, error {one.error:.2g}, spread {one.value:.2g}"
+    return f"{told} {one.unit}".rstrip() + f" ({known})"
+
+
 def _remarks(fit: Solution) -> list[str]:
-    told = [f"no such data can determine this: {one}" for one in fit.indistinct]
+    told = [_spread(one) for one in fit.spreads.values()]
+    told += [f"no such data can determine this: {one}" for one in fit.indistinct]
     if fit.unsettled:
         listed = ", ".join(f"{one.data_set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""

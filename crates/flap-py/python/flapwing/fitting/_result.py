@@ -68,6 +68,8 @@ class Fit(Solution):
     ----------
     estimates : dict of str to Estimate
         Value, standard error, 95 % interval and profile of each fitted parameter, in SI units.
+    spreads : dict of str to Spread
+        Mean and standard deviation over all robots of each `FreeParameter` with `spread`.
     correlations : array
         Correlations of the estimates, in the order of `estimates`; nan for parameters that the data do not determine.
     combinations : list of str

@@ -388,7 +388,7 @@ def select(
     Raises
     ------
     ValueError
-        The same errors as for `fit`. The criterion is unknown, a candidate has no value in the design, or `budget` is
+        As for `fit`; an unknown criterion; a candidate without a value in the design, or with a `spread`; a budget
         below the number of parameters in `start`.
     TypeError
         An argument has the wrong type.
@@ -415,6 +415,11 @@ def select(
     if not more:
         raise ValueError("`candidates` has no parameter that is not in `start`\ngive at least one")
     space = _parameters.space({**wanted, **first}, names, sets, keywords)
+    if space.groups:
+        raise ValueError(
+            f"`{space.groups[0].parameter}` has a `spread`, which a selection cannot have\n"
+            "select with per_set=True, then fit the selected parameters with the spread"
+        )
     _check_values(names, more)
     readings = sum(len(one) * len(one.measured) for one in sets)
     held = _held.held_rows(hold_out, sets, seed, readings, names)

@@ -13,6 +13,7 @@ from ._data import DataSet
 from ._discrepancy import Discrepancies
 from ._intervals import Profile
 from ._model import Model
+from ._spread import Spread
 from ._structure import Structure
 
 
@@ -266,6 +267,7 @@ class Solution:
         covariance: Array,
         information: Array,
         estimates: dict[str, Estimate],
+        spreads: dict[str, Spread],
         quantile: float,
         sigma_known: bool,
         guesses: Mapping[str, float],
@@ -281,7 +283,8 @@ class Solution:
         loss: str,
         held: Mask,
     ) -> None:
-        self.estimates, self.combinations, self.indistinct = estimates, combinations, indistinct
+        self.estimates, self.spreads = estimates, spreads
+        self.combinations, self.indistinct = combinations, indistinct
         self.goodness, self.unsettled, self.without_slopes, self.converged = (
             goodness,
             unsettled,
