@@ -10,9 +10,10 @@ import numpy as np
 from .. import _arguments
 from .._flapwing import Grid
 from .._types import Array
+from ._branches import Way
 from ._cells import parameter_cells
 from ._data import DataSet
-from ._model import FINE, Answer, Asked, Model, Way
+from ._model import FINE, Answer, Asked, Model
 from ._names import Names
 
 

@@ -1,0 +1,91 @@
+"""Motions on branches of hysteresis, which are followed from point to point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .._table import Table
+from .._types import Array, Places
+
+#: The longest step along a branch, as a share of the followed parameter. Between more distant readings, points are
+#: added.
+_STEP = 0.02
+
+
+@dataclass(frozen=True)
+class Way:
+    """The points of a branch, which are run one after the other while a parameter rises or falls."""
+
+    parameter: str
+    falls: bool
+    rows: Places
+
+
+def states_along(
+    ways: Sequence[Way],
+    columns: Mapping[str, Any],
+    rows: int,
+    times: int,
+    names: Sequence[str],
+    run: Callable[..., Table],
+) -> dict[str, Array] | None:
+    """Return the states in which motions on the branches begin. Return None if there are no branches.
+
+    Each of `columns` repeats all points `times` times, once for each set of parameters. States have the components
+    `names`. All branches are followed at the same time: a batch has one point of each branch.
+    """
+    if not ways:
+        return None
+    curves = [curve for way in ways for copy in range(times) for curve in _curves(way, columns, copy * rows)]
+    begin = {name: np.full(rows * times, np.nan) for name in names}
+    last: dict[int, dict[str, float]] = {}
+    for step in range(max(len(curve) for curve in curves)):
+        here = [(number, curve[step]) for number, curve in enumerate(curves) if step < len(curve)]
+        chosen = [place for _, (place, _, _) in here]
+        batch = {name: taken(values, chosen) for name, values in columns.items()}
+        for position, (_, (_, along, value)) in enumerate(here):
+            batch[along][position] = value
+        states = {
+            name: np.array([last[number][name] if number in last else np.nan for number, _ in here]) for name in names
+        }
+        table = run(batch, return_states=True, initial_state=states)
+        for position, (number, (place, along, value)) in enumerate(here):
+            state = {name: float(table[name][position]) for name in names}
+            if all(np.isfinite(component) for component in state.values()):
+                last[number] = state
+            if value == columns[along][place]:
+                for name in names:
+                    begin[name][place] = last.get(number, state)[name]
+    return begin
+
+
+def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
+    """Return the points along a branch: for each group of points with equal other parameters, the row, the followed
+    parameter and its value.
+    """
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for row in way.rows + offset:
+        key = tuple(values[row] for name, values in columns.items() if name != way.parameter)
+        groups.setdefault(key, []).append(int(row))
+    curves = []
+    for group in groups.values():
+        group.sort(key=lambda row: float(columns[way.parameter][row]), reverse=way.falls)
+        curve: list[tuple[int, str, float]] = []
+        for row in group:
+            value = float(columns[way.parameter][row])
+            if curve:
+                before = curve[-1][2]
+                between = int(abs(value - before) / (_STEP * max(abs(value), abs(before), 1e-300)))
+                curve += [(row, way.parameter, one) for one in np.linspace(before, value, between + 2)[1:-1].tolist()]
+            curve.append((row, way.parameter, value))
+        curves.append(curve)
+    return curves
+
+
+def taken(values: Any, places: list[int]) -> Any:
+    """Return some cells of a column."""
+    return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]
