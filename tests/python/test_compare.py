@@ -6,7 +6,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, readings
-from flapwing.fitting import _compare, _select
+from flapwing.fitting import _deciding, _subsets
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 POINTS = {
@@ -106,7 +106,7 @@ def test_expected_differences_contain_the_new_fits():
     # Without the weak prior of the method, which the last rows of `roots` replace.
     informations = [root.T @ root - 1e-4 * np.eye(root.shape[1]) for root in roots]
     laws = [SimpleNamespace(_information=one) for one in informations]
-    chosen, _, expected = _compare._decide(values, slopes, variance, laws, 3)
+    chosen, _, expected = _deciding._decide(values, slopes, variance, laws, 3)
     rises = []
     for place, other in ((0, 1), (1, 0)):
         weights = 1.0 / np.sqrt(variance[chosen])
@@ -148,12 +148,12 @@ def test_select_from_nothing_within_a_budget(lossy):
 
 def test_select_removes_what_later_parameters_replace(monkeypatch):
     """Readings by another drag law, which first seem to require another lift."""
-    predicted = _select._Work.predicted
+    predicted = _subsets.Subsets.predicted
 
     def lift_first(work, state, more):
         return dict(sorted(predicted(work, state, more).items(), key=lambda one: one[0] != "lift_coefficient_max"))
 
-    monkeypatch.setattr(_select._Work, "predicted", lift_first)
+    monkeypatch.setattr(_subsets.Subsets, "predicted", lift_first)
     data = readings(BOTH, points=POINTS, noise=0.02, drag_coefficient_min=1.0)
     candidates = {"lift_coefficient_max": None, "drag_coefficient_min": (0.05, 2.0)}
     found = flapwing.select(PRESET, data, candidates, start=list(TRUE), tries=1, **{**FAST, "sigma": "2 %"})
@@ -210,13 +210,13 @@ def test_mistakes_in_calls():
     for keywords, message in [
         ({"criterion": "AIC"}, "`criterion` is 'AIC'"),
         ({"significance": 0}, "`significance` is 0"),
-        ({"budget": 0}, "`budget` is 0"),
+        ({"budget": 0}, "`budget` must be 1 or more, not 0"),
         ({"budget": 1, "start": ["wing_area", "wing_length"]}, "`start` has 2 parameters"),
         ({"start": ["hinge_stiffness"]}, "no parameter that is not in `start`"),
     ]:
         with pytest.raises(ValueError, match=message):
             flapwing.select(PRESET, readings(), ["hinge_stiffness"], sigma="3 %", **keywords)
-    with pytest.raises(ValueError, match="`stroke_damping` is zero in the design"):
-        flapwing.select(PRESET, readings(), ["stroke_damping"], sigma="3 %")
+    with pytest.raises(ValueError, match="`actuator_mass` is zero in the design"):
+        flapwing.select(PRESET, readings(), ["actuator_mass"], sigma="3 %")
     with pytest.raises(ValueError, match="`wing_radius_1` has no value in the design"):
         flapwing.select(PRESET, readings(), {"wing_radius_1": (0.3, 0.7)}, sigma="3 %")

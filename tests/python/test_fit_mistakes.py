@@ -222,8 +222,8 @@ def test_free_parameters_that_are_refused(free, error, says):
     ("keywords", "error", "says"),
     [
         ({"loss": "square"}, ValueError, "`loss` is 'square'\nit must be one of linear"),
-        ({"starts": 0}, ValueError, "`starts` is 0\nit must be a whole number, 1 or more"),
-        ({"seed": -1}, ValueError, "`seed` is -1\n"),
+        ({"starts": 0}, ValueError, "`starts` must be 1 or more, not 0"),
+        ({"seed": -1}, ValueError, "`seed` must be 0 or more, not -1"),
         ({"sigma": -1.0}, ValueError, "`sigma` is -1.0 for stroke_pp_deg\nstandard errors must be finite"),
         ({"sigma": "3 mm"}, ValueError, "`sigma`"),
         (
@@ -369,7 +369,7 @@ def test_what_results_refuse():
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_min"), "`drag_coefficient_min` was not fitted\nchoose among drag_coefficient_max"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`target` must be a parameter"),
-        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` is 0\n"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` must be 1 or more, not 0"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "the data have no readings of `lift_mean_mn`"),
     ]:  # fmt: skip
         with pytest.raises(ValueError) as caught:

@@ -227,11 +227,11 @@ def executor(client: Any) -> Executor:
     return checked
 
 
-def count(name: str, value: Any) -> int:
-    """Return a whole number; raise TypeError for another type, and ValueError for a number less than 1."""
+def count(name: str, value: Any, least: int = 1) -> int:
+    """Return a whole number; raise TypeError for another type, and ValueError for a number less than `least`."""
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"`{name}` must be a whole number, not {type(value).__name__}")
     number = operator.index(value)
-    if number < 1:
-        raise ValueError(f"`{name}` must be 1 or more, not {number}")
+    if number < least:
+        raise ValueError(f"`{name}` must be {least} or more, not {number}")
     return number

@@ -5,7 +5,7 @@
 - `_names`, `_cells`, `_noise`: names, cells and standard errors in columns of readings
 - `_data`, `_held`: readings in the units of the model; readings that are not fitted
 - `_typical`, `_parameters`: typical sizes of terms; free parameters, and the coordinates of the search
-- `_model`: readings of the model at many sets of parameters, in batches; branches of hysteresis
+- `_model`, `_branches`: readings of the model at many sets of parameters, in batches; branches of hysteresis
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
 - `_structure`, `_discrepancy`, `_drift`: patterns in residuals; discrepancy of the model; disagreement of data sets
@@ -15,15 +15,17 @@
 - `_points`, `_plan`: operating points of predictions; the next readings
 - `_report`, `_device`: the result as text, and as a device
 - `_fit`: the function `fit`
-- `_compare`: comparison of fits of the same readings
-- `_select`: forward selection of free parameters
+- `_criteria`: likelihood of readings, and information criteria
+- `_compare`, `_deciding`: comparison of fits of the same readings; readings that decide between two fits
+- `_select`, `_subsets`: forward selection of free parameters, and its fits of subsets of the parameters
 """
 
 from __future__ import annotations
 
 from ._candidates import candidates
-from ._compare import ComparedFit, Comparison, DecidingMeasurements, DecidingReading, compare
+from ._compare import ComparedFit, Comparison, compare
 from ._data import Readings
+from ._deciding import DecidingMeasurements, DecidingReading
 from ._discrepancy import Discrepancy
 from ._fit import fit
 from ._intervals import Profile

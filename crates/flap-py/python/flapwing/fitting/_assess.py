@@ -9,7 +9,7 @@ import numpy as np
 
 from .._types import Array, Mask, Places
 from . import _search, _solution
-from ._data import DataSet
+from ._data import DataSet, places_of
 from ._discrepancy import Discrepancies, of_residuals
 from ._drift import between_sets
 from ._model import Answer, Model
@@ -81,7 +81,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0),
         discrepancy,
         good,
-        _listed(model, sets, scaled, is_far),
+        _listed(sets, scaled, is_far),
         between_sets(model.space, model.asked.of_set[fitted], scaled[fitted], slopes[fitted]),
         _quantile(sigma_known(sets), min(good.freedom, discrepancy.freedom)),
     )
@@ -103,11 +103,14 @@ def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, lo
     return far
 
 
-def _listed(model: Model, sets: list[DataSet], scaled: Array, is_far: Mask) -> list[Outlier]:
+def _listed(sets: list[DataSet], scaled: Array, is_far: Mask) -> list[Outlier]:
     """Return the outliers, with the largest residual first."""
-    places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
-    found = sorted(np.flatnonzero(is_far).tolist(), key=lambda place: -abs(scaled[place]))
-    return [Outlier(*places[place], float(scaled[place])) for place in found]
+    places = places_of(sets)
+    found = []
+    for reading in sorted(np.flatnonzero(is_far).tolist(), key=lambda reading: -abs(scaled[reading])):
+        one, measure, row = places[reading]
+        found.append(Outlier(one.name, measure, row + 1, float(scaled[reading])))
+    return found
 
 
 def _branches(sets: list[DataSet]) -> Places:

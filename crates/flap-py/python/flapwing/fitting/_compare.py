@@ -1,5 +1,4 @@
-"""Comparison of fits of the same readings: information criteria, readings that decide between fits, and next readings
-that would decide."""
+"""Comparison of fits of the same readings, by information criteria."""
 
 from __future__ import annotations
 
@@ -9,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from .._types import Array, Mask
-from . import _assess, _report, _search
-from ._data import DataSet
-from ._noise import Noise
-from ._points import answers_at, cell, points_of
+from .. import _arguments
+from . import _assess, _report
+from ._criteria import criteria
+from ._data import all_readings
+from ._deciding import DecidingMeasurements, DecidingReading, Side, deciding_measurements, deciding_readings
 from ._result import Fit
 
 #: Smallest difference of AICc at which readings decide between two fits.
@@ -65,125 +64,6 @@ class ComparedFit:
     held_out_score: float
 
 
-@dataclass(frozen=True)
-class DecidingReading:
-    """A reading that one of two fits predicts better.
-
-    Attributes
-    ----------
-    data_set, measure, unit : str
-        The data set and the measure of the reading, and the unit of the measure.
-    row : int
-        The row of the reading in the data set, counted from 1.
-    point : dict
-        The operating point: values of parameters, in SI units.
-    reading : float
-        The reading, in the unit of the measure.
-    values : tuple of float
-        The values of the best fit and of the second best fit, in the unit of the measure.
-    difference : float
-        Log likelihood of the reading in the best fit minus log likelihood of the reading in the second best fit. A
-        positive difference supports the best fit.
-    """
-
-    data_set: str
-    measure: str
-    unit: str
-    row: int
-    point: dict[str, Any]
-    reading: float
-    values: tuple[float, float]
-    difference: float
-
-
-@dataclass(frozen=True)
-class DecidingMeasurements:
-    """Operating points at which readings would decide between two fits, with the best point first.
-
-    Attributes
-    ----------
-    names : tuple of str
-        The names of the best and the second best fit.
-    points : list of dict
-        The operating points: values of parameters, in SI units.
-    measures : list of str
-        The measure to read at each point.
-    values : list of tuple of float
-        The predictions of the two fits at each point, in the unit of the measure.
-    errors : list of float
-        The standard error of the difference at each point, from the noise of a reading and the errors of the
-        parameters.
-    expected : list of float
-        The expected difference between the chi-squares of the two fits, if one of the two models is right. The
-        difference includes the readings at a point and at all points before this point. Both models are fitted again
-        after each reading.
-    """
-
-    names: tuple[str, str]
-    points: list[dict[str, Any]]
-    measures: list[str]
-    values: list[tuple[float, float]]
-    errors: list[float]
-    expected: list[float]
-
-    def __str__(self) -> str:
-        heads = [*(self.points[0] if self.points else []), "measure", *self.names, "error", "expected difference"]
-        rows = [
-            [*map(cell, point.values()), measure, *(f"{value:.4g}" for value in values), f"{error:.2g}", f"{sum_:.3g}"]
-            for point, measure, values, error, sum_ in zip(
-                self.points, self.measures, self.values, self.errors, self.expected
-            )
-        ]
-        return _report.table(heads, rows)
-
-
-def log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tuple[Array, Array, int]:
-    """Return the log likelihood of each reading, its standard error, and the number of estimated standard errors.
-
-    The log likelihood is nan for readings that are not counted. An unknown standard error is the root mean square of
-    the residuals of its measure. For a motion that does not settle, the value of the model is zero, as for a wing at
-    rest.
-    """
-    measured = np.concatenate([readings for one in sets for readings in one.measured.values()])
-    error = np.where(np.isfinite(values), values, 0.0) - measured
-    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
-    unknown = np.concatenate(
-        [np.full(len(one), one.noise[measure].kind == "unknown") for one in sets for measure in one.measured]
-    )
-    sigma = _search.sigmas(list(sets), values, dict.fromkeys(which.tolist(), 1.0))
-    estimated = list(dict.fromkeys(which[unknown & counted].tolist()))
-    for measure in estimated:
-        mine = unknown & (which == measure)
-        least = 1e-9 * float(np.abs(measured[mine]).max())
-        sigma[mine] = max(float(np.sqrt(np.mean(error[mine & counted] ** 2))), least)
-    log = -0.5 * (error / sigma) ** 2 - np.log(np.sqrt(2.0 * np.pi) * sigma)
-    return np.where(counted, log, np.nan), sigma, len(estimated)
-
-
-def criteria(deviance: float, parameters: int, readings: int) -> dict[str, float]:
-    """Return AICc and BIC of a fit with a deviance, i.e. minus two times its log likelihood. AICc is infinite for too
-    few readings.
-    """
-    left = readings - parameters - 1
-    correction = 2.0 * parameters * (parameters + 1) / left if left > 0 else np.inf
-    return {
-        "AICc": deviance + 2.0 * parameters + correction,
-        "BIC": deviance + parameters * float(np.log(readings)),
-    }
-
-
-@dataclass(frozen=True)
-class _Side:
-    """One of the compared fits, with the values of its model at all readings."""
-
-    name: str
-    fit: Fit
-    values: Array
-    #: Derivatives of the values with respect to the coordinates of the fit.
-    slopes: Array
-    counted: Mask
-
-
 class Comparison:
     """The comparison of several fits of the same readings. ``print(comparison)`` shows a table and the verdict.
 
@@ -203,43 +83,30 @@ class Comparison:
         The result in words.
     """
 
-    def __init__(self, sides: Sequence[_Side]) -> None:
-        held = sides[0].fit._held
-        common = np.logical_and.reduce([side.counted for side in sides])
-        self.readings = int(common.sum())
-        self.left_out = int((~held).sum()) - self.readings
-        made = []
-        for side in sides:
-            log, sigma, estimated = log_likelihoods(side.fit._sets, side.values, common)
-            priors = side.fit._model.space.prior(side.fit._x)[0]
-            error = (side.values - _measured(side.fit)) / sigma
-            chi_square = float(np.sum(error[common] ** 2) + priors @ priors)
-            deviance = float(-2.0 * np.sum(log[common]) + priors @ priors)
-            parameters = len(side.fit._model.space) + estimated
-            found = criteria(deviance, parameters, self.readings)
-            made.append((side, log, parameters, chi_square, deviance, found["AICc"], found["BIC"], sigma))
-        made.sort(key=lambda one: one[5])
-        aicc, bic = np.array([one[5] for one in made]), np.array([one[6] for one in made])
-        with np.errstate(invalid="ignore"):
-            delta = np.nan_to_num(aicc - aicc.min(), nan=0.0, posinf=np.inf)
-        weights = np.exp(-0.5 * delta)
+    def __init__(self, sides: Sequence[Side], left_out: int) -> None:
+        self._sides = sorted(sides, key=lambda side: side.criteria.aicc)
+        self.readings, self.left_out = int(np.isfinite(sides[0].criteria.log).sum()), left_out
+        best = self._sides[0].criteria.aicc
+        # If all criteria are infinite, no fit is better.
+        delta = np.array([0.0 if one.criteria.aicc == best else one.criteria.aicc - best for one in self._sides])
+        weights = np.exp(-0.5 * delta) / np.exp(-0.5 * delta).sum()
+        lowest = min(side.criteria.bic for side in sides)
         self.fits = [
             ComparedFit(
                 side.name,
-                parameters,
-                chi_square,
-                deviance,
-                float(aicc[place]),
-                float(bic[place]),
+                side.criteria.parameters,
+                side.criteria.chi_square,
+                side.criteria.deviance,
+                side.criteria.aicc,
+                side.criteria.bic,
                 float(delta[place]),
-                float(bic[place] - bic.min()),
-                float(weights[place] / weights.sum()),
+                side.criteria.bic - lowest,
+                float(weights[place]),
                 dict(side.fit.held_out.rms) if side.fit.held_out is not None else {},
-                _held_out_score(side, sigma),
+                _held_out_score(side),
             )
-            for place, (side, _, parameters, chi_square, deviance, _, _, sigma) in enumerate(made)
+            for place, side in enumerate(self._sides)
         ]
-        self._sides, self._logs = [one[0] for one in made], [one[1] for one in made]
         near = [one for one in self.fits if one.delta_aicc <= DECIDED]
         self.chosen = min(near, key=lambda one: one.parameters).name
         self.is_decided = len(near) == 1
@@ -285,33 +152,12 @@ class Comparison:
 
         Raises
         ------
+        TypeError
+            `count` is not a whole number.
         ValueError
-            `count` is not a whole number of 1 or more.
+            `count` is less than 1.
         """
-        _check_count(count)
-        first, second = self._sides[:2]
-        difference = self._logs[0] - self._logs[1]
-        order = np.argsort(-np.abs(np.nan_to_num(difference)), kind="stable")[: min(int(count), self.readings)]
-        measured = _measured(first.fit)
-        places = [(one, name, row) for one in first.fit._sets for name in one.measured for row in range(len(one))]
-        found = []
-        for reading in order:
-            one, measure, row = places[reading]
-            point = {name: cells[row] for name, cells in one.points.items()}
-            point = {name: cell if isinstance(cell, str) else float(cell) for name, cell in point.items()}
-            found.append(
-                DecidingReading(
-                    one.name,
-                    measure,
-                    first.fit._model.names.unit(measure),
-                    row + 1,
-                    point,
-                    float(measured[reading]),
-                    (float(first.values[reading]), float(second.values[reading])),
-                    float(difference[reading]),
-                )
-            )
-        return found
+        return deciding_readings(self._sides[:2], _arguments.count("count", count))
 
     def next_measurements(
         self, candidates: Any, *, count: int = 5, measures: list[str] | None = None
@@ -343,42 +189,7 @@ class Comparison:
         ValueError
             A name is unknown, the data have no readings of a measure, or both fits settle at no point.
         """
-        _check_count(count)
-        fits = [side.fit for side in self._sides[:2]]
-        noises = {measure: noise for one in fits[0]._sets for measure, noise in one.noise.items()}
-        points = [points_of(fit._model.names, "candidates", candidates) for fit in fits]
-        rows: list[tuple[int, str]] = []
-        values: list[list[Array]] = [[], []]
-        slopes: list[list[Array]] = [[], []]
-        variances = []
-        for measure in measures if measures is not None else list(noises):
-            if measure not in noises:
-                raise ValueError(
-                    f"the data have no readings of `{measure}`, so their error is unknown\n"
-                    f"choose among {', '.join(noises)}"
-                )
-            found = [answers_at(fit._model, given, measure, fit._x) for fit, given in zip(fits, points)]
-            known = np.logical_and.reduce([np.isfinite(answer.values) & ~answer.gaps for answer in found])
-            rows += [(int(row), measure) for row in np.flatnonzero(known)]
-            sigmas = [_sigma(fit, noises[measure], measure, answer.values) for fit, answer in zip(fits, found)]
-            variances.append(np.mean(np.square(sigmas), axis=0)[known])
-            for place, answer in enumerate(found):
-                values[place].append(answer.values[known])
-                slopes[place].append(answer.slopes[known])
-        if not rows:
-            raise ValueError("no candidate has a settled motion with derivatives in both fits\ngive other points")
-        at = [np.concatenate(parts) for parts in values]
-        chosen, errors, expected = _decide(
-            at, [np.concatenate(parts) for parts in slopes], np.concatenate(variances), fits, int(count)
-        )
-        return DecidingMeasurements(
-            (self._sides[0].name, self._sides[1].name),
-            [{name: cells[rows[one][0]] for name, cells in points[0].items()} for one in chosen],
-            [rows[one][1] for one in chosen],
-            [(float(at[0][one]), float(at[1][one])) for one in chosen],
-            errors,
-            expected,
-        )
+        return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)
 
     def __str__(self) -> str:
         measures = list(self.fits[0].held_out_rms)
@@ -454,13 +265,15 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
                 "compare fits with per_set=True in place of the spread"
             )
         _check_same(named[0], listed[0], name, one)
-    sides = []
-    for name, one in zip(named, listed):
-        answer = one._model.everything(one._x)
-        sides.append(_Side(name, one, answer.values, answer.slopes, ~one._held & np.isfinite(answer.values)))
-    if not np.logical_and.reduce([side.counted for side in sides]).any():
+    answers = [one._model.everything(one._x) for one in listed]
+    common = np.logical_and.reduce([~one._held & np.isfinite(answer.values) for one, answer in zip(listed, answers)])
+    if not common.any():
         raise ValueError("no reading has a settled motion in all fits\ncompare fits that settle at the same readings")
-    return Comparison(sides)
+    sides = []
+    for name, one, answer in zip(named, listed, answers):
+        found = criteria(one._sets, one._model.space, one._x, answer.values, common)
+        sides.append(Side(name, one, answer.values, answer.slopes, found))
+    return Comparison(sides, int((~listed[0]._held).sum() - common.sum()))
 
 
 def _check_same(first_name: str, first: Fit, name: str, other: Fit) -> None:
@@ -491,68 +304,13 @@ def _equal(one: Any, other: Any) -> bool:
     return bool(np.array_equal(np.asarray(one), np.asarray(other)))
 
 
-def _check_count(count: Any) -> None:
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-        raise ValueError(f"`count` is {count!r}\nit must be a whole number, 1 or more")
-
-
-def _measured(fit: Fit) -> Array:
-    return np.concatenate([values for one in fit._sets for values in one.measured.values()])
-
-
-def _held_out_score(side: _Side, sigma: Array) -> float:
-    """Return the mean log density of the readings that were not fitted. The mean is nan if none of these readings has a
-    settled motion."""
+def _held_out_score(side: Side) -> float:
+    """Return the mean log density of the readings that were not fitted; nan if there are none with a settled motion."""
     held = side.fit._held & np.isfinite(side.values)
     if not held.any():
         return float("nan")
     known = np.where(np.isfinite(side.fit._covariance), side.fit._covariance, 0.0)
     slopes = side.slopes[held]
-    variance = sigma[held] ** 2 + np.maximum(0.0, np.einsum("ij,jk,ik->i", slopes, known, slopes))
-    error = side.values[held] - _measured(side.fit)[held]
+    variance = side.criteria.sigma[held] ** 2 + np.maximum(0.0, np.einsum("ij,jk,ik->i", slopes, known, slopes))
+    error = side.values[held] - all_readings(side.fit._sets)[held]
     return float(np.mean(-0.5 * error**2 / variance - 0.5 * np.log(2.0 * np.pi * variance)))
-
-
-def _sigma(fit: Fit, noise: Noise, measure: str, values: Array) -> Array:
-    """Return the standard errors of new readings. If each reading has its own standard error, return the median of
-    these standard errors."""
-    common = Noise(noise.kind, float(np.median(noise.size)))
-    return common.of(values, np.nan_to_num(values), fit._guesses[measure])
-
-
-def _decide(
-    values: Sequence[Array], slopes: Sequence[Array], variance: Array, fits: Sequence[Fit], count: int
-) -> tuple[list[int], list[float], list[float]]:
-    """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
-
-    If the first model is right, a reading increases the chi-square of the second fit. The increase is the square of the
-    difference of both predictions, divided by the variance of the reading and of the second prediction. This increase
-    already contains the new fit of the second model, whose predictions at all candidates move towards the first model.
-    The expected difference is the mean of this increase and of the increase with exchanged fits.
-    """
-    # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
-    covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
-    differences = [values[1] - values[0], values[0] - values[1]]
-    chosen: list[int] = []
-    errors: list[float] = []
-    expected: list[float] = []
-    total = 0.0
-    for _ in range(min(count, len(variance))):
-        moved = [slope @ covariance for slope, covariance in zip(slopes, covariances)]
-        spreads = [variance + np.einsum("ij,ij->i", one, slope) for one, slope in zip(moved, slopes)]
-        # differences[0] is the error of the second fit if the first law is right.
-        rises = 0.5 * (differences[0] ** 2 / spreads[1] + differences[1] ** 2 / spreads[0])
-        rises[chosen] = -np.inf
-        best = int(np.argmax(rises))
-        total += float(rises[best])
-        chosen.append(best)
-        errors.append(float(np.sqrt(0.5 * (spreads[0][best] + spreads[1][best]))))
-        expected.append(total)
-        for place, other in ((0, 1), (1, 0)):
-            gain = moved[place][best] / spreads[place][best]
-            differences[other] = differences[other] - slopes[place] @ gain * differences[other][best]
-        covariances = [
-            covariance - np.outer(one[best], one[best]) / spread[best]
-            for covariance, one, spread in zip(covariances, moved, spreads)
-        ]
-    return chosen, errors, expected

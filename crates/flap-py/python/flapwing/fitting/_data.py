@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -111,6 +111,16 @@ class DataSet:
 
     def __len__(self) -> int:
         return len(next(iter(self.measured.values())))
+
+
+def all_readings(sets: Sequence[DataSet]) -> Array:
+    """Return the readings of all data sets, in the order of `places_of`."""
+    return np.concatenate([readings for one in sets for readings in one.measured.values()])
+
+
+def places_of(sets: Sequence[DataSet]) -> list[tuple[DataSet, str, int]]:
+    """Return the data set, the measure and the row (from 0) of each reading."""
+    return [(one, measure, row) for one in sets for measure in one.measured for row in range(len(one))]
 
 
 _READERS = {"parameter": parameter_cells, "measure": measure_cells, "sigma": sigma_cells}

@@ -115,7 +115,7 @@ def fit(
     names = Names(_with_keywords(design, keywords))
     sets = _data.resolve(data, names, sigma)
     space = _parameters.space(free, names, sets, keywords)
-    measured = np.concatenate([values for one in sets for values in one.measured.values()])
+    measured = _data.all_readings(sets)
     held = _held.held_rows(hold_out, sets, seed, len(measured), names)
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran), held)
@@ -248,11 +248,11 @@ def _estimates(
 
 
 def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettled]:
-    places = [(one.name, measure, row + 1) for one in sets for measure in one.measured for row in range(len(one))]
+    places = _data.places_of(sets)
     lost = []
     for reading in _lost(answer, held):
-        name, measure, row = places[reading]
-        lost.append(Unsettled(name, measure, row, str(answer.status[reading])))
+        one, measure, row = places[reading]
+        lost.append(Unsettled(one.name, measure, row + 1, str(answer.status[reading])))
     return lost
 
 
@@ -293,9 +293,8 @@ def _check(loss: Any, starts: Any, seed: Any) -> None:
         raise ImportError("flapwing.fit requires SciPy: pip install scipy") from None
     if loss not in _LOSSES:
         raise ValueError(f"`loss` is {loss!r}\nit must be one of {', '.join(_LOSSES)}")
-    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise ValueError(f"`{name}` is {value!r}\nit must be a whole number, {least} or more")
+    _arguments.count("starts", starts)
+    _arguments.count("seed", seed, least=0)
 
 
 def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:

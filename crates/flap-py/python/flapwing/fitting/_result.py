@@ -12,6 +12,7 @@ import numpy as np
 from .. import _arguments
 from .._types import Array, Mask, Value
 from . import _device, _plan, _report, _search, _solution
+from ._data import all_readings
 from ._noise import Noise, parse_noise
 from ._plan import NextMeasurements
 from ._points import answers_at, cell, error_of, points_of
@@ -184,8 +185,7 @@ class Fit(Solution):
             A name is unknown, a standard error is missing, there are no points, or no point has a settled motion.
         """
         repeats = _arguments.flag("repeats", repeats)
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-            raise ValueError(f"`count` is {count!r}\nit must be a whole number, 1 or more")
+        count = _arguments.count("count", count)
         points = self._points("candidates", candidates)
         slopes, name, unit = self._target(target)
         given = {} if sigma is None else dict(sigma)
@@ -198,7 +198,7 @@ class Fit(Solution):
             return np.hypot(noise, self._discrepancy_of(measure, values))
 
         rows, chosen, errors, now = _plan.plan(
-            self._model, points, wanted, self._x, self._information, slopes, int(count), repeats, errors_of
+            self._model, points, wanted, self._x, self._information, slopes, count, repeats, errors_of
         )
         return NextMeasurements(
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
@@ -263,8 +263,7 @@ class Fit(Solution):
         for measure in self._discrepancy:
             mine = names == measure
             error[mine] = np.hypot(error[mine], self._discrepancy_of(measure, answer.values[mine]))
-        measured = np.concatenate([values for one in self._sets for values in one.measured.values()])
-        self.held_out = _solution.held_out(names, measured, answer.values, held, self._quantile * error)
+        self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, self._quantile * error)
 
     def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
         """Return the derivatives of a target with respect to the search coordinates, and the name and the unit of the

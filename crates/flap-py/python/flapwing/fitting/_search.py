@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .._types import Array, Mask
-from ._data import DataSet
+from ._data import DataSet, places_of
 from ._model import FINE, Answer, Model
 from ._parameters import Space
 
@@ -297,7 +297,7 @@ def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
 ) -> None:
     """Update the estimates of unknown standard errors in `guesses`, from the residuals."""
-    which = np.array([measure for one in sets for measure in one.measured for _ in range(len(one))])
+    which = np.array([measure for _, measure, _ in places_of(sets)])
     freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:
         mine = used & (which == measure)
@@ -308,7 +308,8 @@ def new_guesses(
             guesses[measure] = max(spread / np.sqrt(freedom), 1e-9 * float(np.abs(target.measured[mine]).max()), 1e-300)
 
 
-def sigmas(sets: list[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
+def sigmas(sets: Sequence[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
+    """Return the standard errors of all readings, given the model's values. `guesses` has unknown standard errors."""
     parts, begin = [], 0
     for one in sets:
         for measure, measured in one.measured.items():

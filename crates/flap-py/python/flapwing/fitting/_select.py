@@ -3,31 +3,21 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, SupportsIndex
 
 import numpy as np
 
 from .. import _arguments
 from .._progress import Progress, shown
-from .._types import Array, Design, Mask, Value
+from .._types import Array, Design, Value
 from . import _data, _fit, _held, _parameters, _report, _search
 from ._candidates import is_number
-from ._compare import criteria, log_likelihoods
-from ._data import DataSet
-from ._model import FINE, Answer, Model
 from ._names import Names
-from ._parameters import Coordinate, Space
 from ._result import Fit
-from ._search import Found, Target
 from ._solution import Effort
-
-#: Largest error of the cost of a fit, and largest number of rounds in which standard errors are updated.
-_COST, _ROUNDS = 0.005, 4
-
-#: Largest predicted rise of chi-square for which a parameter is removed on trial.
-_NEEDED = 10.0
+from ._subsets import Subset, Subsets
 
 #: A candidate is fitted if its predicted gain is at least this share of the best gain of the step.
 _WORTH = 0.5
@@ -149,175 +139,6 @@ class Selection:
         return "\n".join([*lines, f"{effort} in {self.seconds:.1f} s"])
 
 
-@dataclass(frozen=True)
-class _State:
-    """A fit of some of the parameters."""
-
-    names: list[str]
-    x: Array
-    target: Target
-    answer: Answer
-    guesses: dict[str, float]
-    chi_square: float
-    deviance: float
-    criterion: float
-
-
-@dataclass
-class _Work:
-    """The data of a selection, and the fits of subsets of the parameters."""
-
-    names: Names
-    sets: list[DataSet]
-    #: The coordinates of each parameter.
-    coordinates: dict[str, list[Coordinate]]
-    keywords: Mapping[str, Any]
-    held: Mask
-    criterion: str
-    threads: SupportsIndex | None
-    told: Callable[[int], object] | None
-    fits: int = 0
-    at_bounds: dict[str, None] = field(default_factory=dict)
-    models: list[Model] = field(default_factory=list)
-
-    @property
-    def rhs_evals(self) -> int:
-        return sum(model.rhs_evals for model in self.models)
-
-    @property
-    def points(self) -> int:
-        return sum(model.ran for model in self.models)
-
-    def space(self, names: Sequence[str]) -> Space:
-        return Space([one for name in names for one in self.coordinates[name]])
-
-    def model(self, space: Space) -> Model:
-        before = self.points
-        told = self.told
-        show = None if told is None else lambda ran: told(before + ran)
-        made = Model(self.names, self.sets, space, self.keywords, self.threads, show)
-        self.models.append(made)
-        return made
-
-    def fitted(self, names: list[str], begin: Array, guesses: Mapping[str, float], values: Array) -> _State:
-        """Return the fit of some parameters by a search from `begin`. The first standard errors belong to `values`."""
-        space = self.space(names)
-        model = self.model(space)
-        known = dict(guesses)
-        measured = np.concatenate([cells for one in self.sets for cells in one.measured.values()])
-        target = Target(measured, _search.sigmas(self.sets, values, known), ~self.held, "linear")
-        self.fits += 1
-        x, answer, target = self._searched(model, target, begin, known)
-        self._note_bounds(space, x)
-        log, sigma, estimated = log_likelihoods(self.sets, answer.values, ~self.held)
-        priors = space.prior(x)[0]
-        error = (np.where(np.isfinite(answer.values), answer.values, 0.0) - measured) / sigma
-        deviance = float(-2.0 * np.sum(log[~self.held]) + priors @ priors)
-        count = len(space) + estimated
-        value = criteria(deviance, count, int((~self.held).sum()))[self.criterion]
-        chi_square = float(np.sum(error[~self.held] ** 2) + priors @ priors)
-        return _State(names, x, target, answer, known, chi_square, deviance, value)
-
-    def _searched(
-        self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
-    ) -> tuple[Array, Answer, Target]:
-        """Return the end of a search from `begin`, with the standard errors at the end of the search."""
-        x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
-        for _ in range(_ROUNDS):
-            x = _search.polish(model, target, x, _COST).x
-            answer = model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
-            used = target.used & np.isfinite(answer.values)
-            _search.new_guesses(self.sets, target, used, answer, len(x), guesses)
-            before = target.sigma
-            target = replace(target, sigma=_search.sigmas(self.sets, answer.values, guesses))
-            if np.allclose(target.sigma, before, rtol=0.01):
-                break
-        return x, answer, target
-
-    def _note_bounds(self, space: Space, x: Array) -> None:
-        """Add the parameters at a bound to `at_bounds`. The bound at or nearest to the design's
-        value does not count.
-        """
-        for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
-            nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
-            for bound in (low, high):
-                is_design = abs(one.value(bound) - nominal) < 1e-6 * (one.high - one.low)
-                if abs(place - bound) < 1e-3 * (high - low) and not is_design:
-                    self.at_bounds[one.parameter] = None
-
-    def held_out(self, state: _State) -> float:
-        """Return the rms of the errors of readings that were not fitted, in standard errors; nan if there are none."""
-        if not self.held.any():
-            return float("nan")
-        _, sigma, _ = log_likelihoods(self.sets, state.answer.values, ~self.held)
-        error = (np.nan_to_num(state.answer.values) - state.target.measured) / sigma
-        return float(np.sqrt(np.mean(error[self.held] ** 2)))
-
-    def predicted(self, state: _State, more: Sequence[str]) -> dict[str, tuple[float, Array]]:
-        """Return the predicted decrease of chi-square if a further parameter is freed, and the start of that fit.
-
-        The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
-        One evaluation computes the derivatives for all candidates, at the values of the candidates in the design.
-        """
-        active = self.space(state.names)
-        beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
-        space = Space([*active.coordinates, *(one for _, one in beside)])
-        x = np.concatenate([state.x, np.zeros(len(beside))])
-        answer = self.model(space).at([x], rtol=FINE)[0]
-        # Motions that do not settle have no derivatives.
-        target = replace(state.target, used=~self.held & np.isfinite(answer.values))
-        residuals, jacobian = target.residuals(space, x, answer), target.jacobian(space, x, answer)
-        free = jacobian[:, : len(active)]
-        found = {}
-        for name in more:
-            place = [len(active) + number for number, (owner, _) in enumerate(beside) if owner == name]
-            found[name] = self._step(name, state.x, residuals, free, jacobian[:, place], space, place)
-        return dict(sorted(found.items(), key=lambda one: -one[1][0]))
-
-    def without(self, state: _State, name: str) -> _State | None:
-        """Return the fit without a parameter. Return None if the derivatives predict that chi-square rises too much."""
-        space = self.space(state.names)
-        mine = np.array([one.parameter == name for one in space.coordinates])
-        covariance = _search.without(*_search.inverse(state.target.jacobian(space, state.x, state.answer)))
-        errors = np.sqrt(np.diag(covariance)[mine])
-        if np.sum(((state.x[mine] - self.at_design(name)) / errors) ** 2) > _NEEDED:
-            return None
-        names = [other for other in state.names if other != name]
-        return self.fitted(names, state.x[~mine], state.guesses, state.answer.values)
-
-    def at_design(self, name: str) -> Array:
-        """Return the coordinates of a parameter at the value of the design, or at the nearest bound."""
-        value = float(self.names.nominal[name])
-        return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])
-
-    def _linear(self, one: Coordinate) -> Coordinate:
-        """Return a linear coordinate without prior, whose origin is the design's value."""
-        value = float(self.names.nominal[one.parameter])
-        return replace(one, nominal=value, log=False, prior=None)
-
-    def _step(
-        self, name: str, x: Array, residuals: Array, free: Array, added: Array, space: Space, place: list[int]
-    ) -> tuple[float, Array]:
-        """Return the predicted decrease of chi-square for one candidate, and the coordinates after the step."""
-        own = self.coordinates[name]
-        left = np.linalg.pinv(free, rcond=_search.NOTHING) if free.shape[1] else np.zeros((0, len(residuals)))
-        # The part of the derivatives and of the residuals that the free parameters cannot change.
-        across, rest = added - free @ (left @ added), residuals - free @ (left @ residuals)
-        known = np.linalg.norm(across, axis=0) > _search.NOTHING * np.linalg.norm(added, axis=0)
-        across[:, ~known] = 0.0
-        step = np.linalg.lstsq(across, -rest, rcond=None)[0]
-        origin = [space.coordinates[number] for number in place]
-        low, high = (np.array([one.at(getattr(one, end)) for one in origin]) for end in ("low", "high"))
-        step = np.clip(step, np.minimum(low, 0.0), np.maximum(high, 0.0))
-        gain = float(rest @ rest - np.sum((rest + across @ step) ** 2))
-        moved = x - left @ (residuals + added @ step)
-        active = Space(space.coordinates[: len(x)])
-        begin = [np.clip(moved, active.low, active.high)]
-        values = [float(np.clip(one.value(size), one.low, one.high)) for one, size in zip(origin, step)]
-        begin.append(np.array([one.at(value) for one, value in zip(own, values)]))
-        return max(0.0, gain), np.concatenate(begin)
-
-
 def select(
     design: Design,
     data: Any,
@@ -429,7 +250,7 @@ def select(
     coordinates = {name: [one for one in space.coordinates if one.parameter == name] for name in space.parameters}
     with shown(progress) as show:
         told = None if show is None else lambda ran: show(ran, ran)
-        work = _Work(names, sets, coordinates, keywords, held, criterion, threads, told)
+        work = Subsets(names, sets, coordinates, keywords, held, criterion, threads, told)
         free = work.space(list(first))
         begin = np.clip(np.zeros(len(free)), free.low, free.high)
         unknown = np.full(readings, np.nan)
@@ -480,43 +301,43 @@ def select(
 
 
 def _best(
-    work: _Work, state: _State, predicted: Mapping[str, tuple[float, Array]], tries: int
-) -> tuple[_State, list[_State]]:
+    work: Subsets, state: Subset, predicted: Mapping[str, tuple[float, Array]], tries: int
+) -> tuple[Subset, list[Subset]]:
     """Return the best fit with one more parameter, and the other fits that were tried."""
-    fitted: list[_State] = []
+    fitted: list[Subset] = []
     reached = 0.0
     for name, (gain, begin) in list(predicted.items())[:tries]:
         if fitted and gain < _WORTH * reached:
             break
         names = [*state.names, name]
         one = work.fitted(names, begin, state.guesses, state.answer.values)
-        if one.deviance > state.deviance:
+        if one.criteria.deviance > state.criteria.deviance:
             # The predicted step was too long.
             nearby = np.concatenate([state.x, work.at_design(name)])
             again = work.fitted(names, nearby, state.guesses, state.answer.values)
-            one = min(one, again, key=lambda other: other.deviance)
+            one = min(one, again, key=lambda other: other.criteria.deviance)
         fitted.append(one)
-        reached = max(reached, state.deviance - one.deviance)
+        reached = max(reached, state.criteria.deviance - one.criteria.deviance)
     fitted.sort(key=lambda one: one.criterion)
     return fitted[0], fitted[1:]
 
 
-def _chance(state: _State, best: _State, work: _Work, count: int) -> float:
+def _chance(state: Subset, best: Subset, work: Subsets, count: int) -> float:
     """Return the probability that noise alone improves the fit as much, for the best of `count` candidates."""
     from scipy.stats import chi2
 
     freedom = len(work.space(best.names)) - len(work.space(state.names))
-    return float(min(1.0, count * chi2.sf(max(0.0, state.deviance - best.deviance), freedom)))
+    return float(min(1.0, count * chi2.sf(max(0.0, state.criteria.deviance - best.criteria.deviance), freedom)))
 
 
 def _step_of(
-    freed: str, state: _State, gain: float, p: float, work: _Work, alternatives: dict[str, float], removed: str = ""
+    freed: str, state: Subset, gain: float, p: float, work: Subsets, alternatives: dict[str, float], removed: str = ""
 ) -> SelectionStep:
     return SelectionStep(
         freed,
         removed,
         list(state.names),
-        state.chi_square,
+        state.criteria.chi_square,
         state.criterion,
         gain,
         p,
@@ -525,7 +346,7 @@ def _step_of(
     )
 
 
-def _final(work: _Work, state: _State, starts: int, seed: int, profile: bool) -> Fit | None:
+def _final(work: Subsets, state: Subset, starts: int, seed: int, profile: bool) -> Fit | None:
     """Return the fit of the selected parameters from the estimate of the selection and from further starts."""
     if not state.names:
         return None
@@ -534,7 +355,7 @@ def _final(work: _Work, state: _State, starts: int, seed: int, profile: bool) ->
     guesses = dict(state.guesses)
     target = replace(state.target, used=~work.held)
     begins = [state.x, *_search.starts(model, target, starts, seed)]
-    ends: list[Found] = _search.from_all(model, target, begins)
+    ends = _search.from_all(model, target, begins)
     made = _fit._finish(model, work.sets, target, ends[0], guesses, work.held, profile, seed)
     agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
     made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
@@ -567,6 +388,5 @@ def _check(criterion: Any, significance: Any, tries: Any, budget: Any) -> None:
         raise ValueError(f'`criterion` is {criterion!r}\nit must be "AICc" or "BIC"')
     if not is_number(significance) or not 0 < significance <= 1:
         raise ValueError(f"`significance` is {significance!r}\nit must be more than 0 and at most 1")
-    for name, value in (("tries", tries), ("budget", 1 if budget is None else budget)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
-            raise ValueError(f"`{name}` is {value!r}\nit must be a whole number, 1 or more")
+    _arguments.count("tries", tries)
+    _arguments.count("budget", 1 if budget is None else budget)

@@ -1,0 +1,66 @@
+"""The likelihood of readings in a fit, and information criteria."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .._types import Array, Mask
+from ._data import DataSet, all_readings, places_of
+from ._parameters import Space
+from ._search import sigmas
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """The likelihood of readings in a fit, and the criteria that follow from it."""
+
+    #: The log likelihood of each reading; nan for readings that are not counted.
+    log: Array
+    #: The standard error of each reading, with its most likely value if it is unknown.
+    sigma: Array
+    #: Number of free parameters and of estimated standard errors.
+    parameters: int
+    chi_square: float
+    deviance: float
+    aicc: float
+    bic: float
+
+
+def criteria(sets: Sequence[DataSet], space: Space, x: Array, values: Array, counted: Mask) -> Criteria:
+    """Return the criteria of a fit that ends at the coordinates `x`, for the counted readings. `values` has the model's
+    value of each reading.
+    """
+    log, sigma, estimated = _log_likelihoods(sets, values, counted)
+    priors = space.prior(x)[0]
+    error = (np.where(np.isfinite(values), values, 0.0) - all_readings(sets)) / sigma
+    chi_square = float(np.sum(error[counted] ** 2) + priors @ priors)
+    deviance = float(-2.0 * np.sum(log[counted]) + priors @ priors)
+    count, readings = len(space) + estimated, int(counted.sum())
+    left = readings - count - 1
+    # AICc is infinite for too few readings.
+    correction = 2.0 * count * (count + 1) / left if left > 0 else np.inf
+    aicc, bic = deviance + 2.0 * count + correction, deviance + count * float(np.log(readings))
+    return Criteria(log, sigma, count, chi_square, deviance, float(aicc), bic)
+
+
+def _log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tuple[Array, Array, int]:
+    """Return the log likelihood of each reading, its standard error, and the number of estimated standard errors.
+
+    The log likelihood is nan for readings that are not counted. An unknown standard error is the root mean square of
+    the residuals of its measure. The value of a motion that does not settle is zero, as for a wing at rest.
+    """
+    measured, places = all_readings(sets), places_of(sets)
+    error = np.where(np.isfinite(values), values, 0.0) - measured
+    which = np.array([measure for _, measure, _ in places])
+    unknown = np.array([one.noise[measure].kind == "unknown" for one, measure, _ in places])
+    sigma = sigmas(sets, values, dict.fromkeys(which.tolist(), 1.0))
+    estimated = list(dict.fromkeys(which[unknown & counted].tolist()))
+    for measure in estimated:
+        mine = unknown & (which == measure)
+        least = 1e-9 * float(np.abs(measured[mine]).max())
+        sigma[mine] = max(float(np.sqrt(np.mean(error[mine & counted] ** 2))), least)
+    log = -0.5 * (error / sigma) ** 2 - np.log(np.sqrt(2.0 * np.pi) * sigma)
+    return np.where(counted, log, np.nan), sigma, len(estimated)
