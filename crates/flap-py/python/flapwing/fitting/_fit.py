@@ -110,9 +110,10 @@ def fit(
     >>> found.estimates["hinge_stiffness"].unit
     'N*m/rad'
     """
-    _check(loss, starts, seed)
+    check_options(loss, starts, seed)
     begun = time.perf_counter()
-    names = Names(_with_keywords(design, keywords))
+    _flapwing.check(design, keywords=dict(keywords))
+    names = Names(design)
     sets = _data.resolve(data, names, sigma)
     space = _parameters.space(free, names, sets, keywords)
     measured = _data.all_readings(sets)
@@ -123,24 +124,24 @@ def fit(
         guesses = _search.first_guesses(sets)
         target = Target(measured, _search.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
-        made = _finish(model, sets, target, ends[0], guesses, held, _arguments.flag("profile", profile), seed)
-    agreed = 0 if made.effort.agreed == 0 else sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
-    made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
-    return made
+        return finish(model, sets, target, ends, guesses, held, _arguments.flag("profile", profile), seed, begun)
 
 
-def _finish(
+def finish(
     model: Model,
     sets: list[DataSet],
     target: Target,
-    best: Found,
+    ends: Sequence[Found],
     guesses: dict[str, float],
     held: Mask,
     profile: bool,
     seed: int,
+    begun: float,
 ) -> Fit:
-    """Return the result of the fit from the best of the searches."""
-    target, found, answer = _settle(model, sets, target, best, guesses)
+    """Return the result of a fit from the ends of its searches, with the best end first. The fit began at the time
+    `begun`.
+    """
+    target, found, answer = _settle(model, sets, target, ends[0], guesses)
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
     if readings <= len(model.space):
         raise ValueError(_too_few(model, sets, found, answer, held))
@@ -182,10 +183,10 @@ def _finish(
         loss=target.loss,
         held=held,
     )
-    if better is not None:
-        made.effort = Effort(1, 0, 0, 0, 0.0)
     if held.any():
         made._predict_held_out(held)
+    agreed = 0 if better is not None else sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
+    made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
     return made
 
 
@@ -280,13 +281,8 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
     return f"{told}the others are {statuses}\ngive other bounds, or run the design with flapwing.evaluate"
 
 
-def _with_keywords(design: Design, keywords: Mapping[str, Any]) -> Any:
-    """Return the design of the fit, after a check of the keywords."""
-    _flapwing.check(design, keywords=dict(keywords))
-    return design
-
-
-def _check(loss: Any, starts: Any, seed: Any) -> None:
+def check_options(loss: Any, starts: Any, seed: Any) -> None:
+    """Raise an error for an unknown loss, an impossible number of starts or seed, or without SciPy."""
     try:
         import scipy.optimize  # noqa: F401
     except ImportError:

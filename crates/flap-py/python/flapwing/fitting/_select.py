@@ -9,14 +9,13 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from .. import _arguments
+from .. import _arguments, _flapwing
 from .._progress import Progress, shown
 from .._types import Array, Design, Value
 from . import _data, _fit, _held, _parameters, _report, _search
 from ._candidates import is_number
 from ._names import Names
 from ._result import Fit
-from ._solution import Effort
 from ._subsets import Subset, Subsets
 
 #: A candidate is fitted if its predicted gain is at least this share of the best gain of the step.
@@ -225,10 +224,11 @@ def select(
     >>> found.parameters
     ['hinge_stiffness']
     """
-    _fit._check("linear", starts, seed)
+    _fit.check_options("linear", starts, seed)
     _check(criterion, significance, tries, budget)
     begun = time.perf_counter()
-    names = Names(_fit._with_keywords(design, keywords))
+    _flapwing.check(design, keywords=dict(keywords))
+    names = Names(design)
     sets = _data.resolve(data, names, sigma)
     first = {names.parameter(name): given for name, given in _listed("start", start).items()}
     wanted = {names.parameter(name): given for name, given in _listed("candidates", candidates).items()}
@@ -356,10 +356,7 @@ def _final(work: Subsets, state: Subset, starts: int, seed: int, profile: bool) 
     target = replace(state.target, used=~work.held)
     begins = [state.x, *_search.starts(model, target, starts, seed)]
     ends = _search.from_all(model, target, begins)
-    made = _fit._finish(model, work.sets, target, ends[0], guesses, work.held, profile, seed)
-    agreed = sum(one.cost <= ends[0].cost * 1.02 + 0.1 for one in ends)
-    made.effort = Effort(len(ends), agreed, model.ran, model.rhs_evals, time.perf_counter() - begun)
-    return made
+    return _fit.finish(model, work.sets, target, ends, guesses, work.held, profile, seed, begun)
 
 
 def _listed(place: str, given: Any) -> dict[str, Any]:

@@ -285,13 +285,8 @@ class Solution:
     ) -> None:
         self.estimates, self.spreads = estimates, spreads
         self.combinations, self.indistinct = combinations, indistinct
-        self.goodness, self.unsettled, self.without_slopes, self.converged = (
-            goodness,
-            unsettled,
-            without_slopes,
-            converged,
-        )
-        self.sigma_known = sigma_known
+        self.goodness, self.unsettled, self.without_slopes = goodness, unsettled, without_slopes
+        self.converged, self.sigma_known = converged, sigma_known
         self.held_out: HeldOut | None = None
         self.effort = Effort(1, 1, 0, 0, 0.0)
         self._model, self._sets, self._x, self._quantile = model, sets, x, quantile
