@@ -17,7 +17,7 @@ _STEP = 0.02
 
 
 @dataclass(frozen=True)
-class Way:
+class Branch:
     """The points of a branch, which are run one after the other while a parameter rises or falls."""
 
     parameter: str
@@ -26,7 +26,7 @@ class Way:
 
 
 def states_along(
-    ways: Sequence[Way],
+    branches: Sequence[Branch],
     columns: Mapping[str, Any],
     rows: int,
     times: int,
@@ -38,9 +38,9 @@ def states_along(
     Each of `columns` repeats all points `times` times, once for each set of parameters. States have the components
     `names`. All branches are followed at the same time: a batch has one point of each branch.
     """
-    if not ways:
+    if not branches:
         return None
-    curves = [curve for way in ways for copy in range(times) for curve in _curves(way, columns, copy * rows)]
+    curves = [curve for branch in branches for copy in range(times) for curve in _curves(branch, columns, copy * rows)]
     begin = {name: np.full(rows * times, np.nan) for name in names}
     last: dict[int, dict[str, float]] = {}
     for step in range(max(len(curve) for curve in curves)):
@@ -63,25 +63,27 @@ def states_along(
     return begin
 
 
-def _curves(way: Way, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
+def _curves(branch: Branch, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
     """Return the points along a branch: for each group of points with equal other parameters, the row, the followed
     parameter and its value.
     """
     groups: dict[tuple[Any, ...], list[int]] = {}
-    for row in way.rows + offset:
-        key = tuple(values[row] for name, values in columns.items() if name != way.parameter)
+    for row in branch.rows + offset:
+        key = tuple(values[row] for name, values in columns.items() if name != branch.parameter)
         groups.setdefault(key, []).append(int(row))
     curves = []
     for group in groups.values():
-        group.sort(key=lambda row: float(columns[way.parameter][row]), reverse=way.falls)
+        group.sort(key=lambda row: float(columns[branch.parameter][row]), reverse=branch.falls)
         curve: list[tuple[int, str, float]] = []
         for row in group:
-            value = float(columns[way.parameter][row])
+            value = float(columns[branch.parameter][row])
             if curve:
                 before = curve[-1][2]
                 between = int(abs(value - before) / (_STEP * max(abs(value), abs(before), 1e-300)))
-                curve += [(row, way.parameter, one) for one in np.linspace(before, value, between + 2)[1:-1].tolist()]
-            curve.append((row, way.parameter, value))
+                curve += [
+                    (row, branch.parameter, one) for one in np.linspace(before, value, between + 2)[1:-1].tolist()
+                ]
+            curve.append((row, branch.parameter, value))
         curves.append(curve)
     return curves
 

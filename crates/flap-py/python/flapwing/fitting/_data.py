@@ -14,7 +14,7 @@ from .. import _arguments, _flapwing
 from .._mistakes import reading
 from .._types import Array, Value
 from ._cells import file_columns, measure_cells, parameter_cells, sigma_cells
-from ._names import COURSE, Names
+from ._names import OTHER_COLUMNS, Names
 from ._noise import UNKNOWN_NOISE, Noise, parse_noise
 
 #: The allowed forms of the argument `data`, for error messages.
@@ -146,7 +146,7 @@ def _resolved(readings: Readings, name: str, names: Names, sigma: Any) -> DataSe
     measured: dict[str, Array] = {}
     errors: dict[str, Noise] = {}
     rows = len(next(iter(readings.columns.values())))
-    headers = [header for header in readings.columns if header not in COURSE]
+    headers = [header for header in readings.columns if header not in OTHER_COLUMNS]
     for header, meaning in zip(headers, names.meanings(name, headers)):
         places: dict[str, dict[str, Any]] = {"parameter": points, "measure": measured, "sigma": errors}
         target = places[meaning.kind]

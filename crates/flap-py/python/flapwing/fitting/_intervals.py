@@ -72,10 +72,9 @@ class _Side:
 
 
 @dataclass(frozen=True)
-class _Walks:
-    """The fit from which profiles begin: the readings, the estimate, and the covariance without the discrepancy of the
-    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at a distance of `quantile`
-    errors from the estimate.
+class _ProfileSearch:
+    """The fit from which profiles begin: its readings, its estimate, and the covariance without discrepancy of the
+    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at `quantile` such errors.
     """
 
     space: Space
@@ -153,8 +152,8 @@ def profiles(
     coordinate by the discrepancy of the model.
     """
     space = model.space
-    walks = _Walks(space, target, found, covariance, quantile, factors)
-    sides = [partial(walks.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
+    search = _ProfileSearch(space, target, found, covariance, quantile, factors)
+    sides = [partial(search.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
 
     def answer(xs: list[Array]) -> list[Answer]:
         return model.at(xs, rtol=FINE)

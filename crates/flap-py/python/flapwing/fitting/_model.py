@@ -13,7 +13,7 @@ from .._evaluate import evaluate
 from .._point import run
 from .._table import Table
 from .._types import Array, Mask, Places
-from ._branches import Way, states_along, taken
+from ._branches import Branch, states_along, taken
 from ._data import DataSet
 from ._names import Names
 from ._parameters import Space
@@ -64,7 +64,7 @@ class Part:
     """
 
     points: dict[str, Any]
-    ways: list[Way]
+    branches: list[Branch]
     asked: Asked
     #: The places of the measures of `asked` among all readings.
     places: Places
@@ -90,9 +90,9 @@ class Model:
             for name, value in keywords.items()
             if value is not None
         }
-        self.points, self.ways = _points(names, sets)
+        self.points, self.branches = _points(names, sets)
         self.asked = _asked(sets)
-        self.part = _part(self.points, self.ways, self.asked, held)
+        self.part = _part(self.points, self.branches, self.asked, held)
         #: Number of points run so far, and number of evaluations of the right-hand side.
         self.ran = 0
         self.rhs_evals = 0
@@ -105,7 +105,7 @@ class Model:
         known = {key: self._known[key] for key in keys if key not in new}
         if new:
             part = self.part
-            found = self.answers(part.points, part.asked, part.ways, list(new.values()), slopes=slopes, rtol=rtol)
+            found = self.answers(part.points, part.asked, part.branches, list(new.values()), slopes=slopes, rtol=rtol)
             known.update(zip(new, (self._whole(answer) for answer in found)))
         self._known.update(known)
         for key in list(self._known)[:-_KEPT]:
@@ -116,7 +116,7 @@ class Model:
         self,
         points: Mapping[str, Any],
         asked: Asked,
-        ways: Sequence[Way],
+        branches: Sequence[Branch],
         xs: Sequence[Array],
         *,
         slopes: bool = True,
@@ -135,7 +135,7 @@ class Model:
             "settle_tol": max(_SETTLED, float(keywords.get("settle_tol", 0.0))),
         }
         nearby = self._run({**keywords, **loose}, measures[:1])
-        begin = states_along(ways, columns, rows, len(xs), self.names.states, nearby)
+        begin = states_along(branches, columns, rows, len(xs), self.names.states, nearby)
         table = self._run(keywords, measures)(
             columns, initial_state=begin, gradient=self.space.parameters if slopes else None
         )
@@ -143,7 +143,7 @@ class Model:
         near = [(place, column) for place, x in enumerate(xs) for column in self._near_zero(x)] if slopes else []
         if near:
             moved = [xs[place] + self._step(xs[place], column) for place, column in near]
-            there = self.answers(points, asked, ways, moved, slopes=False, rtol=rtol)
+            there = self.answers(points, asked, branches, moved, slopes=False, rtol=rtol)
             for (place, column), x, other in zip(near, moved, there):
                 here = answers[place]
                 difference = (other.values - here.values) / (x[column] - xs[place][column])
@@ -152,8 +152,8 @@ class Model:
         return answers
 
     def everything(self, x: Array) -> Answer:
-        """Return all readings of the model at given coordinates, including the readings that are not fitted."""
-        return self.answers(self.points, self.asked, self.ways, [x], rtol=FINE)[0]
+        """Return all readings of the model at coordinates, also the readings that are not fitted."""
+        return self.answers(self.points, self.asked, self.branches, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
         """Return results for all readings, from the results for the readings that a search runs."""
@@ -263,7 +263,7 @@ def _length(points: Mapping[str, Any]) -> int:
     return len(next(iter(points.values())))
 
 
-def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Way]]:
+def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Branch]]:
     """Return the operating points of all data sets as columns, and the branches of the data sets that have a branch."""
     varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
     points: dict[str, Any] = {}
@@ -273,12 +273,12 @@ def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list
             points[name] = [cell for part in parts for cell in part]
         else:
             points[name] = np.concatenate([np.asarray(part, np.float64) for part in parts])
-    ways, begin = [], 0
+    branches, begin = [], 0
     for one in sets:
         if one.branch is not None:
-            ways.append(Way(one.parameter, one.branch == "down", np.arange(begin, begin + len(one))))
+            branches.append(Branch(one.parameter, one.branch == "down", np.arange(begin, begin + len(one))))
         begin += len(one)
-    return points, ways
+    return points, branches
 
 
 def _asked(sets: Sequence[DataSet]) -> Asked:
@@ -293,19 +293,19 @@ def _asked(sets: Sequence[DataSet]) -> Asked:
     return Asked(np.array(of_set, np.intp), np.array(row, np.intp), measure)
 
 
-def _part(points: dict[str, Any], ways: list[Way], asked: Asked, held: Mask | None) -> Part:
+def _part(points: dict[str, Any], branches: list[Branch], asked: Asked, held: Mask | None) -> Part:
     if held is None or not held.any():
-        return Part(points, ways, asked, np.arange(len(asked.row)))
+        return Part(points, branches, asked, np.arange(len(asked.row)))
     runs = np.zeros(_length(points), np.bool_)
     runs[asked.row[~held]] = True
-    for way in ways:
-        runs[way.rows] = True
+    for branch in branches:
+        runs[branch.rows] = True
     places = np.flatnonzero(runs[asked.row])
     number = np.cumsum(runs) - 1
     chosen = np.flatnonzero(runs).tolist()
     return Part(
         {name: taken(values, chosen) for name, values in points.items()},
-        [Way(way.parameter, way.falls, number[way.rows]) for way in ways],
+        [Branch(branch.parameter, branch.falls, number[branch.rows]) for branch in branches],
         Asked(asked.of_set[places], number[asked.row[places]], [asked.measure[place] for place in places]),
         places,
     )

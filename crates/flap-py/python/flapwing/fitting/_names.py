@@ -13,7 +13,7 @@ from .._flapwing import Grid
 from .._types import Design
 
 #: Columns of flap's tables that are neither parameters nor measures.
-COURSE = {
+OTHER_COLUMNS = {
     "bistable",
     "branch",
     "curve",

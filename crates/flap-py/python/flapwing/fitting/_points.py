@@ -10,7 +10,7 @@ import numpy as np
 from .. import _arguments
 from .._flapwing import Grid
 from .._types import Array
-from ._branches import Way
+from ._branches import Branch
 from ._cells import parameter_cells
 from ._data import DataSet
 from ._model import FINE, Answer, Asked, Model
@@ -18,6 +18,7 @@ from ._names import Names
 
 
 def cell(value: Any) -> str:
+    """Return a value of a parameter as a cell of a table."""
     return value if isinstance(value, str) else f"{value:g}"
 
 
@@ -62,10 +63,10 @@ def answers_at(
     count = len(next(iter(points.values())))
     model.names.check_measure(measure)
     asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
-    ways = []
+    branches = []
     if like is not None and like.branch is not None:
-        ways = [Way(like.parameter, like.branch == "down", np.arange(count))]
-    return model.answers(points, asked, ways, [x], rtol=FINE)[0]
+        branches = [Branch(like.parameter, like.branch == "down", np.arange(count))]
+    return model.answers(points, asked, branches, [x], rtol=FINE)[0]
 
 
 def error_of(answer: Answer, covariance: Array) -> Array:

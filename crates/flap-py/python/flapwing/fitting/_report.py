@@ -22,7 +22,7 @@ def text(fit: Solution) -> str:
         lines += [*fit.combinations]
     if len(fit.estimates) > 1:
         lines += ["correlations:", table(*_correlations(fit))]
-    return "\n".join([*lines, *_course(fit)])
+    return "\n".join([*lines, *_effort(fit)])
 
 
 def html(fit: Solution) -> str:
@@ -36,7 +36,7 @@ def html(fit: Solution) -> str:
     parts.append(_paragraphs(fit.combinations))
     if len(fit.estimates) > 1:
         parts.append(_html_table(*_correlations(fit)))
-    return "".join([*parts, _paragraphs(_course(fit))])
+    return "".join([*parts, _paragraphs(_effort(fit))])
 
 
 def _paragraphs(lines: list[str]) -> str:
@@ -159,7 +159,7 @@ def _correlations(fit: Solution) -> tuple[list[str], list[list[str]]]:
     return ["", *(str(number + 1) for number in range(len(names)))], rows
 
 
-def _course(fit: Solution) -> list[str]:
+def _effort(fit: Solution) -> list[str]:
     one = fit.effort
     lines = [
         f"{one.agreed} of {one.starts} starts ended at this fit; "
