@@ -43,6 +43,22 @@ def test_the_right_law_is_chosen(compared):
     assert "stroke is clearly better" in str(compared) and "held-out rms (stroke_pp_deg)" in str(compared)
 
 
+def test_plans_of_fits_with_unknown_noise_contain_the_noise_of_both_fits():
+    """The wrong law leaves a pattern, so its residuals are discrepancy. Its standard error is still not zero."""
+    points = {
+        "drive_frequency": np.tile(np.linspace(75.0, 145.0, 15), 2),
+        "drive_voltage_pp": np.repeat([120.0, 160.0], 15),
+    }
+    data = readings(BOTH, points=points, noise=0.01, drag_coefficient_min=1.5)
+    compared = flapwing.compare(fits(data, {}, {"drag_coefficient_min": (0.05, 2.0)}, sigma=None))
+    assert compared._sides[1].fit.goodness.is_structured
+    points = {"drive_frequency": [100.0, 120.0], "drive_voltage_pp": 180.0}
+    plan = compared.next_measurements(points, count=1)
+    measured = np.array(BOTH).repeat(30) == plan.measures[0]
+    sizes = [np.sqrt(np.mean((side.values[measured] - data[plan.measures[0]]) ** 2)) for side in compared._sides[:2]]
+    assert plan.errors[0] > np.sqrt(np.mean(np.square(sizes)))
+
+
 def test_criteria_follow_from_the_residuals(lossy):
     first, second = fits(lossy, {}, LOSS, sigma={"stroke_pp_deg": 2.0, "pitch_amplitude_deg": "1 deg"})
     compared = flapwing.compare([first, second])
