@@ -37,10 +37,10 @@ class FreeParameter:
         True if each data set has its own value of the parameter, for example if the wing was changed between
         experiments.
     spread : float, str or True, optional
-        For data sets of several robots of the same build: each data set has its own value of the parameter, and these
+        For data sets of several robots of the same build. Each data set has its own value of the parameter, and these
         values scatter about a common mean (normal distribution). The spread is the standard deviation of the scatter: a
-        number in SI units, text with a unit or such as ``"5 %"`` of the mean. With True, the spread is estimated from
-        the data. Not together with `prior`.
+        number in SI units, text with a unit, or text such as ``"5 %"`` of the mean. With True, the spread is estimated
+        from the data. A parameter with `spread` cannot have a `prior`.
     """
 
     low: Value | None = None

@@ -102,8 +102,8 @@ def _lowest(tried: Array, deviances: Array) -> float:
 def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Answer) -> tuple[Array, Array]:
     """Return standard deviations of a parameter's values, and minus two times the logarithm of their likelihood.
 
-    The likelihood is the integral over all free parameters and over the mean of the values (restricted marginal
-    likelihood), where residuals are linear in the parameters.
+    The likelihood is the integral over all free parameters and over the mean of the values (restricted maximum
+    likelihood). In this integral, residuals are linear in the parameters.
     """
     everything = target.residuals(space, x, answer)
     readings = int(target.used.sum())
