@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compares a version with those in Cargo.toml, CITATION.cff and CHANGELOG.md, and requires the address of the repository:
+# Checks the files that a maintainer edits for a release: the version, the date and the address of the repository are the same in
+# all files, and no page says that flap has no release.
 #
 #   scripts/check-release.sh VERSION [ADDRESS]
 #
@@ -7,26 +8,37 @@
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
-[[ $# -eq 1 || $# -eq 2 ]] || { echo "usage: scripts/check-release.sh VERSION [ADDRESS]" >&2; exit 2; }
+[[ $# -eq 1 || $# -eq 2 ]] || { echo "usage: scripts/check-release.sh VERSION [ADDRESS], such as 0.1.0" >&2; exit 2; }
 wrong=0
 mistake() {
     printf 'check-release: %s\n' "$1" >&2
     wrong=1
 }
-differs() { mistake "$1 has version ${2:-(none)}, not $3"; }
 workspace() { sed -n "/^\[workspace.package\]/,/^\[/s/^$1 = \"\(.*\)\"\$/\1/p" Cargo.toml; }
+citation() { sed -n "s/^$1: *\"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p" CITATION.cff; }
+# same FILE FIELD VALUE EXPECTED
+same() { [[ $3 == "$4" ]] || mistake "$1 has $2 ${3:-(none)}, not $4"; }
 
-cargo=$(workspace version)
-citation=$(sed -n 's/^version: *"\{0,1\}\([^"]*\)"\{0,1\}$/\1/p' CITATION.cff)
-[[ $cargo == "$1" ]] || differs Cargo.toml "$cargo" "$1"
-[[ $citation == "$1" ]] || differs CITATION.cff "$citation" "$1"
-# The heading of a release is its version, with or without a date; "(unreleased)" is neither.
-grep -Eq "^## ${1//./\\.}( - [0-9]{4}-[0-9]{2}-[0-9]{2})?$" CHANGELOG.md || differs CHANGELOG.md "$(sed -n 's/^## //p' CHANGELOG.md | head -n 1)" "$1"
+same Cargo.toml version "$(workspace version)" "$1"
+same CITATION.cff version "$(citation version)" "$1"
+same docs/how-to/questions.md version "$(sed -n 's/^  version = {\(.*\)},$/\1/p' docs/how-to/questions.md)" "$1"
+heading=$(sed -n '/^## /{s///p;q;}' CHANGELOG.md)
+if [[ $heading =~ ^(.*)\ -\ ([0-9]{4}-[0-9]{2}-[0-9]{2})$ && ${BASH_REMATCH[1]} == "$1" ]]; then
+    same CITATION.cff date-released "$(citation date-released)" "${BASH_REMATCH[2]}"
+else
+    mistake "the first section of CHANGELOG.md is \"$heading\", not \"$1 - YYYY-MM-DD\""
+fi
 
 address=$(workspace repository)
 if [[ ! $address =~ ^https://[^/]+/[^/]+/[^/]+$ ]]; then
     mistake "repository in Cargo.toml is \"$address\": write the address of the repository, https://HOST/OWNER/NAME without a slash at the end"
-elif [[ $# -eq 2 && $address != "$2" ]]; then
-    mistake "repository in Cargo.toml is \"$address\", but this repository is $2"
+else
+    same CITATION.cff repository-code "$(citation repository-code)" "$address"
+    [[ $# -eq 1 || $address == "$2" ]] || mistake "repository in Cargo.toml is \"$address\", but this repository is $2"
 fi
+
+for file in README.md docs/start/install.md; do
+    ! grep -q "no release yet" "$file" || mistake "$file says that flap has no release yet: delete this paragraph"
+done
+[[ $wrong -ne 0 ]] || echo "All files have version $1."
 exit "$wrong"

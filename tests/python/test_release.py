@@ -113,47 +113,87 @@ def test_workflows_call_scripts_that_exist(workflow):
             ), command
 
 
-def check_release(*arguments):
-    return subprocess.run(
-        [REPOSITORY / "scripts" / "check-release.sh", *arguments], capture_output=True, text=True, timeout=60
-    )
+ADDRESS = "https://example.org/owner/flap"
+RELEASED = {
+    "Cargo.toml": f'[workspace.package]\nversion = "1.2.3"\nrepository = "{ADDRESS}"\n',
+    "CITATION.cff": f'version: 1.2.3\nrepository-code: "{ADDRESS}"\ndate-released: 2030-01-31\n',
+    "CHANGELOG.md": "# Changelog\n\n## 1.2.3 - 2030-01-31\n\n## 1.2.2 - 2029-12-31\n",
+    "docs/how-to/questions.md": "  version = {1.2.3},\n",
+    "README.md": "# flap\n",
+    "docs/start/install.md": "# Install flap\n",
+}
 
 
-def test_a_tag_must_agree_with_every_file_that_has_the_version():
-    told = check_release("99.0.0")
-    assert told.returncode == 1
-    for file in ("Cargo.toml", "CITATION.cff", "CHANGELOG.md"):
-        assert re.search(
-            rf"^check-release: {re.escape(file)} has version \S.*, not 99\.0\.0$", told.stderr, re.MULTILINE
-        ), file
+def check_release(folder, *arguments, **replaced):
+    """Run the check on the files of a release, after `file: (text, new text)` of `replaced`."""
+    for name, text in RELEASED.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text.replace(*replaced.get(name, ("", ""))), encoding="utf-8")
+    (folder / "scripts").mkdir(exist_ok=True)
+    shutil.copy(REPOSITORY / "scripts" / "check-release.sh", folder / "scripts")
+    command = [folder / "scripts" / "check-release.sh", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
 
 
-def test_the_version_of_the_manifest_is_that_of_the_citation():
-    manifest = (REPOSITORY / "Cargo.toml").read_text(encoding="utf-8")
-    version = re.search(r'^version = "(.*)"$', manifest, re.MULTILINE).group(1)
-    told = check_release(version)
-    assert "Cargo.toml has version" not in told.stderr and "CITATION.cff" not in told.stderr
-
-
-def test_a_release_needs_the_address_of_the_repository(tmp_path):
-    (tmp_path / "scripts").mkdir()
-    shutil.copy(REPOSITORY / "scripts" / "check-release.sh", tmp_path / "scripts")
-    (tmp_path / "CITATION.cff").write_text("version: 1.2.3\n", encoding="utf-8")
-    (tmp_path / "CHANGELOG.md").write_text("## 1.2.3 - 2030-01-31\n", encoding="utf-8")
-    manifest = tmp_path / "Cargo.toml"
-
-    def check(address, *arguments):
-        text = f'[workspace.package]\nversion = "1.2.3"\nrepository = "{address}"\n'
-        manifest.write_text(text, encoding="utf-8")
-        command = [tmp_path / "scripts" / "check-release.sh", "1.2.3", *arguments]
-        return subprocess.run(command, capture_output=True, text=True, timeout=60)
-
-    assert check("https://example.org/owner/flap", "https://example.org/owner/flap").returncode == 0
-    told = check("https://example.org/owner/flap", "https://example.org/other/flap")
+def test_a_release_has_one_version_one_date_and_one_address(tmp_path):
+    for arguments in (["1.2.3"], ["1.2.3", ADDRESS]):
+        told = check_release(tmp_path, *arguments)
+        assert told.returncode == 0 and not told.stderr
+    told = check_release(tmp_path, "1.2.3", "https://example.org/other/flap")
     assert told.returncode == 1 and "but this repository is https://example.org/other/flap" in told.stderr
-    for address in ("", "example.org", "https://example.org/owner/flap/"):
-        told = check(address)
-        assert told.returncode == 1 and f'repository in Cargo.toml is "{address}": write the address' in told.stderr
+    told = check_release(tmp_path, "1.2.4")
+    assert told.returncode == 1 and told.stderr.count("not 1.2.4\n") == 3 and 'not "1.2.4 - YYYY-MM-DD"' in told.stderr
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "new", "message"),
+    [
+        ("Cargo.toml", "1.2.3", "1.2.2", "Cargo.toml has version 1.2.2, not 1.2.3"),
+        ("CITATION.cff", "1.2.3", "1.2.2", "CITATION.cff has version 1.2.2, not 1.2.3"),
+        ("docs/how-to/questions.md", "1.2.3", "1.2.2", "docs/how-to/questions.md has version 1.2.2, not 1.2.3"),
+        (
+            "CHANGELOG.md",
+            "1.2.3 - 2030-01-31",
+            "1.2.3 (unreleased)",
+            'is "1.2.3 (unreleased)", not "1.2.3 - YYYY-MM-DD"',
+        ),
+        ("CHANGELOG.md", "2030-01-31", "2030-02-01", "CITATION.cff has date-released 2030-01-31, not 2030-02-01"),
+        ("CITATION.cff", "date-released: 2030-01-31", "", "CITATION.cff has date-released (none), not 2030-01-31"),
+        (
+            "CITATION.cff",
+            "owner",
+            "other",
+            "has repository-code https://example.org/other/flap, not https://example.org/owner",
+        ),
+        ("Cargo.toml", ADDRESS, "", 'repository in Cargo.toml is "": write the address'),
+        ("Cargo.toml", ADDRESS, "example.org", 'repository in Cargo.toml is "example.org": write the address'),
+        ("Cargo.toml", ADDRESS, f"{ADDRESS}/", f'repository in Cargo.toml is "{ADDRESS}/": write the address'),
+        ("README.md", "# flap", "flap has no release yet", "README.md says that flap has no release yet"),
+    ],
+)
+def test_a_mistake_in_a_file_of_a_release_is_reported_alone(tmp_path, file, text, new, message):
+    told = check_release(tmp_path, "1.2.3", **{file: (text, new)})
+    assert told.returncode == 1 and message in told.stderr and told.stderr.count("check-release: ") == 1, told.stderr
+
+
+def test_the_files_of_this_repository_have_one_version():
+    with open(REPOSITORY / "Cargo.toml", "rb") as file:
+        version = tomllib.load(file)["workspace"]["package"]["version"]
+    command = [REPOSITORY / "scripts" / "check-release.sh", version]
+    assert " has version " not in subprocess.run(command, capture_output=True, text=True, timeout=60).stderr
+
+
+def test_links_in_the_text_of_a_release_are_addresses(tmp_path):
+    (tmp_path / "scripts").mkdir()
+    shutil.copy(REPOSITORY / "scripts" / "publish-release.sh", tmp_path / "scripts")
+    (tmp_path / "Cargo.toml").write_text(RELEASED["Cargo.toml"], encoding="utf-8")
+    section = "[page](docs/page.md#part), [site](https://example.org/a), [support](SUPPORT.md)"
+    text = f"## 1.2.4 (unreleased)\n\nnew\n\n## 1.2.3 - 2030-01-31\n\n{section}\n\n## 1.2.2 - 2029-12-31\n\nold\n"
+    (tmp_path / "CHANGELOG.md").write_text(text, encoding="utf-8")
+    command = [tmp_path / "scripts" / "publish-release.sh", "v1.2.3", "--notes"]
+    told = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout.strip()
+    files = f"{ADDRESS}/blob/v1.2.3"
+    assert told == f"[page]({files}/docs/page.md#part), [site](https://example.org/a), [support]({files}/SUPPORT.md)"
 
 
 def test_zenodo_and_the_citation_agree():
