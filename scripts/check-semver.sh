@@ -4,7 +4,8 @@
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
-if ! (cd / && cargo info --quiet --registry crates-io flap-cli) >/dev/null 2>&1; then
+if ! told=$(cd / && cargo info --quiet --registry crates-io flap-cli 2>&1); then
+    [[ $told == *"could not find"* ]] || { printf 'check-semver: cargo does not reach crates.io: %s\n' "$told" >&2; exit 1; }
     echo "crates.io has no version of flap-cli: there is nothing to compare with."
     exit 0
 fi

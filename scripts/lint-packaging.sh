@@ -53,4 +53,6 @@ if command -v brew >/dev/null; then
     brew style "$work/recipes/flap.rb"
 elif command -v ruby >/dev/null; then
     ruby -c "$work/recipes/flap.rb"
+else
+    echo "The formula is not checked: install brew or ruby."
 fi

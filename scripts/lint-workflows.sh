@@ -11,4 +11,6 @@ else
 fi
 if command -v shellcheck >/dev/null; then
     shellcheck scripts/*.sh .ci/run
+else
+    echo "The scripts are not checked: install shellcheck."
 fi
