@@ -32,8 +32,6 @@ if grep -n '@[A-Z0-9]*@' "$work"/recipes/*; then
     echo "lint-packaging: scripts/fill-recipes.sh leaves these words" >&2
     exit 1
 fi
-# Before the first release, Cargo.toml has no address.
-sed -i.bak 's|repository: ""|repository: "https://example.org/owner/flap"|' "$work/recipes/recipe.yaml"
 python - "$work/recipes/recipe.yaml" <<'PYTHON'
 import sys
 

@@ -218,10 +218,8 @@ def test_recipes_get_the_values_of_the_release(tmp_path):
     recipe = yaml.safe_load((tmp_path / "recipe.yaml").read_text(encoding="utf-8"))
     assert recipe["context"]["version"] == version
     assert recipe["source"]["sha256"] == hashlib.sha256(b"sources").hexdigest()
-    assert [needed.replace(" ", "") for needed in recipe["requirements"]["run"]] == [
-        f"python{project['requires-python']}",
-        *project["dependencies"],
-    ]
+    assert [needed.replace(" ", "") for needed in recipe["requirements"]["run"]] == ["python", *project["dependencies"]]
+    assert recipe["build"]["skip"] == [f'match(python, "{project["requires-python"].replace(">=", "<")}")']
     formula = (tmp_path / "flap.rb").read_text(encoding="utf-8")
     assert recipe["source"]["sha256"] in formula and f"/v{version}/flapwing-{version}.tar.gz" in formula
     assert not re.search("@[A-Z0-9]+@", formula)
