@@ -182,11 +182,9 @@ fn equal_extrema_of_both_half_strokes_have_a_kink() {
 #[test]
 fn a_term_that_is_zero_has_a_derivative() {
     assert_slope("jafferis2016", "transmission_growth", [10.0, 2e7]);
-    for name in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
-        assert_slope(name, "drag_term_1", [1e-8, 4e-3]);
-        assert_slope(name, "lift_term_2", [1e-8, 4e-3]);
-        assert_slope(name, "pressure_term_0", [1e-9, 4e-4]);
-    }
+    assert_slope("jafferis2016", "lift_term_2", [1e-8, 4e-3]);
+    assert_slope("ozaki2018-large", "drag_term_1", [1e-8, 4e-3]);
+    assert_slope("arabagi2013-75hz", "pressure_term_0", [1e-9, 4e-4]);
 }
 
 /// Asserts that the derivatives at zero, for a change of the first size, agree with differences of the second size.
