@@ -282,3 +282,130 @@ fn mistakes_in_correlations_are_told_with_their_place() {
         .replace("[[correlation]]", &format!("{three}[[correlation]]"));
     told(&text, "the correlations contradict each other", "mybee.toml");
 }
+
+/// The rows of a CSV file as cells, without the header, and the positions of its columns.
+fn cells(text: &str) -> (Vec<Vec<&str>>, impl Fn(&str) -> usize) {
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<&str>>());
+    let header = lines.next().unwrap();
+    (lines.collect(), move |name: &str| header.iter().position(|known| *known == name).unwrap())
+}
+
+/// A folder with three devices, and the grid `grid.toml` that begins with all of them.
+fn three() -> Folder {
+    let folder = folder();
+    fs::write(folder.path("short.toml"), params("wing_length = \"15 mm\"\nwing_area = \"50 mm^2\"")).unwrap();
+    fs::write(folder.path("long.toml"), params("wing_length = \"19 mm\"\ndrive_voltage_pp = \"180 V\""))
+        .unwrap();
+    let derived = "[derived]\ntransmission_stiffness = \"device.transmission_stiffness * (device.wing_length / preset.wing_length)^2\"\n";
+    fs::write(folder.path("rest.toml"), format!("{AXES}{derived}")).unwrap();
+    let rest = folder.read("rest.toml");
+    fs::write(
+        folder.path("grid.toml"),
+        format!("device = [\"mybee.toml\", \"short.toml\", \"long.toml\"]\n{rest}"),
+    )
+    .unwrap();
+    folder
+}
+
+const THREE: [&str; 3] = ["mybee", "short", "long"];
+
+#[test]
+fn rows_of_a_device_axis_are_the_rows_of_each_device() {
+    let folder = three();
+    folder.ends(0, "check grid.toml").prints("15 points of bimorph from jafferis2016");
+    folder.ends(0, "sweep grid.toml --threads 1 --out all.csv");
+    let text = folder.read("all.csv");
+    let (rows, place) = cells(&text);
+    assert_eq!([place("point"), place("device"), place("drive_frequency")], [0, 1, 2]);
+    for (number, device) in THREE.into_iter().enumerate() {
+        let rest = folder.read("rest.toml");
+        fs::write(folder.path("one.toml"), format!("device = \"{device}.toml\"\n{rest}")).unwrap();
+        folder.ends(0, &format!("sweep one.toml --out {device}.csv"));
+        let one = folder.read(&format!("{device}.csv"));
+        let (one, _) = cells(&one);
+        for (row, same) in rows[5 * number..].iter().zip(&one) {
+            assert_eq!(row[1], device);
+            assert_eq!(row[2..], same[1..], "{device}");
+        }
+        assert_eq!(one.len(), 5);
+    }
+    // The bytes do not depend on threads, and merged shards have the same bytes.
+    folder.ends(0, "sweep grid.toml --threads 3 --out threads.csv");
+    folder.ends(0, "sweep grid.toml --shard 1/2 --out part.csv");
+    folder.ends(0, "sweep grid.toml --shard 2/2 --out rest.csv");
+    folder.ends(0, "results merge merged.csv part.csv rest.csv");
+    assert_eq!(folder.read("threads.csv"), text);
+    assert_eq!(folder.read("merged.csv"), text);
+}
+
+#[test]
+fn every_command_on_results_takes_a_device_axis() {
+    let folder = three();
+    folder.ends(0, "sweep grid.toml --out all.csv");
+    folder.ends(0, "top all.csv --by lift_mean_mn -n 1 --where device=short").prints("short");
+    folder.ends(0, "describe all.csv --by lift_mean_mn").prints("device ");
+    folder.ends(0, "plot all.csv --x drive_frequency --y lift_mean_mn --by device --out all.svg");
+    assert!(THREE.iter().all(|device| folder.read("all.svg").contains(&format!(">{device}<"))));
+    folder.ends(0, "results rerun all.csv --where device=long --out again.csv");
+    let (text, again) = (folder.read("all.csv"), folder.read("again.csv"));
+    assert_eq!(cells(&text).0[10..], cells(&again).0[..]);
+    folder.ends(0, "results convert all.csv all.parquet");
+    folder.ends(0, "results convert all.parquet back.csv");
+    assert_eq!(folder.read("back.csv"), text);
+    // A response has the curves of each device, and its rows can be computed again.
+    folder.ends(
+        0,
+        "respond grid.toml --parameter drive_frequency --from 110 --to 120 --step 5 --out curves.csv",
+    );
+    let curves = folder.read("curves.csv");
+    let (rows, place) = cells(&curves);
+    assert_eq!([rows[0][place("device")], rows[rows.len() - 1][place("device")]], ["mybee", "long"]);
+}
+
+#[test]
+fn a_changed_device_of_an_axis_is_told() {
+    let folder = three();
+    folder.ends(0, "sweep grid.toml --out all.csv");
+    folder.ends(0, "sweep grid.toml --out all.csv").says("complete");
+    fs::write(folder.path("long.toml"), params("wing_length = \"18 mm\"\ndrive_voltage_pp = \"180 V\""))
+        .unwrap();
+    let told = folder.ends(2, "sweep grid.toml --out all.csv");
+    told.says("the device differs");
+    told.says("line 3 of long.toml was `wing_length = \"19 mm\"`, it is `wing_length = \"18 mm\"`");
+    // Every device is an input.
+    folder.ends(2, "sweep grid.toml --out short.toml --restart");
+}
+
+#[test]
+fn mistakes_in_a_list_of_devices_are_told_with_their_place() {
+    let folder = three();
+    let told = |list: &str, message: &str, place: &str| {
+        fs::write(folder.path("grid.toml"), format!("device = {list}\n{AXES}")).unwrap();
+        folder.ends(2, "check grid.toml").says(message).says(place);
+    };
+    told("[]", "the list of `device` has no values", "grid.toml:1:10");
+    told("[\"mybee.toml\", 3]", "`device` must be text in quotes, not a number", "grid.toml:1:25");
+    told("[\"mybee.toml\", \"none.toml\"]", "none.toml: there is no such file", "grid.toml:1:25");
+    fs::create_dir(folder.path("lab")).unwrap();
+    fs::write(folder.path("lab/mybee.toml"), DEVICE).unwrap();
+    told(
+        "[\"mybee.toml\", \"lab/mybee.toml\"]",
+        "two values of `device` have the label `mybee`",
+        "rename one of the files",
+    );
+    fs::write(folder.path("12.toml"), DEVICE).unwrap();
+    told("[\"mybee.toml\", \"12.toml\"]", "`12` cannot be the label of a device", "grid.toml:1:25");
+    fs::write(folder.path("other.toml"), "preset = \"ozaki2018-small\"\n").unwrap();
+    told(
+        "[\"mybee.toml\", \"other.toml\"]",
+        "this device has the model direct-drive, but the first has the model bimorph",
+        "grid.toml:1:25",
+    );
+    fs::write(folder.path("other.toml"), params("wing_aera = 1")).unwrap();
+    told("[\"mybee.toml\", \"other.toml\"]", "has no parameter `wing_aera`", "other.toml:3:1");
+    // Devices differ in the mean, so that a share of it has no meaning.
+    let sample = "[sample]\nmethod = \"random\"\nn = 2\nparameters.wing_length = { relative_sd = \"5 %\" }\n";
+    fs::write(folder.path("grid.toml"), format!("device = [\"short.toml\", \"long.toml\"]\n{sample}"))
+        .unwrap();
+    folder.ends(2, "check grid.toml").says("`wing_length` differs between the designs");
+}

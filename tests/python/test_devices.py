@@ -109,3 +109,43 @@ def test_a_device_that_is_not_there_is_told(tmp_path):
     for call in (flapwing.run, flapwing.params, flapwing.Grid):
         with pytest.raises(FileNotFoundError, match="none.toml"):
             call(tmp_path / "none.toml")
+
+
+@pytest.fixture
+def two(tmp_path):
+    """The paths of two devices, as a list."""
+    for name, length in [("short", 15), ("long", 19)]:
+        text = f'preset = "jafferis2016"\n[params]\nwing_length = "{length} mm"\n'
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    return [tmp_path / "short.toml", tmp_path / "long.toml"]
+
+
+def test_a_list_of_devices_is_an_axis(two, tmp_path):
+    at = {"drive_frequency": [110.0, 120.0, 130.0]}
+    grid = {"device": two, "axes": at}
+    table = flapwing.sweep(grid)
+    assert table.columns[:3] == ["point", "device", "drive_frequency"]
+    assert table["device"].tolist() == ["short"] * 3 + ["long"] * 3
+    each = [flapwing.sweep({"device": path, "axes": at})["lift_mean_mn"] for path in two]
+    assert table["lift_mean_mn"].reshape(2, 3).tolist() == [lift.tolist() for lift in each]
+    axes = flapwing.Grid(grid).axes
+    assert [list(axis) for axis in axes] == [["device"], ["drive_frequency"]]
+    assert axes[0]["device"] == ["short", "long"]
+    assert [point["wing_length"] for point in flapwing.Grid(grid)[::3]] == [0.015, 0.019]
+    assert flapwing.Grid(grid).varied == ["device", "drive_frequency"]
+    # The same table from a file, also after the devices are gone.
+    written = tmp_path / "rows.parquet"
+    flapwing.sweep(grid, out=written)
+    for path in two:
+        path.unlink()
+    again = flapwing.read(written)
+    assert again["device"].tolist() == table["device"].tolist()
+    assert again["lift_mean_mn"].tolist() == table["lift_mean_mn"].tolist()
+
+
+def test_a_list_of_presets_is_an_axis():
+    presets = ["jafferis2016", "jafferis2016-improved"]
+    table = flapwing.sweep({"preset": presets})
+    assert table["preset"].tolist() == presets
+    each = [flapwing.run(preset)["stroke_pp_deg"] for preset in presets]
+    assert table["stroke_pp_deg"].tolist() == each

@@ -139,7 +139,10 @@ impl Opened {
     /// Opened values keep their standard errors.
     fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         let published = self.published();
-        for (index, parameter) in self.plan.parameters().iter().enumerate() {
+        // The page shows one design, and its grids have no parameter for the name of the design.
+        let own = self.plan.design();
+        let parameters = self.plan.parameters().iter().enumerate();
+        for (index, parameter) in parameters.filter(|(index, _)| own != Some(*index)) {
             let (name, value) = (parameter.name, self.values[index]);
             let error = self.plan.uncertainty().error(index);
             let is_as_published = value.to_bits() == published[index].to_bits() && error.is_none();

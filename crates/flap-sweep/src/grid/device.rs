@@ -72,9 +72,7 @@ impl Reader<'_> {
 
     /// Returns the design of a file. `chain` contains the devices that refer to it.
     fn of_file(self, root: &[Entry<'_>], chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
-        if let Some(description) = table::find(root, "description") {
-            value::text("description", description.value, problems);
-        }
+        check_description(root, problems);
         let Some(entry) = table::find(root, "device") else {
             let (model, preset) = read_preset(root, self.models, problems)?;
             let values = Value::of_preset(model, preset);
@@ -142,6 +140,13 @@ impl Reader<'_> {
         let mut base = self.of_file(&root, chain, problems)?;
         base.set(&root, self.models, problems);
         Some(base)
+    }
+}
+
+/// Reports a description that is not text.
+pub(super) fn check_description(root: &[Entry<'_>], problems: &mut Problems) {
+    if let Some(description) = table::find(root, "description") {
+        value::text("description", description.value, problems);
     }
 }
 

@@ -32,11 +32,11 @@ const RESONANCE: &str = "the resonance of each design, which [measure] has as re
 /// the model's measures, the user's measures.
 pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
-    /// Values of the preset.
-    pub(super) preset: Vec<Value>,
-    /// Values of the device, if the grid starts from a device.
-    pub(super) device: Option<Vec<Value>>,
-    /// For each parameter that is not set, description of the parameters from which it is computed.
+    /// Values of the preset of each design.
+    pub(super) preset: Vec<Vec<Value>>,
+    /// Values of the device of each design, if the grid starts from devices.
+    pub(super) device: Option<Vec<Vec<Value>>>,
+    /// For each parameter without its own value, description of the parameters that it follows.
     pub(super) unset: Vec<Option<&'static str>>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
@@ -76,14 +76,25 @@ impl Names<'_> {
         }
     }
 
-    /// Returns the meaning of a parameter's value in a fixed design: the preset or the device.
-    fn of_fixed(&self, design: &[Value], index: usize) -> Option<Meaning> {
+    /// Returns the meaning of a parameter's value in fixed designs: the presets or the devices.
+    fn of_fixed(&self, designs: &[Vec<Value>], index: usize) -> Option<Meaning> {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
         }
-        let shared = of_all_wings(self.parameters, index).filter(|_| design[index].given().is_none());
-        let value = design[shared.unwrap_or(index)];
-        value.given().map(Meaning::Constant).or_else(|| followed(value).map(Meaning::Unset))
+        let value = |design: &Vec<Value>| {
+            let shared = of_all_wings(self.parameters, index).filter(|_| design[index].given().is_none());
+            design[shared.unwrap_or(index)]
+        };
+        let values: Vec<Value> = designs.iter().map(value).collect();
+        if let Some(follows) = values.iter().find_map(|value| followed(*value)) {
+            return Some(Meaning::Unset(follows));
+        }
+        let numbers: Vec<f64> = values.iter().map(|value| value.in_point()).collect();
+        let first = *numbers.first()?;
+        let are_equal = numbers.iter().all(|number| number.to_bits() == first.to_bits());
+        // The last parameter names the design.
+        let design = self.parameters.len() - 1;
+        Some(if are_equal { Meaning::Constant(first) } else { Meaning::OfChoice(design, numbers.into()) })
     }
 
     fn of_measure(&self, name: &str) -> Option<Meaning> {
@@ -119,8 +130,9 @@ impl Scope for Names<'_> {
         let fixed = [(PRESET, Some(&self.preset)), (DEVICE, self.device.as_ref())];
         let fixed = fixed.into_iter().filter_map(|(prefix, design)| design.map(|design| (prefix, design)));
         let fixed = fixed.flat_map(|(prefix, design)| {
-            let constant =
-                |index: &usize| matches!(self.of_fixed(design, *index), Some(Meaning::Constant(_)));
+            let constant = |index: &usize| {
+                matches!(self.of_fixed(design, *index), Some(Meaning::Constant(_) | Meaning::OfChoice(..)))
+            };
             let named = move |index: usize| prefix.to_owned() + self.parameters[index].name;
             (0..self.parameters.len()).filter(constant).map(named).collect::<Vec<_>>()
         });

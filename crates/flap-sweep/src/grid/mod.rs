@@ -4,6 +4,7 @@
 //! mistakes of a file. See `docs/reference/grid.md` for the format.
 
 mod axes;
+mod designs;
 mod device;
 pub mod diagnostic;
 mod formula;

@@ -9,6 +9,7 @@ use flap_core::simulate::{Rows, Simulator};
 use flap_core::vehicle::of_all_wings;
 use toml::de::DeTable;
 
+use super::designs::{self, Start};
 use super::device::{Base, DeviceSource, Reader};
 use super::diagnostic::Mistakes;
 use super::formula::{self, Names};
@@ -20,7 +21,7 @@ use super::{axes, gradient, output, refine, resonance, sample, solver};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
-use crate::plan::{Plan, PointsFile, Source, Space, Value};
+use crate::plan::{Differences, Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 
 /// Checks the grid file `text` and returns its plan. Presets are looked up in `models`; `name` appears in messages.
@@ -55,23 +56,22 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
 
     let document = root.get_ref();
     let root = table::entries(document);
-    let base = reader.base(&root, &mut problems);
-    let model = base.as_ref().map(|base| base.robot.model());
-    let base = base.and_then(|base| vehicle::read(&root, base, reader, &mut problems));
+    let designs = designs::read(&root, reader, &mut problems);
+    let model = designs.as_ref().map(|designs| designs.bases[0].robot.model());
+    let start = designs.and_then(|designs| designs.start(&root, reader, &mut problems));
     report_unknown_keys(&root, model, &mut problems);
     let solver = solver::read(table::find(&root, "solver"), &mut problems);
     let output_entry = table::find(&root, "output");
     // Without a model, parameters and columns cannot be checked.
-    let Some(base) = base else {
+    let Some((start, settings)) = start else {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
-    let (base, settings) = base;
     let damping = settings.damping.clone();
-    let (robot, preset) = (base.robot.clone(), base.preset);
+    let (robot, preset) = (start.base.robot.clone(), start.base.preset);
     let simulator = &*robot;
-    let Points { base, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
-        read_points(&root, base, simulator, settings, reader.models, &mut problems);
+    let Points { base, differences, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
+        read_points(&root, start, simulator, settings, reader.models, &mut problems);
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
@@ -105,6 +105,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         with_units: base.with_units,
         uncertainty: base.uncertainty,
         devices: base.devices,
+        differences,
         axes,
         refine,
         points_file: sample_file,
@@ -122,6 +123,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
 /// Sections of a grid file that describe the points.
 struct Points<'n> {
     base: Base,
+    differences: Differences,
     axes: Vec<axes::Placed>,
     sample_file: Option<PointsFile>,
     resonance: Option<AtResonance>,
@@ -135,18 +137,25 @@ struct Points<'n> {
 /// Reads the sections `[params]`, `[resonance]`, `[axes]`, `[[zip]]`, `[sample]`, `[derived]` and `[where]`.
 fn read_points<'n>(
     root: &[Entry<'_>],
-    mut base: Base,
+    start: Start,
     simulator: &'n dyn Simulator,
     settings: VehicleSettings,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
 ) -> Points<'n> {
-    let device = base.values.clone();
+    let Start { mut base, designs, presets, mut differences, axis } = start;
     let set = base.set(root, models, problems);
+    for (parameter, _) in &set {
+        differences.remove(*parameter);
+    }
     let mut lookup = Lookup { simulator, models, problems };
-    let mut axes = axes::read(table::find(root, "axes"), &mut lookup);
+    let mut axes: Vec<axes::Placed> = axis.into_iter().collect();
+    axes.extend(axes::read(table::find(root, "axes"), &mut lookup));
     axes.extend(axes::read_zip(table::find(root, "zip"), &mut lookup));
-    let means = means(&base, simulator, &axes);
+    let mut means = means(&base, simulator, &axes);
+    for (parameter, _) in &differences.values {
+        means[*parameter] = Value::Follows(sample::distribution::OF_DESIGN);
+    }
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
@@ -184,14 +193,15 @@ fn read_points<'n>(
     for parameter in moved {
         unset[parameter] = None;
     }
-    let (parameters, preset) = (simulator.parameters(), Value::of_preset(simulator, base.preset));
-    let device = (!base.devices.is_empty()).then_some(device);
+    let parameters = simulator.parameters();
+    let preset = presets.into_iter().map(|preset| Value::of_preset(simulator, preset)).collect();
+    let device = (!base.devices.is_empty()).then_some(designs);
     let columns =
         resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
     let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
     let derived = formula::read_derived(&drafts, &names, problems);
     let conditions = formula::read_conditions(table::find(root, "where"), &names, problems);
-    Points { base, axes, sample_file, resonance, derived, conditions, unreached, names }
+    Points { base, differences, axes, sample_file, resonance, derived, conditions, unreached, names }
 }
 
 /// Returns the values of parameters that are not sampled. These values are the default means of normal distributions.

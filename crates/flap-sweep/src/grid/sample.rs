@@ -15,7 +15,7 @@ use super::table::{self, Entry};
 use super::value;
 use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::{Design, Method};
-use crate::plan::{PointsFile, Value};
+use crate::plan::{PointsFile, Robot, Value};
 
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
@@ -116,6 +116,13 @@ fn of_device(
             .report(below.key_span.clone(), "a sample is of the device or of parameters, not of both")
             .related(of.key_span.clone(), "of the device")
             .help("keep one of them");
+        return None;
+    }
+    if let Robot::Designs(_) = base.robot {
+        lookup
+            .problems
+            .report(of.value.span(), "a sample draws builds of one device, but the grid has several designs")
+            .help("write a grid file for each device");
         return None;
     }
     let errors = base.uncertainty.errors();

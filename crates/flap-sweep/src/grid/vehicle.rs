@@ -52,6 +52,11 @@ pub(super) struct VehicleSettings {
 }
 
 impl VehicleSettings {
+    /// Adds the mistakes of the same section with another design.
+    pub(super) fn append(&mut self, other: VehicleSettings) {
+        self.frequencies.extend(other.frequencies);
+    }
+
     /// Reports wings with other drive frequencies, unless the grid `sets` the frequency of all wings.
     pub(super) fn report_frequencies(
         self,

@@ -39,7 +39,8 @@ pub fn device(plan: &Plan) -> String {
     page += HEAD;
     let _ = write!(page, "\npreset = \"{}\"\n\n[params]\n", plan.preset());
     let mut group = "";
-    for (index, (parameter, value)) in plan.parameters().iter().zip(plan.base()).enumerate() {
+    let named = plan.parameters().iter().zip(plan.base()).enumerate();
+    for (index, (parameter, value)) in named.filter(|(index, _)| plan.design() != Some(*index)) {
         if parameter.group != group {
             group = parameter.group;
             let _ = write!(page, "\n# ---- {group} ----\n");

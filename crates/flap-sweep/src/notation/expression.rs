@@ -15,6 +15,7 @@ mod scope;
 mod tests;
 
 pub use error::{ExpressionError, ExpressionProblem};
+pub(crate) use evaluate::of_choice;
 use evaluate::{Binary, Operation};
 pub use scope::{Kind, Meaning, Scope};
 
@@ -52,7 +53,7 @@ impl Expression {
     /// Returns the indices of the values that the expression reads, in the order of the text.
     pub fn reads(&self) -> impl Iterator<Item = usize> + '_ {
         self.operations.iter().filter_map(|operation| match operation {
-            Operation::Read(place) => Some(*place),
+            Operation::Read(place) | Operation::ReadOf(place, _) => Some(*place),
             _ => None,
         })
     }

@@ -10,6 +10,7 @@ use super::Plan;
 use super::axes::{Along, Axes, Axis, TooManyPoints, Values};
 use super::formula::{Condition, Derived, OwnMeasure};
 use super::gradient::{self, Gradient, NoShares, Per};
+use super::robot::Differences;
 use super::selection::{Selection, Shard};
 use super::value::Value;
 use crate::notation::expression;
@@ -99,6 +100,7 @@ impl Plan {
             error: Box::new(error),
         })?;
         self.space.base[parameter] = Value::Given(value);
+        self.space.differences.remove(parameter);
         self.space.with_units.note(parameter, Some(false));
         Ok(self)
     }
@@ -319,6 +321,7 @@ impl Plan {
             }
         }
         self.space.axes = Axes::none();
+        self.space.differences = Differences::default();
         self.space.derived = Derived::default();
         self.space.conditions = Vec::new();
         self.space.resonance = None;

@@ -3,7 +3,6 @@
 //! The points of the axes are not stored: [`Plan::point`] computes any point in constant time. Only points that a
 //! refinement adds are stored.
 
-use std::ops::Deref;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -16,6 +15,7 @@ use super::axes::{Along, Axes};
 use super::formula::{Condition, Derived, OwnMeasure};
 use super::gradient::Gradient;
 use super::refine::Refine;
+use super::robot::{Differences, Robot};
 use super::selection::Selection;
 use super::uncertainty::Uncertainty;
 use super::value::{Value, WithUnits};
@@ -55,6 +55,8 @@ pub(crate) struct Space {
     pub(crate) uncertainty: Uncertainty,
     /// Devices of the grid: first the device of the grid, then the devices on which this device is based.
     pub(crate) devices: Vec<Source>,
+    /// Values in which the designs of the plan differ, if it has several.
+    pub(crate) differences: Differences,
     /// Varied parameters.
     pub(crate) axes: Axes,
     /// Refinement of the grid of the axes, if the grid is refined.
@@ -133,6 +135,16 @@ impl Plan {
     /// Returns the value of each parameter before the axes are applied: the value of the preset, or of `[params]`.
     pub fn base(&self) -> &[Value] {
         &self.space.base
+    }
+
+    /// Returns the index of the parameter that names the design, if the plan has several designs.
+    pub fn design(&self) -> Option<usize> {
+        matches!(self.robot(), Robot::Designs(_)).then(|| self.parameters().len() - 1)
+    }
+
+    /// Returns the values of a parameter in the designs of the plan, if the plan has several and they differ in it.
+    pub fn in_designs(&self, parameter: usize) -> Option<&[f64]> {
+        self.space.differences.of(parameter)
     }
 
     /// Returns true if the value of a parameter, or all of its values along an axis, have units in the file.
@@ -264,6 +276,8 @@ impl Plan {
             Some(positions) => self.axes().fill_between(positions, &mut values),
             None => self.axes().fill(index, &mut values),
         }
+        let is_varied = |parameter| self.axes().varied().any(|varied| varied == parameter);
+        self.space.differences.fill(&mut values, is_varied);
         if let Some((parameter, moved)) = change {
             values[parameter] = moved(values[parameter]);
         }
@@ -303,45 +317,7 @@ impl Plan {
     }
 }
 
-/// Simulator of a plan's points: a model of one wing, or a vehicle.
-#[derive(Clone)]
-pub enum Robot {
-    /// A model.
-    Wing(&'static dyn Simulator),
-    /// A vehicle with several wings of a model.
-    Vehicle(Arc<Vehicle>),
-}
-
-impl Robot {
-    /// Returns the model of the wings.
-    pub fn model(&self) -> &'static dyn Simulator {
-        match self {
-            Robot::Wing(model) => *model,
-            Robot::Vehicle(vehicle) => vehicle.model(),
-        }
-    }
-
-    /// Returns the vehicle, if the plan is a vehicle.
-    pub fn vehicle(&self) -> Option<&Vehicle> {
-        match self {
-            Robot::Wing(_) => None,
-            Robot::Vehicle(vehicle) => Some(vehicle),
-        }
-    }
-}
-
-impl Deref for Robot {
-    type Target = dyn Simulator;
-
-    fn deref(&self) -> &Self::Target {
-        match self {
-            Robot::Wing(model) => *model,
-            Robot::Vehicle(vehicle) => &**vehicle,
-        }
-    }
-}
-
-/// File for rows, and the columns of this file.
+/// File for rows, and its columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
     /// Path in the grid file, relative to the working directory; `None` if the grid file has no path.

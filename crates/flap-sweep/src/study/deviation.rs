@@ -27,6 +27,12 @@ pub struct Deviation<'p> {
 /// Returns the parameters that differ from the preset, in the order of the model's table.
 pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     let mut values: Vec<Vec<f64>> = plan.base().iter().map(|value| vec![value.in_point()]).collect();
+    let are_devices = plan.design().is_some_and(|design| plan.parameters()[design].name == "device");
+    for (parameter, values) in values.iter_mut().enumerate() {
+        if let Some(of_designs) = plan.in_designs(parameter) {
+            *values = if are_devices { extremes(of_designs) } else { Vec::new() };
+        }
+    }
     for (parameter, along) in plan.axes().parameters() {
         values[*parameter] = ends(along);
     }
@@ -54,6 +60,9 @@ fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool)
     all.map(|(((index, parameter), mut values), preset)| {
         values.dedup();
         Deviation { parameter, values, preset, has_unit: has_unit(index) }
+    })
+    .filter(|deviation| {
+        plan.design().is_none_or(|design| deviation.parameter.name != plan.parameters()[design].name)
     })
     .filter(|deviation| deviation.values.iter().any(|value| !value.is_nan() && *value != deviation.preset))
     .collect()

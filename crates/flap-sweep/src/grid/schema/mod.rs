@@ -30,8 +30,9 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
         model::define(model, defaults, &mut definitions);
     }
     let properties = sections::properties(KEYS, |key| match key {
-        "description" | "device" => sections::text(sections::about(key)),
-        "preset" => sections::preset(models),
+        "description" => sections::text(sections::about(key)),
+        "device" => sections::designs(key, &sections::text("A device file.")),
+        "preset" => sections::designs(key, &sections::preset(models)),
         "vehicle" => sections::vehicle(models),
         "resonance" => sections::resonance(),
         "where" => sections::conditions(),
@@ -78,7 +79,8 @@ fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };
     let presets: Vec<&str> = model.presets().iter().map(|preset| preset.name).collect();
-    let mut is_named = json!({"properties": {"preset": {"enum": presets}}});
+    let one = json!({"enum": presets});
+    let mut is_named = json!({"properties": {"preset": {"anyOf": [one, {"type": "array", "items": one}]}}});
     // Names of parameters and columns of a vehicle contain the names of its wings.
     let mut rules = json!({"if": {"not": {"required": ["vehicle"]}}, "then": sections::to(model.name())});
     if only {

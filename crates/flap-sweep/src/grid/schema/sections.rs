@@ -53,7 +53,17 @@ pub(super) fn list(description: &str, items: &Value) -> Value {
     json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
 }
 
-/// Returns the schema of a number, with or without quotes. Quoted text has a unit if `has_unit` is true.
+/// Returns the schema of one value, or of a list of values.
+fn one_or_more(description: &str, one: &Value, list: Value) -> Value {
+    json!({"description": description, "anyOf": [one, list]})
+}
+
+/// Returns the schema of the design at the start of a grid, or of several designs.
+pub(super) fn designs(key: &str, one: &Value) -> Value {
+    one_or_more(about(key), one, list("Designs along an axis of the grid, all of one model.", one))
+}
+
+/// Returns the schema of a number, bare or as text. The text has a unit if `has_unit` is true.
 pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     // A number, then a unit if required. Units other than `1/m` begin with neither a digit nor a point.
     let pattern = if has_unit {
@@ -76,8 +86,12 @@ pub(super) fn positive(description: &str, has_unit: bool) -> Value {
 pub(super) fn about(section: &str) -> &'static str {
     match section {
         "description" => "Free text.",
-        "preset" => "The published design to start from. The preset determines the model.",
-        "device" => "The device file of a design to start from, in place of a preset.",
+        "preset" => {
+            "The published design to start from, or a list of designs to compare. The preset determines the model."
+        }
+        "device" => {
+            "The device file of a design to start from, in place of a preset, or a list of device files to compare."
+        }
         "params" => "Single values that replace values of the preset or device.",
         "correlation" => "Correlations between parameters that have standard errors.",
         "vehicle" => {
@@ -128,7 +142,6 @@ pub(super) fn refine() -> Value {
     let name = text("The name of a measure.");
     let error =
         positive("A share of the range of the measure, such as \"1 %\", or a number in its unit.", false);
-    let one_or_more = |description: &str, one: &Value, items: Value| json!({"description": description, "anyOf": [one, items]});
     let halvings = format!(
         "Largest number of halvings of a cell of the axes along each axis. Default: {}.",
         Refine::HALVINGS

@@ -1,5 +1,7 @@
 //! Operations and functions of expressions, and the evaluation of a checked expression.
 
+use std::sync::Arc;
+
 /// Returns the number that `operations` leave on the stack.
 pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     let mut stack: Vec<f64> = Vec::with_capacity(operations.len());
@@ -7,7 +9,8 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     for operation in operations {
         let result = match *operation {
             Operation::Push(number) => number,
-            Operation::Read(place) => values.get(place).copied().unwrap_or(f64::NAN),
+            Operation::Read(place) => read(values, place),
+            Operation::ReadOf(choice, ref numbers) => of_choice(numbers, read(values, choice)),
             Operation::Unary(unary) => one(unary, pop(&mut stack)),
             Operation::Apply(function) => function(pop(&mut stack)),
             Operation::Binary(binary) => {
@@ -31,7 +34,7 @@ pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Oper
     let mut missing = 1;
     for (place, operation) in operations.iter().enumerate().rev() {
         missing += match operation {
-            Operation::Push(_) | Operation::Read(_) => 0,
+            Operation::Push(_) | Operation::Read(_) | Operation::ReadOf(..) => 0,
             Operation::Unary(_) | Operation::Apply(_) => 1,
             Operation::Binary(_) | Operation::Apply2(_) => 2,
         };
@@ -41,6 +44,16 @@ pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Oper
         }
     }
     None
+}
+
+fn read(values: &[f64], place: usize) -> f64 {
+    values.get(place).copied().unwrap_or(f64::NAN)
+}
+
+/// Returns the number of a choice's option, which is given by its index; NaN if there is no such option.
+pub(crate) fn of_choice(numbers: &[f64], option: f64) -> f64 {
+    let found = numbers.iter().enumerate().find(|(place, _)| *place as f64 == option);
+    found.map_or(f64::NAN, |(_, number)| *number)
 }
 
 fn pop(stack: &mut Vec<f64>) -> f64 {
@@ -90,13 +103,15 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
 }
 
 /// One operation. Conditions are 1 for true, 0 for false and NaN for unknown.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Operation {
     /// Pushes a constant number onto the stack.
     Push(f64),
     /// Pushes one of the values onto the stack.
     Read(usize),
-    /// Replaces the topmost number on the stack.
+    /// Pushes the number that belongs to the option of a choice, which is one of the values.
+    ReadOf(usize, Arc<[f64]>),
+    /// Replaces the topmost number.
     Unary(Unary),
     /// Replaces the two topmost numbers on the stack.
     Binary(Binary),

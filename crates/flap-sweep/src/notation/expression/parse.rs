@@ -201,6 +201,7 @@ impl<'a> Parser<'a> {
             Some(Meaning::Number(place)) => (Kind::Number, Operation::Read(place)),
             Some(Meaning::Condition(place)) => (Kind::Condition, Operation::Read(place)),
             Some(Meaning::Constant(value)) => (Kind::Number, Operation::Push(value)),
+            Some(Meaning::OfChoice(place, numbers)) => (Kind::Number, Operation::ReadOf(place, numbers)),
             Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
             Some(Meaning::Unset(follows)) => {
                 self.note(span.clone(), ExpressionProblem::Unset { name: name.to_owned(), follows });

@@ -1,5 +1,7 @@
 //! Names that an expression may use, and their types.
 
+use std::sync::Arc;
+
 /// The type of an expression: a number, or a condition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -10,7 +12,7 @@ pub enum Kind {
 }
 
 /// Meaning of a name in an expression.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
     /// A number. Contains the index in the values.
     Number(usize),
@@ -20,7 +22,9 @@ pub enum Meaning {
     Choice(usize, &'static [&'static str]),
     /// Constant.
     Constant(f64),
-    /// Number that is not set. The text describes the parameters from which the number is computed.
+    /// Number that depends on the choice with this index in the values: a number for each option.
+    OfChoice(usize, Arc<[f64]>),
+    /// Number that is not set. The text describes the parameters that it follows.
     Unset(&'static str),
 }
 
