@@ -1,5 +1,7 @@
 """Devices: files with a preset and parameters of one's own, wherever a design is named."""
 
+import os
+
 import flapwing
 import pytest
 
@@ -117,7 +119,7 @@ def two(tmp_path):
     for name, length in [("short", 15), ("long", 19)]:
         text = f'preset = "jafferis2016"\n[params]\nwing_length = "{length} mm"\n'
         (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
-    return [tmp_path / "short.toml", tmp_path / "long.toml"]
+    return [str(tmp_path / "short.toml"), str(tmp_path / "long.toml")]
 
 
 def test_a_list_of_devices_is_an_axis(two, tmp_path):
@@ -137,7 +139,7 @@ def test_a_list_of_devices_is_an_axis(two, tmp_path):
     written = tmp_path / "rows.parquet"
     flapwing.sweep(grid, out=written)
     for path in two:
-        path.unlink()
+        os.remove(path)
     again = flapwing.read(written)
     assert again["device"].tolist() == table["device"].tolist()
     assert again["lift_mean_mn"].tolist() == table["lift_mean_mn"].tolist()

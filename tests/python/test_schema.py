@@ -140,11 +140,24 @@ def test_mistakes_do_not_satisfy_the_schema(validator, flap, tmp_path):
         path = tmp_path / "grid.toml"
         path.write_text(grid, encoding="utf-8")
         flap("check", path, code=2)
-    assert [line.split(" is not one of")[0] for line in mistakes(every, 'preset = "ozaki"\n')] == ["/preset: 'ozaki'"]
+    for wrong in ['"ozaki"', "[]", '["ozaki"]', "3"]:
+        (found,) = mistakes(every, f"preset = {wrong}\n")
+        assert found.startswith("/preset: ") and "is not valid under" in found, found
     for one in [every, validator("--preset", "ozaki2018-large")]:
         assert mistakes(one, "") == [": 'preset' is a required property"]
         (both,) = mistakes(one, 'preset = "ozaki2018-large"\ndevice = "mine.toml"\n')
         assert "should not be valid under" in both
+
+
+def test_a_list_of_designs_has_the_rules_of_their_model(validator):
+    every = validator()
+    axes = "\n[axes]\ntransmission_ratio = [1, 2]\n"
+    assert mistakes(every, f'preset = ["jafferis2016", "jafferis2016-improved"]{axes}') == []
+    (other,) = mistakes(every, f'preset = ["ozaki2018-small"]{axes}')
+    assert other.startswith("/axes: ")
+    assert mistakes(every, 'device = ["a.toml", "b.toml"]\n') == []
+    (empty,) = mistakes(every, "device = []\n")
+    assert empty.startswith("/device: ")
 
 
 def test_a_preset_chooses_the_model_of_a_device(validator):

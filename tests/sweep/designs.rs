@@ -3,7 +3,6 @@
 use std::fs;
 
 use flap_core::parameter::Kind;
-use flap_core::simulate::Simulator;
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 
