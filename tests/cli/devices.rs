@@ -346,20 +346,26 @@ fn every_command_on_results_takes_a_device_axis() {
     folder.ends(0, "describe all.csv --by lift_mean_mn").prints("device ");
     folder.ends(0, "plot all.csv --x drive_frequency --y lift_mean_mn --by device --out all.svg");
     assert!(THREE.iter().all(|device| folder.read("all.svg").contains(&format!(">{device}<"))));
-    folder.ends(0, "results rerun all.csv --where device=long --out again.csv");
-    let (text, again) = (folder.read("all.csv"), folder.read("again.csv"));
-    assert_eq!(cells(&text).0[10..], cells(&again).0[..]);
+    // Points are run again with the recorded devices.
+    let tight = folder.read("grid.toml") + "[solver]\nrtol = 1e-7\n";
+    fs::write(folder.path("tight.toml"), tight).unwrap();
+    folder.ends(0, "sweep tight.toml --out tight.csv");
+    fs::rename(folder.path("short.toml"), folder.path("moved.toml")).unwrap();
+    folder.ends(0, "results rerun all.csv --status periodic --rtol 1e-7 --out again.csv");
+    assert_eq!(folder.read("again.csv"), folder.read("tight.csv"));
+    fs::rename(folder.path("moved.toml"), folder.path("short.toml")).unwrap();
+    let text = folder.read("all.csv");
     folder.ends(0, "results convert all.csv all.parquet");
     folder.ends(0, "results convert all.parquet back.csv");
     assert_eq!(folder.read("back.csv"), text);
-    // A response has the curves of each device, and its rows can be computed again.
-    folder.ends(
-        0,
-        "respond grid.toml --parameter drive_frequency --from 110 --to 120 --step 5 --out curves.csv",
-    );
+    // A response has the curves of each device. A value of the command line is not the value of the first device.
+    folder.ends(0, "respond grid.toml --from 110 --to 120 --step 5 --out curves.csv");
     let curves = folder.read("curves.csv");
     let (rows, place) = cells(&curves);
     assert_eq!([rows[0][place("device")], rows[rows.len() - 1][place("device")]], ["mybee", "long"]);
+    folder
+        .ends(2, "respond grid.toml --from 110 --to 120 --step 5 --out curves.csv --set wing_length=0.017")
+        .says("the parameters of the designs differ");
 }
 
 #[test]

@@ -34,7 +34,7 @@ struct Names {
 
 /// The start of a grid: the first design, and its differences to the others.
 pub(super) struct Start {
-    /// First design. A parameter that is not set in one of the designs is not set.
+    /// First design, without values of parameters in which the designs differ.
     pub(super) base: Base,
     /// Values of each design.
     pub(super) designs: Vec<Vec<Value>>,
@@ -183,7 +183,7 @@ impl Start {
         };
         for (parameter, has_unit) in with_units {
             let unset = designs.iter().map(|design| design[parameter]).find(|value| value.given().is_none());
-            base.values[parameter] = unset.unwrap_or(base.values[parameter]);
+            base.values[parameter] = unset.unwrap_or(Value::OfDesign);
             base.with_units.note(parameter, Some(has_unit));
         }
         base.values.push(Value::Given(0.0));

@@ -49,7 +49,7 @@ pub(super) struct Names<'n> {
 /// Returns the description of the parameters from which a parameter is computed, if the parameter is not set.
 pub(super) fn followed(value: Value) -> Option<&'static str> {
     match value {
-        Value::Given(_) => None,
+        Value::Given(_) | Value::OfDesign => None,
         Value::Follows(follows) => Some(follows),
         Value::Resonance => Some(RESONANCE),
     }

@@ -152,10 +152,7 @@ fn read_points<'n>(
     let mut axes: Vec<axes::Placed> = axis.into_iter().collect();
     axes.extend(axes::read(table::find(root, "axes"), &mut lookup));
     axes.extend(axes::read_zip(table::find(root, "zip"), &mut lookup));
-    let mut means = means(&base, simulator, &axes);
-    for (parameter, _) in &differences.values {
-        means[*parameter] = Value::Follows(sample::distribution::OF_DESIGN);
-    }
+    let means = means(&base, simulator, &axes);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);

@@ -18,7 +18,7 @@ const HEAD: &str = "\
 # Parameters that are not listed here have the values of the preset.
 ";
 
-/// Returns the text of a device with all values of a plan, before the axes of the plan are applied.
+/// Returns the text of a device with all values of a plan before its axes are applied, or of its first design.
 ///
 /// Every parameter has a comment with the description and the range of the parameter. The text reads back as the same
 /// numbers, bit for bit.
@@ -47,7 +47,9 @@ pub fn device(plan: &Plan) -> String {
         }
         page.push('\n');
         page += &comment(parameter);
-        page += &line(parameter, *value, plan.uncertainty().error(index));
+        let of_first = plan.in_designs(index).and_then(<[f64]>::first);
+        let value = of_first.map_or(*value, |value| Value::Given(*value));
+        page += &line(parameter, value, plan.uncertainty().error(index));
     }
     for Correlation { between, coefficient } in plan.uncertainty().correlations() {
         let [one, other] = between.map(|index| plan.parameters()[index].name);
@@ -130,6 +132,7 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
                 None => units::prefixed(before, parameter.unit),
             },
             Value::Follows(_) | Value::Resonance => "not set".to_owned(),
+            Value::OfDesign => "a value of each design".to_owned(),
         };
         let line = line(parameter, Value::Given(rounded(*value)), None);
         let fit = if parameter.is_fitted && kind == "preset" { ", a fit to one vehicle" } else { "" };

@@ -139,7 +139,7 @@ impl Plan {
             let is_varied = |parameter| self.axes().varied().any(|varied| varied == parameter);
             let follows = |parameter: usize| match self.base()[parameter] {
                 Value::Follows(follows) if !is_varied(parameter) => Some(follows),
-                Value::Given(_) | Value::Follows(_) | Value::Resonance => None,
+                Value::Given(_) | Value::Follows(_) | Value::Resonance | Value::OfDesign => None,
             };
             // An unset parameter of one wing has the value of all wings.
             let follows = follows(parameter)

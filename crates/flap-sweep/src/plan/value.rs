@@ -14,6 +14,8 @@ pub enum Value {
     Follows(&'static str),
     /// The drive frequency is set to the resonance of each design.
     Resonance,
+    /// The designs of the plan have different values, see [`Plan::in_designs`](super::Plan::in_designs).
+    OfDesign,
 }
 
 impl Value {
@@ -35,7 +37,7 @@ impl Value {
     pub fn given(self) -> Option<f64> {
         match self {
             Value::Given(value) => Some(value),
-            Value::Follows(_) | Value::Resonance => None,
+            Value::Follows(_) | Value::Resonance | Value::OfDesign => None,
         }
     }
 

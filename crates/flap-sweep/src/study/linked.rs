@@ -20,8 +20,7 @@ pub struct Linked<'p> {
 /// Returns the linked parameters of a plan, in the order of the model's table. The list is empty for a vehicle.
 ///
 /// A parameter is linked if it is neither varied nor derived, is not zero, and scales with a parameter that is varied
-/// or derived. Designs that differ in a parameter
-/// have their own values of it.
+/// or derived.
 pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     if plan.vehicle().is_some() {
         return Vec::new();
@@ -31,8 +30,7 @@ pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     let preset = plan.simulator().presets().iter().find(|preset| preset.name == plan.preset());
     let reference = |index: usize| reference(plan, preset, index);
     let mut linked = Vec::new();
-    let is_constant = |index: usize| !changing.contains(&index) && plan.in_designs(index).is_none();
-    for (index, parameter) in parameters.iter().enumerate().filter(|(index, _)| is_constant(*index)) {
+    for (index, parameter) in parameters.iter().enumerate().filter(|(index, _)| !changing.contains(index)) {
         let powers = parameter.scales_with.iter().filter_map(|&(name, power)| {
             let driver = changing.iter().copied().find(|driver| parameters[*driver].name == name)?;
             let scale = format!("({name} / {})", reference(driver)?);

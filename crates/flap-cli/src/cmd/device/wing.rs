@@ -86,7 +86,7 @@ fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<
 fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     let index = Parameter::index(plan.parameters(), "wing_offset")?;
     let (place, remedy) = match plan.base()[index] {
-        Value::Given(0.0) | Value::Resonance => return None,
+        Value::Given(0.0) | Value::Resonance | Value::OfDesign => return None,
         Value::Given(offset) => {
             let offset = prefixed(offset, "m");
             let remedy = format!("--offset '{offset}' keeps that offset");

@@ -73,15 +73,14 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the parameters before the axes are applied, without parameters that follow others or differ between designs.
+/// Returns the parameters before the axes are applied, without parameters that follow others.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),
         None => Value::Float(value),
     };
-    let base = plan.parameters().iter().zip(plan.base()).enumerate();
-    let base = base.filter(|(index, _)| plan.in_designs(*index).is_none());
-    let set = base.filter_map(|(_, (parameter, base))| Some((parameter, base.given()?)));
+    let base = plan.parameters().iter().zip(plan.base());
+    let set = base.filter_map(|(parameter, base)| Some((parameter, base.given()?)));
     set.map(|(parameter, base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }
 

@@ -81,7 +81,7 @@ impl Sidecar {
         for (name, value) in &self.parameters {
             let index = Parameter::index(plan.parameters(), name)?;
             let number = number(&plan.parameters()[index], value)?;
-            if plan.base()[index].given() != Some(number) || plan.in_designs(index).is_some() {
+            if plan.base()[index].given() != Some(number) {
                 plan = plan.with_parameter(index, number).ok()?;
             }
         }

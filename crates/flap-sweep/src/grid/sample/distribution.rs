@@ -16,9 +16,6 @@ const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// Mean of a parameter in which the designs of a grid differ, in place of the parameters that it follows.
-pub(in crate::grid) const OF_DESIGN: &str = "the design";
-
 /// Returns the distribution of `parameter`. `None`, with a report, if there are mistakes.
 ///
 /// `base` is the value of the parameter without a sample.
@@ -108,8 +105,7 @@ impl Reader<'_, '_> {
             return None;
         }
         let Some(mean) = mean.or(base.given()) else {
-            let why =
-                if base == Value::Follows(OF_DESIGN) { "differs between the designs" } else { "is not set" };
+            let why = if base == Value::OfDesign { "differs between the designs" } else { "is not set" };
             let message = format!("`{}` {why}, so it has no value for the mean", self.whole.key);
             self.problems.report(self.whole.value.span(), message).help("give the distribution a `mean`");
             return None;

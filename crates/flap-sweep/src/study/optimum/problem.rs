@@ -223,7 +223,7 @@ impl Names<'_> {
     fn of_parameter(&self, index: usize) -> Meaning {
         let parameters = self.plan.parameters();
         let follows = |index: usize| match self.plan.base()[index] {
-            Value::Given(_) => None,
+            Value::Given(_) | Value::OfDesign => None,
             _ if self.plan.differing().any(|differing| differing == index) => None,
             Value::Follows(follows) => Some(follows),
             Value::Resonance => Some("the resonance of each design, which is the measure resonance_hz"),
