@@ -5,6 +5,7 @@ mod matrices;
 mod mistakes;
 mod pages;
 mod pictures;
+mod print;
 mod samples;
 
 use std::fmt::Write as _;

@@ -36,7 +36,7 @@ pub(crate) use models::ModelsArgs;
 pub(crate) use optimise::OptimiseArgs;
 pub(crate) use options::{Aim, OutputFormat, PointArgs, ReadArgs, SolverArgs, WorkArgs};
 #[cfg(feature = "plots")]
-pub(crate) use plot::{PictureKind, PlotArgs, Size};
+pub(crate) use plot::{PictureKind, PictureSize, PlotArgs};
 pub(crate) use respond::RespondArgs;
 pub(crate) use results::{ConvertArgs, MergeArgs, RerunArgs, ResultsCommand, ResumeArgs, VerifyArgs};
 pub(crate) use run::RunArgs;

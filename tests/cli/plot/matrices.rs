@@ -35,3 +35,13 @@ fn what_is_no_matrix_is_told() {
     let ended = refused(&folder, &["sweep.csv", "--kind", "matrix"]);
     ended.says("as `flap vehicle --format csv` writes them");
 }
+
+/// In a narrow picture, names and numbers of the cells would overlap.
+#[test]
+fn a_narrow_matrix_is_refused() {
+    let folder = Folder::new();
+    fs::write(folder.path("matrix.csv"), MATRIX).unwrap();
+    refused(&folder, &["matrix.csv", "--size", "84x60mm"])
+        .says("the picture is too narrow for the matrix: it must be ");
+    folder.ends(0, "plot matrix.csv --size 178x80mm");
+}

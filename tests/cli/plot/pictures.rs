@@ -259,6 +259,7 @@ fn the_best_row_over_an_axis_is_drawn() {
     refuses("--kind map --best-over c --x c", "--best-over c: not an axis that the picture leaves out");
     refuses("--kind scatter --best-over c", "--best-over requires --kind map or response");
     refuses("--kind map --best-over d", "there is no column `d`");
+    refuses("--kind map --best-over c --html page.html", "without the choice of --best-over c");
 }
 
 /// Comparisons leave rows out before anything is drawn.

@@ -71,13 +71,24 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
-    /// Heading of the picture [default: the name of the file]
+    /// Heading of the picture; '' draws no heading [default: the name of the file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
-    /// Width and height of an SVG (pixels); a PNG has twice as many pixels in each direction
+    /// Width and height: in pixels, as 900x560, or in print, as 84x60mm, 8.4x6cm or 3.3x2.4in
+    ///
+    /// If the size is in pixels, a PNG has twice as many pixels in each direction as an SVG. If the size is in print, an SVG has
+    /// this size, and a PNG has the resolution of --dpi.
     #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
-    pub(crate) size: Size,
+    pub(crate) size: PictureSize,
+
+    /// Size of the text in print (points); requires a --size in mm, cm or in [default: 8]
+    #[arg(long, value_name = "PT", value_parser = font_size)]
+    pub(crate) font_size: Option<f64>,
+
+    /// Pixels per inch of a PNG; requires a --size in mm, cm or in [default: 300]
+    #[arg(long, value_name = "N", value_parser = dpi)]
+    pub(crate) dpi: Option<f64>,
 
     #[command(flatten)]
     pub(crate) read: ReadArgs,
@@ -133,11 +144,13 @@ impl PictureKind {
     }
 }
 
-/// The size of a picture.
+/// The size of a picture: width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Size {
-    pub(crate) width: f64,
-    pub(crate) height: f64,
+pub(crate) enum PictureSize {
+    /// In pixels of an SVG.
+    Pixels([u16; 2]),
+    /// In print (mm).
+    Print([f64; 2]),
 }
 
 const PLOT_HELP: &str = "\
@@ -161,12 +174,80 @@ Examples:
   flap plot sample.csv --kind histogram --x lift_mean_mn --out lift.png
   flap plot sample.csv --kind tornado --x efficiency_gf_per_w
   flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
+  flap plot loop.csv --y stroke_pp_deg --out loop.svg --size 84x60mm --font-size 8
   flap plot sweep.parquet --html sweep.html";
 
-/// Parses a size `WxH` (pixels); both numbers are from 200 to 4000.
-fn size(text: &str) -> Result<Size, String> {
-    let number = |text: &str| text.trim().parse::<u16>().ok().filter(|side| (200..=4000).contains(side));
-    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| number(w).zip(number(h)));
-    let (width, height) = sides.ok_or("expected WxH, each from 200 to 4000, such as 900x560")?;
-    Ok(Size { width: f64::from(width), height: f64::from(height) })
+/// Units of length in print (mm).
+const LENGTHS: [(&str, f64); 3] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
+
+/// Parses a size `WxH`: in pixels from 200 to 4000, or with a unit of length, from 10 mm to 2000 mm.
+fn size(text: &str) -> Result<PictureSize, String> {
+    let text = text.trim();
+    let unit = LENGTHS.into_iter().find_map(|(unit, mm)| Some((text.strip_suffix(unit)?, unit, mm)));
+    let (sides, unit, mm) = unit.unwrap_or((text, "", 1.0));
+    // The unit may also follow the width.
+    let number = |side: &str| {
+        let side = side.trim();
+        side.strip_suffix(unit).unwrap_or(side).trim().parse::<f64>().ok()
+    };
+    let sides = sides.split_once(['x', 'X', '×', ',']);
+    let sides = sides.and_then(|(width, height)| Some([number(width)?, number(height)?]));
+    if unit.is_empty() {
+        let pixels = |side: f64| (200.0..=4000.0).contains(&side) && side.fract() == 0.0;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 200 to 4000")]
+        return match sides {
+            Some(sides) if sides.into_iter().all(pixels) => Ok(PictureSize::Pixels(sides.map(|side| side as u16))),
+            _ => Err("expected WxH in pixels, each from 200 to 4000, such as 900x560, or in print, such as 84x60mm".to_owned()),
+        };
+    }
+    let sides = sides.map(|sides| sides.map(|side| side * mm));
+    match sides {
+        Some(sides) if sides.into_iter().all(|side| (10.0..=2000.0).contains(&side)) => {
+            Ok(PictureSize::Print(sides))
+        }
+        _ => Err(
+            "expected WxH with a unit of length, each from 10 mm to 2000 mm, such as 84x60mm or 3.3x2.4in"
+                .to_owned(),
+        ),
+    }
+}
+
+/// Parses the size of the text in print (pt).
+fn font_size(text: &str) -> Result<f64, String> {
+    between(text.trim().trim_end_matches("pt"), 4.0, 72.0, "points, such as 8")
+}
+
+/// Parses a resolution in print (pixels per inch).
+fn dpi(text: &str) -> Result<f64, String> {
+    between(text, 50.0, 2400.0, "pixels per inch, such as 600")
+}
+
+/// Parses a number within a range.
+fn between(text: &str, low: f64, high: f64, meaning: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|number| (low..=high).contains(number));
+    number.ok_or_else(|| format!("expected a number from {low} to {high}: {meaning}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_pixels_or_lengths() {
+        assert_eq!(size("900x560"), Ok(PictureSize::Pixels([900, 560])));
+        for text in ["84x60mm", "84mmx60mm", "84mm,60mm", "8.4 x 6 cm", " 84 mm × 60 mm"] {
+            let Ok(PictureSize::Print(sides)) = size(text) else { panic!("{text}") };
+            assert!((sides[0] - 84.0).abs() < 1e-9 && (sides[1] - 60.0).abs() < 1e-9, "{text}: {sides:?}");
+        }
+        assert_eq!(size("2x1in"), Ok(PictureSize::Print([50.8, 25.4])));
+        for text in ["10x10", "84x60cm2", "84mm", "84x60 m", "4x4mm", "900.5x560", "nanx60mm", "84mmx6cm"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn text_and_resolution_have_ranges() {
+        assert_eq!((font_size("8"), font_size("6.5 pt"), dpi("600")), (Ok(8.0), Ok(6.5), Ok(600.0)));
+        assert!(font_size("0").is_err() && font_size("x").is_err() && dpi("1e9").is_err());
+    }
 }

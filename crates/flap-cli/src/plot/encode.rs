@@ -6,6 +6,7 @@ use kuva::backend::raster::RasterBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::{Primitive, Scene};
 
+use super::canvas::{Canvas, Print};
 use crate::failure::Failure;
 
 /// The format of a picture file.
@@ -16,26 +17,49 @@ pub(super) enum Format {
 }
 
 /// Returns the bytes of a picture.
-pub(super) fn bytes(scene: Scene, format: Format) -> Result<Vec<u8>, String> {
+pub(super) fn bytes(scene: Scene, format: Format, canvas: &Canvas) -> Result<Vec<u8>, String> {
     match format {
-        Format::Svg => Ok(SvgBackend::new().render_scene(&scene).into_bytes()),
-        Format::Png => png(scene),
+        Format::Svg => {
+            let svg = SvgBackend::new().render_scene(&scene);
+            let svg = match canvas.print {
+                Some(print) => in_print(&svg, &scene, print)?,
+                None => svg,
+            };
+            Ok(svg.into_bytes())
+        }
+        Format::Png => png(scene, canvas),
     }
 }
 
-/// Returns the format for the ending of a file name.
+/// Returns an SVG with its width and height in millimetres.
+fn in_print(svg: &str, scene: &Scene, print: Print) -> Result<String, String> {
+    // Without the rounding errors of inches.
+    let [width, height] = print.sides.map(|side| (side * 1e4).round() / 1e4);
+    let start = svg.find(" width=").zip(svg.find(" height=")).filter(|(width, height)| width < height);
+    let end = start.and_then(|(_, height)| Some(height + 9 + svg[height + 9..].find('"')? + 1));
+    let ((start, _), end) = start.zip(end).ok_or("an SVG without a size")?;
+    let size = format!(
+        r#" width="{width}mm" height="{height}mm" viewBox="0 0 {:.3} {:.3}""#,
+        scene.width, scene.height
+    );
+    Ok(svg[..start].to_owned() + &size + &svg[end..])
+}
+
+/// Returns the format that the ending of a name stands for.
 pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     match ending(out).as_str() {
         "svg" => Ok(Format::Svg),
         "png" => Ok(Format::Png),
-        "html" | "htm" => {
-            let failure = Failure::usage(format!(
-                "{}: --out writes pictures, whose names end in .svg or .png",
-                out.display()
-            ));
-            Err(failure.help(format!("--html {} writes a page", out.display())))
+        ending => {
+            let failure = Failure::usage(format!("{}: names of pictures end in .svg or .png", out.display()));
+            Err(match ending {
+                "html" | "htm" => failure.help(format!("--html {} writes a page", out.display())),
+                "pdf" | "eps" => failure.help(
+                    "write an SVG and convert it, for example with: rsvg-convert --format pdf --output picture.pdf picture.svg",
+                ),
+                _ => failure,
+            })
         }
-        _ => Err(Failure::usage(format!("{}: names of pictures end in .svg or .png", out.display()))),
     }
 }
 
@@ -44,29 +68,33 @@ pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Number of pixels for each unit of a picture's size.
-const SCALE: u32 = 2;
-
 /// Largest number of pixels of a picture that is drawn at double size and averaged.
 const MOST_PIXELS: f64 = 1e8;
 
-/// Returns a picture as PNG, with [`SCALE`] pixels per unit of the picture in each direction.
+/// Returns a picture as PNG.
 ///
-/// The picture is drawn at double size and averaged, so that lines and points are smooth.
-fn png(mut scene: Scene) -> Result<Vec<u8>, String> {
+/// It is drawn at double size and averaged, so that lines and points are smooth.
+fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
+    // The library rounds up, so a rounding error would add a pixel.
+    const LESS: f64 = 1e-2;
+    let [width, height] = canvas.pixels.map(f64::from);
+    let scale = width / canvas.size.width;
+    (scene.width, scene.height) = ((width - LESS) / scale, (height - LESS) / scale);
     scene.elements = scene.elements.into_iter().flat_map(dashes).collect();
     let turned = take_turned(&mut scene);
-    let fine = 2 * SCALE;
-    let is_large = scene.width * scene.height * f64::from(fine * fine) > MOST_PIXELS;
+    let is_large = 4.0 * width * height > MOST_PIXELS;
     let draw = |scene: &Scene| {
-        let scale = if is_large { SCALE } else { fine };
-        Image::read(&RasterBackend::new().with_scale(scale as f32).render_scene(scene)?)
+        let scale = if is_large { scale } else { 2.0 * scale };
+        #[expect(clippy::cast_possible_truncation, reason = "a few pixels per unit")]
+        let scale = scale as f32;
+        Image::read(&RasterBackend::new().with_scale(scale).render_scene(scene)?)
     };
     let mut image = draw(&scene)?;
     if let Some(turned) = turned {
         image.darken_turned(&draw(&turned)?);
     }
-    if is_large { image.write() } else { image.halved().write() }
+    let image = if is_large { image } else { image.halved() };
+    image.write(canvas.print.map(|print| print.dpi))
 }
 
 /// An image of rows of pixels with three or four bytes each.
@@ -131,7 +159,8 @@ impl Image {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }
 
-    fn write(&self) -> Result<Vec<u8>, String> {
+    /// Returns the image as PNG. `dpi` is its resolution in print, in pixels per inch.
+    fn write(&self, dpi: Option<f64>) -> Result<Vec<u8>, String> {
         let side = |length: usize| u32::try_from(length).map_err(|error| error.to_string());
         let mut png = Vec::new();
         let mut encoder = png::Encoder::new(&mut png, side(self.width)?, side(self.height)?);
@@ -140,6 +169,13 @@ impl Image {
         encoder.set_compression(png::Compression::High);
         // Areas of one colour repeat byte by byte, and compress best without a filter.
         encoder.set_filter(png::Filter::NoFilter);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 2400 per inch")]
+        let per_metre = dpi.map(|dpi| (dpi / 0.0254).round() as u32);
+        encoder.set_pixel_dims(per_metre.map(|ppu| png::PixelDimensions {
+            xppu: ppu,
+            yppu: ppu,
+            unit: png::Unit::Meter,
+        }));
         let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
         writer.write_image_data(&self.opaque()).map_err(|error| error.to_string())?;
         writer.finish().map_err(|error| error.to_string())?;
@@ -279,7 +315,7 @@ mod tests {
         let image = Image { width: 2, height: 2, channels: 3, bytes }.halved();
         assert_eq!((image.width, image.height), (1, 1));
         assert_eq!(image.bytes, [2, 4, 6]);
-        let again = Image::read(&image.write().unwrap()).unwrap();
+        let again = Image::read(&image.write(None).unwrap()).unwrap();
         assert_eq!(again.bytes, image.bytes);
     }
 

@@ -5,12 +5,12 @@ use flap_sweep::picture::sample::{Histogram, MARKED, histogram};
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Scene, TextAnchor};
 
+use super::canvas::Size;
 use super::ink;
 use super::label::Label;
 use super::panel::{Axis, LETTER, Panel};
 use super::scale;
 use super::selection::Selection;
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;

@@ -6,13 +6,13 @@ use kuva::render::annotations::ShadedRegion;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
+use super::canvas::Size;
 use super::ink::{self, Look};
 use super::label::{Label, digits};
 use super::panel::{Axis, Panel};
 use super::response::{Line, family, ordered};
 use super::scale;
 use super::selection::Selection;
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;

@@ -6,13 +6,13 @@ use kuva::render::render::{Primitive, Scene};
 
 use flap_sweep::picture::colours;
 
+use super::canvas::Size;
 use super::ink;
 use super::nearest::nearest;
 use super::panel::{Axis, Panel};
 use super::scale;
 use super::selection::{Columns, Selection};
 use super::shades::{self, Shades};
-use crate::args::Size;
 use crate::data::columns::{RefinedAxis, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;

@@ -7,13 +7,13 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
+use super::canvas::Size;
 use super::ink;
 use super::label::digits;
 use super::panel::{Axis, LETTER, Panel};
 use super::selection::Selection;
 use super::selection::{INPUT, MEAN};
 use super::shades::{self, Shades};
-use crate::args::Size;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::failure::Failure;
 
@@ -25,6 +25,9 @@ const LEAST: f64 = 1e-3;
 
 /// Fraction of an input's largest change above which the colour is dark and the number is white.
 const DARK: f64 = 0.6;
+
+/// Smallest width of a cell, which the names of the components need.
+const NARROWEST: f64 = 54.0;
 
 /// The font size of the numbers.
 const SIZE: u32 = 12;
@@ -41,24 +44,31 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let columns: Result<Vec<&[f64]>, Failure> =
         COMPONENTS.iter().map(|name| table.numbers(table.find(name)?)).collect();
     let columns = columns?;
-    let range = |count: usize| (0.5, count as f64 + 0.5);
+    // The first input is on top.
+    let names = rows.iter().rev().map(|&row| name(&inputs[row], &units[row]));
     let panel = Panel {
         title: selection.title.clone(),
         notes: selection.notes.clone(),
         bar: true,
         ..Panel::new(
-            Axis::linear("Force (mN), torque (µN·m)".to_owned(), range(COMPONENTS.len())),
-            Axis::linear(String::new(), range(rows.len())),
+            Axis::of_categories(
+                "Force (mN), torque (µN·m)".to_owned(),
+                NAMES.map(str::to_owned).to_vec(),
+                0.5,
+            ),
+            Axis::of_categories(String::new(), names.collect(), 0.5),
             Vec::new(),
         )
     };
-    // The first input is on top.
-    let names = rows.iter().rev().map(|&row| ink::plain(&name(&inputs[row], &units[row])));
-    let layout = panel
-        .layout(size)
-        .with_y_categories(names.collect())
-        .with_x_categories(NAMES.map(str::to_owned).to_vec());
+    let layout = panel.layout(size);
     let frame = ComputedLayout::from_layout(&layout);
+    let missing = NARROWEST * COMPONENTS.len() as f64 - frame.plot_width();
+    if missing > 0.0 {
+        let factor = (size.width + missing) / size.width;
+        let message =
+            format!("the picture is too narrow for the matrix: it must be {factor:.2} times as wide");
+        return Err(Failure::usage(message).help("set a larger --size, or a smaller --font-size"));
+    }
     let mut scene = panel.scene_in(layout);
     let shades = Shades::of((-1.0, 1.0));
     let mut cells = Vec::new();

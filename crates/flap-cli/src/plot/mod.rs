@@ -1,5 +1,6 @@
 //! `flap plot`: draws results as pictures, and writes pages on which users explore results.
 
+mod canvas;
 mod encode;
 mod histogram;
 mod hysteresis;
@@ -23,13 +24,14 @@ mod trajectory;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use canvas::{Canvas, Size};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 use flap_sweep::notation::text::printable;
 use kuva::render::render::Scene;
 use selection::{Request, Selection};
 
-use crate::args::{PictureKind, PlotArgs, Size};
+use crate::args::{PictureKind, PlotArgs};
 use crate::cmd::outputs;
 use crate::data::columns::Table;
 use crate::data::filter::Filters;
@@ -47,6 +49,11 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
     inputs.add_results("the results", &args.results);
     outputs::check(&inputs, [out.as_deref(), args.html.as_deref()])?;
     args.html.iter().try_for_each(|html| require_html(html))?;
+    if let (Some(_), Some(over)) = (&args.html, args.best_over.first()) {
+        let message = format!("--html shows all rows of the file, without the choice of --best-over {over}");
+        return Err(Failure::usage(message)
+            .help("draw the best rows with --out FILE.png, and write the page without --best-over"));
+    }
     if let Some(out) = &out {
         picture(args, out)?;
     }
@@ -62,13 +69,14 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 /// Draws a picture into the file `out`.
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
+    let canvas = Canvas::of(args)?;
     let source = Source::open(&args.results, &args.read, true)?;
     let request = Request::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
     let table = filters.read(source, |column| request.wants(column), usize::MAX)?;
     let selection = selection::select(&request, &table, heading(args))?;
-    let scene = draw(&table, &selection, args.size)?;
-    let bytes = encode::bytes(scene, format).map_err(Failure::Bug)?;
+    let scene = draw(&table, &selection, canvas.size)?;
+    let bytes = encode::bytes(scene, format, &canvas).map_err(Failure::Bug)?;
     write(out, args.overwrite.force, &bytes)?;
     console::say(&format!("{} in {}", selection.columns.kind.name(), out.display()));
     Ok(())

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use kuva::plot::LinePlot;
-use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::Scene;
 
+use super::canvas::{Size, TEXT};
 use super::ink::plain;
 use super::scale;
-use crate::args::Size;
 
 /// An axis with its label and its range.
 #[derive(Clone)]
@@ -19,6 +19,8 @@ pub(super) struct Axis {
     pub(super) log: bool,
     /// The words at the positions 0, 1, 2, … of the axis; empty for an axis of numbers.
     pub(super) words: Vec<String>,
+    /// The names of lines or columns at 1, 2, 3, …; empty for an axis of numbers.
+    pub(super) categories: Vec<String>,
 }
 
 /// A pair of axes with plots.
@@ -52,7 +54,7 @@ fn letters(width: f64, size: f64) -> usize {
 impl Axis {
     /// Returns a linear axis.
     pub(super) fn linear(label: String, range: (f64, f64)) -> Axis {
-        Axis { label, range, log: false, words: Vec::new() }
+        Axis { label, range, log: false, words: Vec::new(), categories: Vec::new() }
     }
 
     /// Returns an axis of words, which are at the positions 0, 1, 2, ….
@@ -61,7 +63,13 @@ impl Axis {
         Axis { words, ..Axis::linear(label, range) }
     }
 
-    /// Returns the word at a position of the axis; empty between two words.
+    /// Returns an axis with a name at 1, 2, 3, …; the ends are `margin` beyond the first and the last name.
+    pub(super) fn of_categories(label: String, categories: Vec<String>, margin: f64) -> Axis {
+        let range = (1.0 - margin, categories.len() as f64 + margin);
+        Axis { categories, ..Axis::linear(label, range) }
+    }
+
+    /// Returns the word at a place; empty between two words.
     fn word(words: &[String], value: f64) -> String {
         let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
         (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())
@@ -76,8 +84,29 @@ impl Panel {
 
     /// Returns the library's description of the panel in a picture of `size`.
     pub(super) fn layout(&self, size: Size) -> Layout {
-        // Notes are centred over the plot, which is narrower than the picture.
-        let notes_wrap = letters(0.72 * size.width, 12.0);
+        // The margins on the left and on the right depend on the texts, but not on the lines of labels and headings.
+        let frame = ComputedLayout::from_layout(&self.unwrapped(size));
+        let (width, height) = (frame.plot_width(), frame.plot_height());
+        let mut layout = self.unwrapped(size);
+        for (axis, across, length) in [(&self.x, true, width), (&self.y, false, height)] {
+            layout = with_ticks(layout, axis, across, length);
+        }
+        // Headings and labels are centred over the plot, which is narrower than the picture.
+        let middle = frame.margin_left + width / 2.0;
+        let room = 2.0 * middle.min(size.width - middle);
+        let centre = frame.margin_top + height / 2.0;
+        let upright = 2.0 * centre.min(size.height - centre);
+        let heading = room.min(0.72 * size.width);
+        let label = f64::from(size.label);
+        layout
+            .with_title_wrap(letters(heading, f64::from(size.title)))
+            .with_subtitle_wrap(letters(heading, f64::from(TEXT)))
+            .with_x_label_wrap(letters(room, label))
+            .with_y_label_wrap(letters(upright, label))
+    }
+
+    /// Returns the layout without line breaks and ticks.
+    fn unwrapped(&self, size: Size) -> Layout {
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_width(size.width)
             .with_height(size.height)
@@ -87,10 +116,10 @@ impl Panel {
             .with_x_axis_max(self.x.range.1)
             .with_y_axis_min(self.y.range.0)
             .with_y_axis_max(self.y.range.1)
-            .with_title_size(17)
-            .with_label_size(14)
-            .with_tick_size(12)
-            .with_body_size(12)
+            .with_title_size(size.title)
+            .with_label_size(size.label)
+            .with_tick_size(TEXT)
+            .with_body_size(TEXT)
             .with_legend_box(false);
         // The library also uses the ranges of the plots, which may be empty.
         (layout.x_range, layout.y_range) = (self.x.range, self.y.range);
@@ -98,13 +127,12 @@ impl Panel {
         "#e4e4e4".clone_into(&mut layout.theme.grid_color);
         "#444444".clone_into(&mut layout.theme.axis_color);
         "#444444".clone_into(&mut layout.theme.tick_color);
-        let titles = letters(0.72 * size.width, 17.0);
+        // Without a title, the picture has no heading at all.
         if !self.title.is_empty() {
-            layout = layout.with_title(plain(&self.title)).with_title_wrap(titles);
-        }
-        if !self.notes.is_empty() {
-            let notes = plain(&self.notes.join(" · "));
-            layout = layout.with_subtitle(notes).with_subtitle_size(12).with_subtitle_wrap(notes_wrap);
+            layout = layout.with_title(plain(&self.title));
+            if !self.notes.is_empty() {
+                layout = layout.with_subtitle(plain(&self.notes.join(" · "))).with_subtitle_size(TEXT);
+            }
         }
         if let Some(title) = &self.legend {
             layout = layout.with_legend_wrap(if size.width < 700.0 { 16 } else { 22 });
@@ -115,8 +143,11 @@ impl Panel {
         if self.bar {
             layout.force_margin_right = Some(BAR_MARGIN + if self.legend.is_some() { 10.0 } else { 0.0 });
         }
-        for (axis, across) in [(&self.x, true), (&self.y, false)] {
-            layout = with_ticks(layout, axis, across, size);
+        if !self.x.categories.is_empty() {
+            layout = layout.with_x_categories(self.x.categories.iter().map(|name| plain(name)).collect());
+        }
+        if !self.y.categories.is_empty() {
+            layout = layout.with_y_categories(self.y.categories.iter().map(|name| plain(name)).collect());
         }
         layout
     }
@@ -138,7 +169,8 @@ impl Panel {
     }
 }
 
-fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
+/// Adds the ticks of an axis of this length.
+fn with_ticks(layout: Layout, axis: &Axis, across: bool, length: f64) -> Layout {
     if axis.log {
         let format = TickFormat::Custom(Arc::new(super::label::short));
         return if across {
@@ -157,9 +189,7 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
         };
     }
     let range = axis.range;
-    let count =
-        if across { (size.width / 90.0).clamp(4.0, 9.0) } else { (size.height / 65.0).clamp(4.0, 9.0) };
-    let step = scale::step(range, count);
+    let step = step(range, across, length);
     let format = TickFormat::Custom(Arc::new(move |value| scale::tick(value, range, step)));
     if across {
         layout.with_x_tick_step(step).with_x_tick_format(format)
@@ -167,6 +197,35 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, size: Size) -> Layout {
         layout.with_y_tick_step(step).with_y_tick_format(format)
     }
 }
+
+/// Returns the distance of ticks whose numbers do not overlap along an axis of this length; if possible, there are two ticks or
+/// more.
+fn step(range: (f64, f64), across: bool, length: f64) -> f64 {
+    /// Space between two numbers.
+    const GAP: f64 = 10.0;
+    /// Height of a number with the space above it, relative to the font size.
+    const LINE: f64 = 1.4;
+    let text = f64::from(TEXT);
+    let rough: f64 = if across { length / 75.0 } else { length / 52.0 };
+    let mut count = rough.clamp(4.0, 9.0);
+    let mut step = scale::step(range, count);
+    loop {
+        let numbers = |step: f64| {
+            scale::ticks(range, step).into_iter().map(move |value| scale::tick(value, range, step))
+        };
+        let widest = numbers(step).map(|number| number.chars().count()).max().unwrap_or(0);
+        let needed = if across { widest as f64 * text * DIGIT + GAP } else { text * LINE };
+        count *= 0.8;
+        let next = scale::step(range, count);
+        if length * step / (range.1 - range.0) >= needed || numbers(next).count() < 2 {
+            return step;
+        }
+        step = next;
+    }
+}
+
+/// The width of a digit, relative to the font size.
+pub(super) const DIGIT: f64 = 0.64;
 
 /// The width of a colour bar with its ticks and label.
 pub(super) const BAR_MARGIN: f64 = 118.0;

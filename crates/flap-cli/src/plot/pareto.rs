@@ -6,6 +6,7 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
+use super::canvas::Size;
 use super::ink::{self, Look};
 use super::label::Label;
 use super::panel::{Axis, Panel};
@@ -13,7 +14,7 @@ use super::scale;
 use super::scatter::{self, Points};
 use super::selection::Selection;
 use super::shades;
-use crate::args::{Aim, Size};
+use crate::args::Aim;
 use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;

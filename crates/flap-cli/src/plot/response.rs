@@ -4,11 +4,11 @@ use std::borrow::Cow;
 
 use kuva::render::render::Scene;
 
+use super::canvas::Size;
 use super::ink::{self, Look};
 use super::panel::{Axis, Panel};
 use super::scale;
 use super::selection::Selection;
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::{Levels, Values};

@@ -5,12 +5,12 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::plots::Plot;
 use kuva::render::render::Scene;
 
+use super::canvas::Size;
 use super::ink;
 use super::panel::{Axis, Panel};
 use super::scale;
 use super::selection::Selection;
 use super::shades::{self, Shades};
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;

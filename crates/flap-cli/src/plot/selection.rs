@@ -96,6 +96,8 @@ impl<'a> Request<'a> {
         some || self.filters.contains(&column)
             || self.best_over.contains(&column)
             || column <= self.end + 1
+            // The columns before the time name the motions.
+            || self.place("time_s").is_some_and(|time| column < time)
             || self.matrix().is_some()
             || NEEDED.contains(&self.names[column].as_str())
     }

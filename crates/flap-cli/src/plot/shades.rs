@@ -7,11 +7,8 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 use super::ink::{self, rectangle, text};
-use super::panel::{Axis, BAR_MARGIN, LETTER};
+use super::panel::{Axis, BAR_MARGIN, DIGIT, LETTER};
 use super::scale;
-
-/// Width of a digit, relative to the size of the font.
-const DIGIT: f64 = 0.64;
 
 /// The colours of numbers within a range.
 pub(super) struct Shades {
@@ -41,16 +38,16 @@ impl Shades {
     }
 }
 
-/// Returns a label and a font size that fit into a length: smaller than usual and, if necessary, cut.
-fn fitting(label: &str, length: f64) -> (String, u32) {
-    const SIZES: [u32; 5] = [14, 13, 12, 11, 10];
+/// Returns a label and a font size that fit into a length: if necessary, smaller than the `usual` size, and cut.
+fn fitting(label: &str, length: f64, usual: u32) -> (String, u32) {
+    const SMALLEST: u32 = 10;
     let fits = |letters: usize, size: u32| letters as f64 * f64::from(size) * LETTER <= length;
     let letters = label.chars().count();
-    if let Some(size) = SIZES.into_iter().find(|&size| fits(letters, size)) {
+    if let Some(size) = (SMALLEST..=usual).rev().find(|&size| fits(letters, size)) {
         return (label.to_owned(), size);
     }
-    let kept = (1..letters).rev().find(|&kept| fits(kept + 1, SIZES[4])).unwrap_or(1);
-    (label.chars().take(kept).chain(['…']).collect(), SIZES[4])
+    let kept = (1..letters).rev().find(|&kept| fits(kept + 1, SMALLEST)).unwrap_or(1);
+    (label.chars().take(kept).chain(['…']).collect(), SMALLEST)
 }
 
 /// Draws a colour bar on the right, and below it the label for `missing` values.
@@ -94,7 +91,7 @@ pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis,
         widest = widest.max(tick.chars().count());
         text(scene, (left + 23.0, y + 4.2), &tick, 12, TextAnchor::Start);
     }
-    let (label, size) = fitting(&axis.label, frame.plot_height());
+    let (label, size) = fitting(&axis.label, frame.plot_height(), frame.label_size);
     let beside = left + 25.0 + widest as f64 * 12.0 * DIGIT + 0.9 * f64::from(size);
     scene.add(Primitive::Text {
         x: beside.min(frame.width - 4.0),
@@ -120,11 +117,11 @@ mod tests {
     #[test]
     fn labels_fit_beside_the_bar() {
         let label = "Stroke, peak to peak (°)";
-        assert_eq!(fitting(label, 300.0), (label.to_owned(), 14));
-        assert_eq!(fitting(label, 150.0), (label.to_owned(), 11));
-        assert_eq!(fitting(label, 60.0), ("Stroke, p…".to_owned(), 10));
+        assert_eq!(fitting(label, 300.0, 14), (label.to_owned(), 14));
+        assert_eq!(fitting(label, 150.0, 14), (label.to_owned(), 11));
+        assert_eq!(fitting(label, 60.0, 14), ("Stroke, p…".to_owned(), 10));
         for length in [20.0, 60.0, 100.0, 140.0, 200.0] {
-            let (text, size) = fitting(label, length);
+            let (text, size) = fitting(label, length, 14);
             assert!(text.chars().count() as f64 * f64::from(size) * LETTER <= length, "{length}: {text}");
         }
     }

@@ -6,10 +6,10 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
+use super::canvas::Size;
 use super::ink;
 use super::panel::{Axis, Panel};
 use super::selection::Selection;
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
@@ -63,6 +63,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let words = table.label(measure).words;
     let mut letters = words.chars();
     let measured = letters.next().map(|first| first.to_lowercase().chain(letters).collect::<String>());
+    let names = shown.iter().rev().map(|&(place, _)| table.label(places[place]).words);
     let panel = Panel {
         title: selection.title.clone(),
         notes,
@@ -71,12 +72,11 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
                 format!("Rank correlation (Spearman) with {}", measured.unwrap_or_default()),
                 (-1.0, 1.0),
             ),
-            Axis::linear(String::new(), (0.4, shown.len() as f64 + 0.6)),
+            Axis::of_categories(String::new(), names.collect(), 0.6),
             Vec::new(),
         )
     };
-    let names = shown.iter().rev().map(|&(place, _)| ink::plain(&table.label(places[place]).words));
-    let layout = panel.layout(size).with_y_categories(names.collect());
+    let layout = panel.layout(size);
     let frame = ComputedLayout::from_layout(&layout);
     let mut scene = panel.scene_in(layout);
     let zero = frame.map_x(0.0);

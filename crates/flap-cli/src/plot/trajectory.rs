@@ -1,17 +1,21 @@
-//! Stroke and pitch over time, and the rates of stroke and pitch over the angles.
+//! Stroke and pitch over time: one motion with its rates over its angles, or several motions.
+
+use std::collections::BTreeMap;
 
 use flap_sweep::picture::colours;
 use flap_sweep::table::labels;
 use kuva::render::figure::Figure;
+use kuva::render::plots::Plot;
 use kuva::render::render::Scene;
 
+use super::canvas::{Size, TEXT};
 use super::ink::{self, Look};
 use super::panel::{Axis, LETTER, Panel};
 use super::scale;
 use super::selection::Selection;
-use crate::args::Size;
 use crate::console;
 use crate::data::columns::Table;
+use crate::data::levels::Levels;
 use crate::failure::Failure;
 
 /// Largest number of points in one line.
@@ -20,8 +24,89 @@ const MOST_POINTS: usize = 8000;
 /// The angles, given as the first parts of the column names.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
-/// Draws the motion beside its phase portrait.
+/// Largest number of motions in a picture: more cannot be distinguished.
+const MOST_MOTIONS: usize = 16;
+
+/// Draws one motion with its phase portrait, or several motions over time.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+    let motions = motions(table, selection);
+    if motions.len() > 1 { several(table, selection, &motions, size) } else { one(table, selection, size) }
+}
+
+/// The rows of one motion.
+struct Motion {
+    name: String,
+    rows: Vec<usize>,
+    colour: String,
+}
+
+/// Groups the rows by the columns before the time, as `flap run` writes them for several designs.
+fn motions(table: &Table, selection: &Selection) -> Vec<Motion> {
+    let rows = &selection.rows;
+    let levels = (0..selection.columns.x).map(|column| (column, Levels::of(table, column, rows)));
+    // A column with a different value in almost every row, such as the number of a camera frame, names no designs.
+    let keys: Vec<(usize, Levels)> =
+        levels.filter(|(_, levels)| levels.len() > 1 && 2 * levels.len() <= rows.len()).collect();
+    let mut found: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
+    for (place, &row) in rows.iter().enumerate() {
+        let key = keys.iter().map(|(_, levels)| levels.codes[place]).collect();
+        found.entry(key).or_default().push(row);
+    }
+    let shown = scale::even(found.len(), MOST_MOTIONS);
+    if shown.len() < found.len() {
+        let (drawn, all) = (shown.len(), found.len());
+        console::say(&format!(
+            "{drawn} of {all} motions are drawn, evenly chosen; --where chooses one motion"
+        ));
+    }
+    let is_ordered = keys.len() == 1 && table.numbers(keys[0].0).is_ok();
+    let named = |key: &[usize]| {
+        let parts = keys.iter().zip(key);
+        let parts = parts.map(|((column, levels), &code)| levels.text(code, &table.label(*column)));
+        parts.collect::<Vec<String>>().join(", ")
+    };
+    let motions: Vec<(Vec<usize>, Vec<usize>)> = found.into_iter().collect();
+    (shown.iter().enumerate())
+        .map(|(place, &number)| Motion {
+            name: named(&motions[number].0),
+            rows: motions[number].1.clone(),
+            colour: ink::line_colour(place, shown.len(), is_ordered),
+        })
+        .collect()
+}
+
+/// Draws stroke and pitch of several motions over time, one below the other.
+fn several(table: &Table, selection: &Selection, motions: &[Motion], size: Size) -> Result<Scene, Failure> {
+    let time = table.numbers(selection.columns.x)?;
+    let label = table.label(selection.columns.x);
+    let mut panels = Vec::new();
+    for (place, angle) in ANGLES.iter().enumerate() {
+        let column = table.find(&format!("{angle}_deg"))?;
+        let values = table.numbers(column)?;
+        let (mut lines, mut drawn) = (Vec::new(), Vec::new());
+        for Motion { name, rows, colour } in motions {
+            let motion: Vec<(f64, f64)> =
+                rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
+            let motion = scale::thinned(&motion, MOST_POINTS);
+            // The legend names each motion once.
+            let name = if place == 0 { name.as_str() } else { "" };
+            lines.extend(ink::line(&motion, &Look { width: 1.8, ..Look::new(name, colour.as_str()) }));
+            drawn.extend(motion);
+        }
+        let Some([span, angles]) = scale::extent(&drawn) else {
+            return Err(selection.nothing(table, column));
+        };
+        panels.push(Panel::new(
+            Axis::linear(label.text(), scale::padded(span, 0.0)),
+            Axis::linear(table.label(column).text(), scale::padded(angles, 0.05)),
+            lines,
+        ));
+    }
+    Ok(figure(panels, Arrangement::Below, &selection.title, &selection.notes, size))
+}
+
+/// Draws the motion beside its phase portrait, or above it in a narrow picture.
+fn one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let time = table.numbers(selection.columns.x)?;
     let label = table.label(selection.columns.x);
     let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
@@ -75,27 +160,55 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         Axis::linear(rate, scale::padded(rates, 0.05)),
         portrait,
     );
-    let right = Panel { legend: Some(String::new()), ..right };
-    Ok(side_by_side(left, right, &selection.title, &notes, size))
+    let arrangement = if size.is_narrow() { Arrangement::Below } else { Arrangement::Beside };
+    Ok(figure(vec![left, right], arrangement, &selection.title, &notes, size))
 }
 
-/// Returns a scene with two panels below one title.
-fn side_by_side(left: Panel, right: Panel, title: &str, notes: &[String], size: Size) -> Scene {
-    let half = Size { width: size.width * 0.5, height: size.height - 60.0 };
-    let layouts = vec![left.layout(half), right.layout(half)];
-    let title =
-        std::iter::once(title.to_owned()).chain(notes.iter().cloned()).collect::<Vec<_>>().join(" · ");
-    // The title has only one line, so a long title gets smaller letters.
-    let letters = (size.width / (LETTER * title.chars().count().max(1) as f64)).clamp(9.0, 17.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
-    let letters = letters as u32;
-    Figure::new(1, 2)
-        .with_plots(vec![left.plots, right.plots])
+/// The arrangement of panels.
+#[derive(Clone, Copy, PartialEq)]
+enum Arrangement {
+    /// Beside one another.
+    Beside,
+    /// Below one another.
+    Below,
+}
+
+/// Returns a scene with panels below one title, and their legend on the right.
+fn figure(panels: Vec<Panel>, arrangement: Arrangement, title: &str, notes: &[String], size: Size) -> Scene {
+    /// The width of the legend without its names.
+    const LEGEND: f64 = 75.0;
+    let names = panels.iter().flat_map(|panel| &panel.plots).filter_map(|plot| match plot {
+        Plot::Line(line) => line.legend_label.as_ref(),
+        _ => None,
+    });
+    let longest = names.map(|name| name.chars().count()).max().unwrap_or(0) as f64;
+    let count = panels.len();
+    let (rows, columns) = if arrangement == Arrangement::Beside { (1, count) } else { (count, 1) };
+    let width = size.width - LEGEND - longest * LETTER * f64::from(TEXT);
+    let panel = Size { width: width / columns as f64, height: (size.height - 60.0) / rows as f64, ..size };
+    let layouts = panels.iter().map(|one| {
+        let mut layout = one.layout(panel);
+        "none".clone_into(&mut layout.theme.legend_border);
+        layout
+    });
+    let layouts = layouts.collect();
+    let mut figure = Figure::new(rows, columns)
+        .with_plots(panels.into_iter().map(|panel| panel.plots).collect())
         .with_layouts(layouts)
-        .with_title(ink::plain(&title))
-        .with_title_size(letters)
-        .with_figure_size(size.width, size.height)
-        .render()
+        .with_shared_legend_right_top()
+        .with_spacing(4.0)
+        .with_padding(4.0)
+        .with_figure_size(size.width, size.height);
+    if !title.is_empty() {
+        let title: Vec<&str> = std::iter::once(title).chain(notes.iter().map(String::as_str)).collect();
+        let title = title.join(" · ");
+        // The title has only one line, so a long title gets smaller letters.
+        let letters = size.width / (LETTER * title.chars().count().max(1) as f64);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "9 to 17")]
+        let letters = letters.clamp(9.0, f64::from(size.title)) as u32;
+        figure = figure.with_title(ink::plain(&title)).with_title_size(letters);
+    }
+    figure.render()
 }
 
 /// Returns rates in degrees per millisecond, from the differences of neighbours.
