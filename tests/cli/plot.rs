@@ -3,6 +3,7 @@
 mod drawn;
 mod matrices;
 mod mistakes;
+mod motions;
 mod pages;
 mod pictures;
 mod print;

@@ -88,11 +88,31 @@ fn json(cell: &str) -> Value {
 
 /// Writes a CSV table with one line per row.
 pub(crate) fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
+    write_motions(&[Keyed { keys: &[], motion }], target)
+}
+
+/// A motion with columns, each with one value, that distinguish it from other motions.
+pub(crate) struct Keyed<'m> {
+    pub(crate) keys: &'m [(String, String)],
+    pub(crate) motion: &'m Trajectory,
+}
+
+/// Writes motions with the same keys into one CSV table, one after another, with the columns that all motions have.
+pub(crate) fn write_motions(motions: &[Keyed<'_>], target: impl Write) -> io::Result<()> {
+    let Some(first) = motions.first() else { return Ok(()) };
+    let has_all = |name: &&String| motions.iter().all(|other| other.motion.columns.contains(name));
+    let names: Vec<&String> = first.motion.columns.iter().filter(has_all).collect();
     let mut writer = csv::Writer::from_writer(target);
-    writer.write_record(&motion.columns).map_err(csv_sink::cause)?;
-    for row in &motion.rows {
-        let cells = row.iter().map(|&value| text::float(value));
-        writer.write_record(cells).map_err(csv_sink::cause)?;
+    let keys = first.keys.iter().map(|(name, _)| name);
+    writer.write_record(keys.chain(names.iter().copied())).map_err(csv_sink::cause)?;
+    for Keyed { keys, motion } in motions {
+        let places: Vec<usize> =
+            names.iter().filter_map(|name| motion.columns.iter().position(|other| other == *name)).collect();
+        for row in &motion.rows {
+            let keys = keys.iter().map(|(_, value)| value.clone());
+            let cells = keys.chain(places.iter().map(|&place| text::float(row[place])));
+            writer.write_record(cells).map_err(csv_sink::cause)?;
+        }
     }
     writer.flush()
 }

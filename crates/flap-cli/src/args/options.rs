@@ -11,7 +11,7 @@ use flap_sweep::table::labels::{self, Direction};
 use super::values::{assignment, count, interval, positive, threads, tolerance};
 
 /// Options that choose a design point.
-#[derive(clap::Args)]
+#[derive(Clone, PartialEq, clap::Args)]
 pub(crate) struct PointArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     #[arg(value_name = "PRESET|FILE")]

@@ -1,16 +1,33 @@
 //! Arguments of `flap run`.
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use clap::value_parser;
 
 use super::options::{OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
+use super::values::assignment;
 
 #[derive(clap::Args)]
 #[command(after_help = RUN_HELP)]
 pub(crate) struct RunArgs {
-    #[command(flatten)]
-    pub(crate) point: PointArgs,
+    /// Preset, device file or grid file; `-` reads a grid from stdin. You can give several designs
+    #[arg(value_name = "PRESET|FILE", required = true)]
+    what: Vec<String>,
+
+    /// Index of the point in the grid file, counted from 0
+    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    point: u64,
+
+    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
+    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
+    set: Vec<(String, String)>,
+
+    /// Run each design with each of these values of a parameter. You can repeat --each
+    ///
+    /// Values are separated by commas, as in --each 'drive_voltage_pp=100 V, 150 V, 200 V'.
+    #[arg(long, value_name = "NAME=VALUE,...", value_parser = values)]
+    pub(crate) each: Vec<(String, Vec<String>)>,
 
     /// CSV file with the waveform of the drive. The file replaces the parameter drive_shape
     ///
@@ -31,6 +48,8 @@ pub(crate) struct RunArgs {
     pub(crate) once: bool,
 
     /// CSV file for the motion over time; `-` prints the motion to stdout instead of the summary
+    ///
+    /// The first columns of the motions of several designs are the design and the parameters of --each.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -68,11 +87,57 @@ pub(crate) struct RunArgs {
     pub(crate) solver: SolverArgs,
 }
 
+impl RunArgs {
+    /// Returns the designs: each preset or file with each combination of the values of --each.
+    pub(crate) fn designs(&self) -> Vec<PointArgs> {
+        let mut sets = vec![self.set.clone()];
+        for (name, values) in &self.each {
+            let with = |set: &Vec<(String, String)>, value: &String| {
+                set.iter().cloned().chain([(name.clone(), value.clone())]).collect::<Vec<_>>()
+            };
+            sets = sets.iter().flat_map(|set| values.iter().map(move |value| with(set, value))).collect();
+        }
+        let of = |what: &String, set: &Vec<(String, String)>| PointArgs {
+            what: what.clone(),
+            point: self.point,
+            set: set.clone(),
+        };
+        self.what.iter().flat_map(|what| sets.iter().map(move |set| of(what, set))).collect()
+    }
+
+    /// Returns the name of a design among several presets and files: without its folder and ending, if such names are distinct.
+    pub(crate) fn name(&self, what: &str) -> Option<String> {
+        let short = |what: &String| {
+            Path::new(what)
+                .file_stem()
+                .map_or_else(|| what.clone(), |stem| stem.to_string_lossy().into_owned())
+        };
+        let names: BTreeSet<String> = self.what.iter().map(short).collect();
+        let whole: BTreeSet<&String> = self.what.iter().collect();
+        let name = if names.len() == whole.len() { short(&what.to_owned()) } else { what.to_owned() };
+        (self.what.len() > 1).then_some(name)
+    }
+}
+
+/// Parses `NAME=VALUE,...`.
+fn values(text: &str) -> Result<(String, Vec<String>), String> {
+    let (name, values) = assignment(text)?;
+    let values: Vec<String> = values.split(',').map(|value| value.trim().to_owned()).collect();
+    if values.iter().any(String::is_empty) {
+        return Err(
+            "a value is empty; write NAME=VALUE,VALUE, such as drive_voltage_pp='100 V, 150 V'".to_owned()
+        );
+    }
+    Ok((name, values))
+}
+
 const RUN_HELP: &str = "\
 Examples:
   flap run ozaki2018-large
   flap run ozaki2018-large --set drive_frequency='120 Hz' --set drive_voltage_pp=150
   flap run ozaki2018-large --gradient lift_mean_mn
   flap run grid.toml --point 17 --trajectory point17.csv
+  flap run ozaki2018-large --each drive_voltage_pp='100 V, 150 V, 200 V' --trajectory motions.csv
+  flap run my_robot.toml jafferis2016 --trajectory motions.csv
   flap run ozaki2018-large --trajectory - --from-rest --cycles 50
   flap run jafferis2016 --format json";

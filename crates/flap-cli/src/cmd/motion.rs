@@ -7,7 +7,7 @@ use flap_core::simulate::Trajectory;
 use flap_sweep::notation::text::count;
 
 use crate::failure::Failure;
-use crate::print::write_csv;
+use crate::print::{Keyed, write_motions};
 use crate::{console, job};
 
 /// Writes a complete CSV file or no file, and prints the number of rows. `row` is the noun for a row, such as `sample`.
@@ -21,8 +21,19 @@ pub(crate) fn write_file(
     overwrite: bool,
     row: &str,
 ) -> Result<(), Failure> {
-    let written = job::make(path, overwrite, |file| write_csv(motion, file).map(|()| None))?;
+    write_motions_file(&[Keyed { keys: &[], motion }], path, overwrite, row)
+}
+
+/// Writes several motions into one CSV file, as [`write_file`] writes one motion.
+pub(crate) fn write_motions_file(
+    motions: &[Keyed<'_>],
+    path: &Path,
+    overwrite: bool,
+    row: &str,
+) -> Result<(), Failure> {
+    let written = job::make(path, overwrite, |file| write_motions(motions, file).map(|()| None))?;
     written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
-    console::say(&format!("{} in {}", count(motion.rows.len() as u64, row), path.display()));
+    let rows: usize = motions.iter().map(|keyed| keyed.motion.rows.len()).sum();
+    console::say(&format!("{} in {}", count(rows as u64, row), path.display()));
     Ok(())
 }

@@ -1,9 +1,11 @@
-//! `flap run`: one design point.
+//! `flap run`: one design point, or a few.
 
 use std::fmt::Write as _;
 use std::io;
+use std::path::Path;
 
-use flap_core::simulate::{Row, Status, TrajectoryRequest};
+use flap_core::parameter::Parameter;
+use flap_core::simulate::{Row, Status, Trajectory, TrajectoryRequest};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::notation::expression::Kind;
 use flap_sweep::notation::text::{self, count};
@@ -11,30 +13,139 @@ use flap_sweep::study::deviation;
 use flap_sweep::table::layout::fixed_columns;
 
 use super::gradient::{self, Gradient};
-use super::motion::write_file;
-use super::point::{Chosen, check_one_wing};
+use super::grid::is_stdin;
+use super::motion::write_motions_file;
+use super::point::{Chosen, check_one_wing, find_parameter};
 use super::{far, outputs, samples};
 use crate::args::{OutputFormat, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::print::{self, write_csv};
-use crate::table::{Table, six_digits, wrapped};
+use crate::print::{self, Keyed, write_motions};
+use crate::table::{self, Table, six_digits, wrapped};
 
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
-    let mut chosen = Chosen::new(&args.point, &args.solver)?;
-    if let Some(option) = of_one_wing(args) {
-        check_one_wing(&chosen.plan, &args.point.what, &format!("`flap run` with {option}"))?;
-    }
-    far::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| chosen.has_unit(parameter)));
+    let points = args.designs();
+    check_designs(&points, args)?;
+    let designs = points.iter().map(|point| Design::of(point, args));
+    let mut designs = designs.collect::<Result<Vec<Design>, Failure>>()?;
     let mut inputs = Inputs::new();
-    inputs.add_plan(&chosen.plan);
+    for design in &designs {
+        inputs.add_plan(&design.chosen.plan);
+    }
     for record in args.waveform.iter().chain(&args.stroke) {
         inputs.add("the record", record);
     }
-    let measure = args.gradient.as_deref().map(|column| gradient::measure(&chosen, column)).transpose()?;
     outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
-    samples::apply(&mut chosen, args)?;
-    settle(&chosen, args, measure)
+    for design in &mut designs {
+        samples::apply(&mut design.chosen, &design.point, args)?;
+    }
+    if let Some(path) = &args.trajectory {
+        trajectories(&designs, path, args)?;
+        if args.once || path.as_os_str() == "-" {
+            return Ok(Exit::Done);
+        }
+    }
+    settle(&designs, args)
+}
+
+/// Returns an error if an option does not apply to several designs.
+fn check_designs(points: &[PointArgs], args: &RunArgs) -> Result<(), Failure> {
+    if points.len() > MOST_DESIGNS {
+        let message =
+            format!("{} designs are too many for `flap run`, which takes up to {MOST_DESIGNS}", points.len());
+        return Err(Failure::usage(message).help("sweep many designs with `flap sweep`"));
+    }
+    if points.len() > 1 && points.iter().any(|point| is_stdin(Path::new(&point.what))) {
+        let message = "several designs require grid files with names, because stdin is read once";
+        return Err(Failure::usage(message).help("save the grid in a file"));
+    }
+    if points.len() > 1 && args.gradient.is_some() {
+        let message = "--gradient requires one design, but the command line gives several";
+        return Err(
+            Failure::usage(message).help("sweep derivatives of many designs with [gradient] in a grid file")
+        );
+    }
+    let is_repeated = |place: usize| points[..place].iter().any(|other| *other == points[place]);
+    if let Some(place) = (0..points.len()).find(|&place| is_repeated(place)) {
+        return Err(Failure::usage(format!(
+            "the command line gives the same design of {} twice",
+            points[place].what
+        )));
+    }
+    for (place, (name, _)) in args.each.iter().enumerate() {
+        let is_twice = args.each[..place].iter().any(|(other, _)| other == name);
+        let is_set =
+            points.iter().any(|point| point.set.iter().filter(|(other, _)| other == name).count() > 1);
+        if is_twice || is_set {
+            return Err(Failure::usage(format!("the command line sets {name} twice"))
+                .help("remove --set or one --each"));
+        }
+    }
+    Ok(())
+}
+
+/// Largest number of designs of one command, which are run one after another.
+const MOST_DESIGNS: usize = 1000;
+
+/// One design of the command line.
+struct Design {
+    chosen: Chosen,
+    point: PointArgs,
+    /// The measure of `--gradient`.
+    measure: Option<usize>,
+    /// Columns with the values that distinguish the design from the other designs.
+    keys: Vec<(String, String)>,
+}
+
+impl Design {
+    fn of(point: &PointArgs, args: &RunArgs) -> Result<Design, Failure> {
+        let chosen = Chosen::new(point, &args.solver)?;
+        if let Some(option) = of_one_wing(args) {
+            check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {option}"))?;
+        }
+        far::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| chosen.has_unit(parameter)));
+        let measure =
+            args.gradient.as_deref().map(|column| gradient::measure(&chosen, column)).transpose()?;
+        let name = args.name(&point.what).map(|name| ("design".to_owned(), name));
+        let mut keys: Vec<(String, String)> = name.into_iter().collect();
+        for (name, _) in &args.each {
+            let parameters = chosen.plan.parameters();
+            let index = find_parameter(parameters, name)?;
+            keys.push((name.clone(), text::value(&parameters[index], chosen.values[index])));
+        }
+        Ok(Design { chosen, point: point.clone(), measure, keys })
+    }
+
+    /// Returns the design in one line: its model and preset, and the values of its keys.
+    fn title(&self) -> String {
+        let parameters = self.chosen.plan.parameters();
+        let values = self.keys.iter().filter_map(|(name, _)| {
+            let index = Parameter::index(parameters, name)?;
+            Some(format!(", {}", table::assignment(&parameters[index], self.chosen.values[index])))
+        });
+        self.chosen.title() + &values.collect::<String>()
+    }
+}
+
+/// Writes the motions of the designs over time.
+fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), Failure> {
+    check_length(designs.len(), args)?;
+    let request = TrajectoryRequest {
+        cycles: if args.once { 1 } else { args.cycles },
+        samples_per_cycle: args.samples,
+        settled: !args.from_rest && !args.once,
+    };
+    let motions = designs.iter().map(|Design { chosen, .. }| {
+        Ok(chosen.simulator().motions()?.trajectory(&chosen.run(), &request)?)
+    });
+    let motions = motions.collect::<Result<Vec<Trajectory>, Failure>>()?;
+    let keyed = designs.iter().zip(&motions).map(|(design, motion)| Keyed { keys: &design.keys, motion });
+    let keyed: Vec<Keyed> = keyed.collect();
+    if path.as_os_str() == "-" {
+        write_motions(&keyed, io::stdout().lock())?;
+        return Ok(());
+    }
+    write_motions_file(&keyed, path, args.overwrite.force, "sample")
 }
 
 /// Returns an option of the command line that requires a single wing, if the user gave such an option.
@@ -47,52 +158,57 @@ fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
     options.into_iter().find_map(|(is_given, option)| is_given.then_some(option))
 }
 
-/// Runs the point until its motion settles, and prints its row.
-fn settle(chosen: &Chosen, args: &RunArgs, measure: Option<usize>) -> Result<Exit, Failure> {
-    let Chosen { plan, values, .. } = chosen;
-    if let Some(path) = &args.trajectory {
-        check_length(args)?;
-        let request = TrajectoryRequest {
-            cycles: if args.once { 1 } else { args.cycles },
-            samples_per_cycle: args.samples,
-            settled: !args.from_rest && !args.once,
-        };
-        let motion = chosen.simulator().motions()?.trajectory(&chosen.run(), &request)?;
-        if path.as_os_str() == "-" {
-            write_csv(&motion, io::stdout().lock())?;
-            return Ok(Exit::Done);
+/// Runs the designs until their motions settle, and prints their rows.
+fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
+    let mut rows = Vec::new();
+    for Design { chosen, .. } in designs {
+        let mut row = chosen.simulator().run_point(&chosen.run(), None);
+        chosen.plan.add_own_measures(&chosen.values, &mut row.measures);
+        if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
+            return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
         }
-        write_file(&motion, path, args.overwrite.force, "sample")?;
-        if args.once {
-            return Ok(Exit::Done);
+        rows.push(row);
+    }
+    let gradient = match (designs, rows.as_slice()) {
+        ([Design { chosen, measure: Some(measure), .. }], [row]) => {
+            Some(Gradient::of(chosen, row, *measure)?)
         }
-    }
-
-    let mut row = chosen.simulator().run_point(&chosen.run(), None);
-    plan.add_own_measures(values, &mut row.measures);
-    if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
-        return Err(Failure::usage(format!("the combination of parameter values is impossible: {reason}")));
-    }
-    let gradient = measure.map(|measure| Gradient::of(chosen, &row, measure)).transpose()?;
+        _ => None,
+    };
     match gradient {
         Some(gradient) if args.format != OutputFormat::Table => gradient.print(args.format)?,
         gradient => {
-            print::table(args.format, &NAMES, &cells(chosen, &row), || page(chosen, &row))?;
+            print_rows(designs, &rows, args.format)?;
             if let Some(gradient) = gradient {
                 console::results(&format!("\n{}", gradient.page()))?;
             }
         }
     }
-    if row.status == Status::Unsettled {
-        console::say(&longer(chosen, args));
+    for (design, _) in designs.iter().zip(&rows).filter(|(_, row)| row.status == Status::Unsettled) {
+        console::say(&longer(design));
     }
     Ok(Exit::Done)
 }
 
-/// Returns a line with a command that runs an unsettled point for more drive periods.
-fn longer(chosen: &Chosen, args: &RunArgs) -> String {
-    let cycles = chosen.plan.solver().max_cycles;
-    let PointArgs { what, point, set } = &args.point;
+/// Prints the rows of the designs; with several designs, the first columns of csv and json are the keys of the designs.
+fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<(), Failure> {
+    let keys = designs.iter().flat_map(|design| &design.keys).map(|(name, _)| name.as_str());
+    let keys = keys.take(designs.first().map_or(0, |design| design.keys.len()));
+    let names: Vec<&str> = keys.chain(NAMES).collect();
+    let all = designs.iter().zip(rows).flat_map(|(design, row)| {
+        let keys = design.keys.iter().map(|(_, value)| value.clone()).collect::<Vec<String>>();
+        cells(&design.chosen, row).into_iter().map(move |cells| [keys.clone(), cells].concat())
+    });
+    print::table(format, &names, &all.collect::<Vec<_>>(), || {
+        let pages = designs.iter().zip(rows).map(|(design, row)| page(design, row));
+        pages.collect::<Vec<String>>().join("\n")
+    })
+}
+
+/// Returns a line with the command that runs an unsettled point longer.
+fn longer(design: &Design) -> String {
+    let cycles = design.chosen.plan.solver().max_cycles;
+    let PointArgs { what, point, set } = &design.point;
     let mut command = format!("flap run {}", shell_word(what));
     if *point > 0 {
         let _ = write!(command, " --point {point}");
@@ -111,8 +227,8 @@ fn longer(chosen: &Chosen, args: &RunArgs) -> String {
 /// Largest number of samples in a trajectory, which is held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
 
-fn check_length(args: &RunArgs) -> Result<(), Failure> {
-    let samples = u64::from(args.cycles) * u64::from(args.samples);
+fn check_length(designs: usize, args: &RunArgs) -> Result<(), Failure> {
+    let samples = designs as u64 * u64::from(args.cycles) * u64::from(args.samples);
     if samples <= SAMPLES_MAX {
         return Ok(());
     }
@@ -124,13 +240,14 @@ fn check_length(args: &RunArgs) -> Result<(), Failure> {
 /// Columns of a row in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// Returns the row as text for a terminal: status and numbers of the run, and a table of the measures.
-fn page(chosen: &Chosen, row: &Row) -> String {
+/// Returns the row as a page: status and numbers of the run, and a table of the measures.
+fn page(design: &Design, row: &Row) -> String {
+    let chosen = &design.chosen;
     let course = course(row, six_digits).into_iter();
     let course = course.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));
     let course =
         course.map(|(name, value)| format!("{name} = {}", if value.is_empty() { "none" } else { &value }));
-    let mut page = format!("{}\n{}\n", chosen.title(), wrapped(&course.collect::<Vec<_>>().join(", "), 0));
+    let mut page = format!("{}\n{}\n", design.title(), wrapped(&course.collect::<Vec<_>>().join(", "), 0));
     if !row.measures.is_empty() {
         page += "\n";
         page += &Table::of(&NAMES, measures(chosen, row, six_digits)).text_within(console::width());

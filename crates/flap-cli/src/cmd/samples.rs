@@ -6,12 +6,12 @@ use flap_core::drive::{Repeat, Samples};
 use flap_sweep::files::record::{self, Record};
 
 use super::point::Chosen;
-use crate::args::RunArgs;
+use crate::args::{PointArgs, RunArgs};
 use crate::console;
 use crate::failure::Failure;
 
 /// Reads the waveform or the stroke that the command line gives, and adds it to the point.
-pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> {
+pub(super) fn apply(chosen: &mut Chosen, point: &PointArgs, args: &RunArgs) -> Result<(), Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
     let (path, quantity) = match (&args.waveform, &args.stroke) {
         (Some(path), _) => (path, record::WAVE),
@@ -23,7 +23,7 @@ pub(super) fn apply(chosen: &mut Chosen, args: &RunArgs) -> Result<(), Failure> 
     };
     let samples = Record::read(path)?.samples(&quantity, repeat)?;
     warn_of_overshoot(&samples, path, if args.stroke.is_some() { " rad" } else { "" });
-    if args.point.set.iter().all(|(name, _)| name != "drive_frequency") {
+    if point.set.iter().all(|(name, _)| name != "drive_frequency") {
         chosen.put("drive_frequency", 1.0 / samples.duration());
     }
     if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
