@@ -155,3 +155,55 @@ fn two_measures_along_one_axis_are_no_front() {
         .counts("<circle", 20);
     drawn(&folder, "line.csv").says("response in out.svg");
 }
+
+/// For small deviations a measure is linear in the parameters, so derivatives and sample have the same effects.
+#[test]
+fn effects_from_derivatives_and_from_the_sample_agree() {
+    let sample = "[sample]\nn = 64\nmethod = \"sobol\"\n[sample.parameters]\nhinge_stiffness = { relative_sd = \"1 %\" }\n\
+                  drive_voltage_pp = { relative_sd = \"1 %\" }\nair_density = { relative_sd = \"1 %\" }\n\
+                  [output]\ncolumns = [\"lift_mean_mn\"]\n";
+    let gradient = "[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_stiffness\", \"drive_voltage_pp\"]\n";
+    let preset = "preset = \"ozaki2018-large\"\n";
+    let folder = Folder::with_grid(&format!("{preset}{sample}{gradient}"));
+    folder.ends(0, "sweep grid.toml --out columns.csv");
+    fs::write(folder.path("plain.toml"), format!("{preset}{sample}")).unwrap();
+    folder.ends(0, "sweep plain.toml --out plain.csv");
+    let effects = |file: &str| {
+        let ended =
+            folder.ends(0, &format!("plot {file} --kind tornado --derivatives --out out.svg --force"));
+        let cells = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<String>>();
+        let lines = ended.stdout.lines().skip(2).map(cells).collect::<Vec<_>>();
+        (lines, ended.stderr)
+    };
+    let number = |cells: &[String], from_end: usize| cells[cells.len() - from_end].parse::<f64>().unwrap();
+    // The sidecar has the model, so flap computes derivatives that the file lacks.
+    let (plain, said) = effects("plain.csv");
+    assert!(said.contains("derivatives are computed at the means of the parameters"), "{said}");
+    assert_eq!(plain[0], ["PARAMETER", "STANDARD", "DEVIATION", "UNIT", "DERIVATIVES", "SAMPLE"]);
+    assert_eq!(plain[1][0], "drive_voltage_pp");
+    assert_eq!(plain.last().unwrap()[..2], ["all", "together"]);
+    let largest = number(&plain[1], 1).abs();
+    for cells in &plain[1..] {
+        assert!((number(cells, 2) - number(cells, 1)).abs() < 0.05 * largest, "{cells:?}");
+    }
+    let (columns, said) = effects("columns.csv");
+    assert!(!said.contains("computed"), "{said}");
+    for name in ["drive_voltage_pp", "hinge_stiffness"] {
+        let of = |lines: &[Vec<String>]| number(lines.iter().find(|cells| cells[0] == name).unwrap(), 2);
+        assert!((of(&columns) - of(&plain)).abs() < 0.02 * largest, "{columns:?} {plain:?}");
+    }
+    let density = columns.iter().find(|cells| cells[0] == "air_density").unwrap();
+    assert_eq!(density[density.len() - 2], "none", "[gradient] leaves out the density");
+    // Three parameters with two bars each, and the axis at zero.
+    folder.ends(0, "plot plain.csv --kind tornado --derivatives --out out.svg --force");
+    let picture = folder.read("out.svg");
+    for text in
+        [">derivatives<", ">sample<", "Change for one standard deviation: Lift, mean (mN)", "64 designs"]
+    {
+        assert!(picture.contains(text), "{text}");
+    }
+    fs::remove_file(folder.path("plain.csv.meta.toml")).unwrap();
+    let ended = refused(&folder, &["plain.csv", "--kind", "tornado", "--derivatives"]);
+    ended.says("--derivatives requires derivatives of lift_mean_mn, or the sidecar of the results");
+    refused(&folder, &["columns.csv", "--derivatives"]).says("--derivatives requires --kind tornado");
+}

@@ -71,6 +71,14 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
+    /// For a tornado: print and draw the change of the measure for one standard deviation of each parameter, from derivatives and
+    /// from the sample
+    ///
+    /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no such columns, flap computes
+    /// the derivatives at the means of the parameters, with the sidecar of the results.
+    #[arg(long, conflicts_with = "html")]
+    pub(crate) derivatives: bool,
+
     /// Heading of the picture; '' draws no heading [default: the name of the file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
@@ -173,6 +181,7 @@ Examples:
   flap plot sweep.csv --kind pareto --x lift_mean_mn --y power_mean_mw --color drive_frequency
   flap plot sample.csv --kind histogram --x lift_mean_mn --out lift.png
   flap plot sample.csv --kind tornado --x efficiency_gf_per_w
+  flap plot sample.csv --kind tornado --derivatives --out effects.png
   flap plot loop.csv --y stroke_pp_deg --out loop.png --size 700x500
   flap plot loop.csv --y stroke_pp_deg --out loop.svg --size 84x60mm --font-size 8
   flap plot sweep.parquet --html sweep.html";

@@ -29,6 +29,9 @@ pub(crate) struct Source {
     sample: Vec<String>,
     /// Refined axes, if the sidecar lists refined axes.
     refined: Vec<RefinedAxis>,
+    /// The plan of the sidecar.
+    #[cfg_attr(not(feature = "plots"), expect(dead_code, reason = "only pictures use it"))]
+    plan: Option<Plan>,
     path: PathBuf,
     tells: bool,
 }
@@ -55,7 +58,7 @@ impl Source {
         let units = Units::of(plan.as_ref());
         let sample = plan.as_ref().map(sampled).unwrap_or_default();
         let refined = plan.as_ref().map(refined).unwrap_or_default();
-        Ok(Source { reader, units, sample, refined, path: path.to_owned(), tells })
+        Ok(Source { reader, units, sample, refined, plan, path: path.to_owned(), tells })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -86,6 +89,12 @@ impl Source {
             job::tell_missed(&self.path, &self.reader);
         }
         Ok(found)
+    }
+
+    /// Takes the plan of the sidecar, if there is one.
+    #[cfg(feature = "plots")]
+    pub(crate) fn take_plan(&mut self) -> Option<Plan> {
+        self.plan.take()
     }
 
     /// Returns the path of the file.

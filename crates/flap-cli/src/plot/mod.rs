@@ -1,6 +1,7 @@
 //! `flap plot`: draws results as pictures, and writes pages on which users explore results.
 
 mod canvas;
+mod effects;
 mod encode;
 mod histogram;
 mod hysteresis;
@@ -70,12 +71,17 @@ pub(crate) fn run(args: &PlotArgs) -> Result<Exit, Failure> {
 fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let format = encode::format(out)?;
     let canvas = Canvas::of(args)?;
-    let source = Source::open(&args.results, &args.read, true)?;
+    let mut source = Source::open(&args.results, &args.read, true)?;
+    let plan = source.take_plan();
     let request = Request::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
     let table = filters.read(source, |column| request.wants(column), usize::MAX)?;
     let selection = selection::select(&request, &table, heading(args))?;
-    let scene = draw(&table, &selection, canvas.size)?;
+    let scene = if args.derivatives {
+        effects::draw(&table, &selection, plan.as_ref(), canvas.size)?
+    } else {
+        draw(&table, &selection, canvas.size)?
+    };
     let bytes = encode::bytes(scene, format, &canvas).map_err(Failure::Bug)?;
     write(out, args.overwrite.force, &bytes)?;
     console::say(&format!("{} in {}", selection.columns.kind.name(), out.display()));

@@ -1,6 +1,7 @@
 //! Chooses the kind, the columns and the rows of a picture from the user's request and the file.
 
 use flap_sweep::picture::measures::{Role, usual};
+use flap_sweep::plan::gradient;
 use flap_sweep::study::control::COMPONENTS;
 
 use super::scale;
@@ -99,6 +100,7 @@ impl<'a> Request<'a> {
             // The columns before the time name the motions.
             || self.place("time_s").is_some_and(|time| column < time)
             || self.matrix().is_some()
+            || (self.args.derivatives && gradient::parts(&self.names[column]).is_some())
             || NEEDED.contains(&self.names[column].as_str())
     }
 
@@ -364,6 +366,7 @@ fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
             "--kind map, scatter or pareto",
         ),
         (!request.best_over.is_empty(), &[Map, Response], "--best-over requires", "--kind map or response"),
+        (request.args.derivatives, &[Tornado], "--derivatives requires", "--kind tornado"),
         (has_aims(request), &[Pareto], "--x-aim and --y-aim require", "--kind pareto"),
         (
             request.x.is_some(),
