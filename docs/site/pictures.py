@@ -29,7 +29,7 @@ REPOSITORY = Path(__file__).parents[2]
 DRIVE = {"drive_voltage_pp": "140 V", "drive_frequency": "120 Hz"}
 
 # Maps keep all of their colours: with few, their colour bars have steps.
-MAPS = ("best", "column", "control-matrix", "gaps", "heatmap")
+MAPS = ("best", "column", "control-matrix", "gaps", "heatmap", "hover-growth")
 
 
 def softened(volts: dict[str, str], highest: str, where: dict[str, str] | None = None) -> flapwing.Table:
@@ -252,6 +252,17 @@ def eigenvalues() -> Axes:
     return plot.eigenvalues(models)
 
 
+def hover_growth() -> Axes:
+    """The map of docs/how-to/hover.md: growth rates of hover over the height of the wings and the hinge."""
+    robot = hovering()
+    axes = {
+        "hinge_stiffness": {"from": 1.3e-6, "to": 1.7e-6, "n": 5},
+        "about_z": {"from": "-6 mm", "to": "-1 mm", "step": "0.5 mm"},
+    }
+    rows = flapwing.sweep({**robot, "vehicle": {**robot["vehicle"], "trim": "hover"}, "axes": axes})
+    return plot.heatmap(rows, "hover_growth_1_s", x="about_z", y="hinge_stiffness")
+
+
 def flights() -> dict[str, flapwing.Table]:
     """Flights with a linear-quadratic regulator, of the coupled motion and of the linear model."""
     import control
@@ -297,6 +308,7 @@ def main() -> None:
         "fit": fit(),
         "control-matrix": control_matrix(),
         "force-panels": force_panels(),
+        "hover-growth": hover_growth(),
     }
     for name, picture in pictures.items():
         figure = picture.get_figure(root=True)

@@ -15,6 +15,7 @@ mod experiments;
 mod formats;
 mod formulas;
 mod gradient;
+mod hover;
 mod inputs;
 mod irregular;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]

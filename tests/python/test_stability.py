@@ -1,4 +1,4 @@
-"""Damping matrices in the rows of a sweep, and eigenvalues of hover from these rows."""
+"""Damping matrices and hover in the rows of a sweep, and eigenvalues of hover from these rows."""
 
 import flapwing
 import numpy as np
@@ -49,7 +49,42 @@ def test_mistakes_of_damping_and_eigenvalues_have_help():
     with pytest.raises(flapwing.GridError, match="`damping` must be true or false"):
         flapwing.Grid(GRID.replace("DAMPING", 'damping = "yes"'))
     gradient = '[gradient]\nof = ["lift_mean_mn"]\nwith_respect_to = ["hinge_stiffness"]\n'
-    with pytest.raises(flapwing.GridError, match=r"cannot have \[gradient\]"):
+    with pytest.raises(flapwing.GridError, match=r"have no further derivatives"):
         flapwing.Grid(GRID.replace("DAMPING", "damping = true") + gradient)
     with pytest.raises(ValueError, match="set damping = true"):
         flapwing.hover_eigenvalues({"lift_mean_mn": np.ones(2)}, 69e-6, [1e-9, 1e-9, 1e-9])
+
+
+def test_rows_at_hover_have_the_numbers_of_the_linear_model():
+    place = ["0 mm", "2 mm", "0 mm"]
+    wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
+    body = {"body_inertia_roll": 1.5e-9, "body_inertia_pitch": 1.5e-9, "body_inertia_yaw": 0.5e-9}
+    design = {"preset": "jafferis2016", "params": {"drive_voltage_pp": 140.0, "drive_frequency": 120.0, **body}}
+    about = ["0 mm", "0 mm", "-3 mm"]
+    given = flapwing.Vehicle(design, wings, about=about, total_mass="69 mg")
+    hovering = flapwing.Vehicle(design, wings, about=about, total_mass="69 mg", trim="hover", damping=True)
+    row, model = flapwing.run(hovering), given.linear(trim=True)
+    growing = model.eigenvalues[0]
+    assert row["hover_growth_1_s"] == pytest.approx(growing.real, rel=1e-9)
+    assert row["hover_period_s"] == pytest.approx(2 * np.pi / abs(growing.imag), rel=1e-9)
+    assert row["d_torque_yaw_unm_per_si_body_rate_yaw"] * 1e-6 == pytest.approx(model.damping[5, 5], rel=1e-9)
+    for name, value in zip(model.inputs, model.input_values, strict=True):
+        assert row[f"hover_{name}_v"] == pytest.approx(value, rel=1e-9, abs=1e-12)
+    # The vehicle at hover begins its linear model and its flight at hover.
+    assert abs(hovering.linear().residual[2]) < 1e-5 * 69e-6 * 9.81 < abs(given.linear().residual[2])
+    with pytest.raises(ValueError, match="remove trim and damping from the vehicle"):
+        flapwing.evaluate(hovering, {"drive_frequency": [120.0]}, gradient=["hinge_stiffness"])
+    best = flapwing.sweep({**hovering, "axes": {"about_z": ["-1 mm", "-3 mm", "-5 mm"]}})
+    assert np.argmin(best["hover_growth_1_s"]) == 1
+
+
+def test_mistakes_of_trims_have_help():
+    grid = GRID.replace("DAMPING", 'trim = "hover"')
+    with pytest.raises(flapwing.GridError, match="rows at hover require total_mass"):
+        flapwing.Grid(grid)
+    with pytest.raises(flapwing.GridError, match="`trim` has no option `hovr`"):
+        flapwing.Grid(grid.replace("hover", "hovr"))
+    derived = '[derived]\ndrive_voltage_pp = "1e8 * hinge_stiffness"\n'
+    massive = grid.replace("drive_voltage_pp = 140.0\n", "").replace("trim =", 'total_mass = "69 mg"\ntrim =')
+    with pytest.raises(flapwing.GridError, match="changes drive_voltage_pp, which is derived"):
+        flapwing.Grid(massive + derived)

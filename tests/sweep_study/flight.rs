@@ -6,8 +6,8 @@ use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{SolverSettings, never};
 use flap_sweep::plan::Plan;
-use flap_sweep::study::control::{Flight, Input};
-use flap_sweep::study::flight::{FED_BACK, FlightError, FlightRecord, FlightRequest, fly};
+use flap_sweep::vehicle::control::{Flight, Input};
+use flap_sweep::vehicle::flight::{FED_BACK, FlightError, FlightRecord, FlightRequest, fly};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 
 use crate::support::plan;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use flap_core::vehicle::MassProperties;
-use flap_sweep::study::hover::HoverModel;
+use flap_sweep::vehicle::hover::HoverModel;
 use nalgebra::{Complex, DMatrix, Matrix6};
 
 /// The rows of a table in `tests/data/body`: numbers by column, below case and mode.

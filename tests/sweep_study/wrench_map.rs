@@ -7,8 +7,8 @@ use std::num::NonZeroUsize;
 use flap_core::simulate::{Status, never};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
-use flap_sweep::study::control::{Flight, Input};
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError};
+use flap_sweep::vehicle::control::{Flight, Input};
 
 use crate::support::{bits, plan};
 

@@ -157,6 +157,9 @@ fn refused(error: &ChangeError) -> PyErr {
             "the grid runs each design at its resonance, which excludes derivatives and initial states\n\
              set drive_frequency to a number, or follow it",
         ),
+        ChangeError::OfBody => {
+            PyValueError::new_err(format!("{error}\nremove trim and damping from the vehicle"))
+        }
         ChangeError::States(states, points) => {
             let message = format!(
                 "`initial_state` has {states} rows for {points} points\nit must have one row per point"

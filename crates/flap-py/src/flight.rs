@@ -1,9 +1,9 @@
 //! Flight of a vehicle over time.
 
 use flap_core::simulate::Trajectory;
-use flap_sweep::study::control::Flight;
-use flap_sweep::study::flight::{self, FED_BACK, FlightError, FlightRequest};
-use flap_sweep::study::hover::STATES;
+use flap_sweep::vehicle::control::Flight;
+use flap_sweep::vehicle::flight::{self, FED_BACK, FlightError, FlightRequest};
+use flap_sweep::vehicle::hover::STATES;
 use nalgebra::DMatrix;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -30,7 +30,7 @@ pub(crate) fn fly<'py>(
     averaged: bool,
     samples: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
+    let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
     let vehicle = (chosen.plan.vehicle())
         .ok_or_else(|| PyValueError::new_err("the design has one wing\nit must be a vehicle"))?;
     let mut start = [0.0; FED_BACK];

@@ -2,9 +2,8 @@
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::files::linear_model::LinearModel;
-use flap_sweep::notation::text;
-use flap_sweep::study::control::{Flight, Input, trim};
-use flap_sweep::study::hover::{self, component};
+use flap_sweep::vehicle::control::{Flight, Input, trim};
+use flap_sweep::vehicle::hover::{self, component};
 use nalgebra::DMatrix;
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -26,12 +25,12 @@ pub(crate) fn linear<'py>(
     trim_to_hover: bool,
     positions: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let chosen = Chosen::new(design, keywords, point, None)?.possible()?;
+    let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
     let vehicle = (chosen.plan.vehicle())
         .ok_or_else(|| PyValueError::new_err("the design has one wing\nit must be a vehicle"))?;
     let is_usual = inputs.is_none();
     let inputs = match inputs {
-        None => Input::usual(vehicle, has_harmonics(&chosen)),
+        None => Input::usual(vehicle, &chosen.values),
         Some(names) => named(vehicle, &names)?,
     };
     let targets = match trim_to_hover.then(|| hover::targets(&vehicle.mass_properties(&chosen.values))) {
@@ -55,12 +54,6 @@ pub(crate) fn linear<'py>(
         LinearModel::at(&flight, &values, &at, positions, design).map_err(|error| error.to_string())
     })?;
     into_python(py, &model.map_err(PyValueError::new_err)?)
-}
-
-fn has_harmonics(chosen: &Chosen) -> bool {
-    let mut values = chosen.plan.parameters().iter().zip(&chosen.values);
-    let shape = values.find(|(parameter, _)| parameter.name == "drive_shape");
-    shape.and_then(|(parameter, value)| text::option(parameter, *value)) == Some("harmonics")
 }
 
 pub(crate) fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {

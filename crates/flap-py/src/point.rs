@@ -83,6 +83,20 @@ impl Chosen {
         Ok(chosen)
     }
 
+    /// Returns the point, or an error if it cannot be run. If rows are computed at hover, searches the inputs of hover.
+    pub(crate) fn at_hover(self, py: Python<'_>) -> PyResult<Chosen> {
+        let mut chosen = self.possible()?;
+        let found = interruptible(py, |interrupted| {
+            let body = chosen.plan.body()?;
+            body.trim(chosen.plan.solver(), &chosen.values, interrupted)
+        })?;
+        if let Some(found) = found {
+            let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
+            chosen.values = found.applied(&chosen.values);
+        }
+        Ok(chosen)
+    }
+
     /// Returns the information for running the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)

@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+use flap_sweep::derivative::{Per, column_name};
 use flap_sweep::files::job::{self, Begin, Begun, Job};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::gradient::{Gradient, Per, column_name};
+use flap_sweep::plan::gradient::Gradient;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::{self, Chunk, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;

@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use flap_sweep::study::control::{COMPONENTS, ControlInputError, Input};
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
+use flap_sweep::vehicle::control::{COMPONENTS, ControlInputError, Input};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{PointRun, Rows, Simulator};
+use flap_core::simulate::{PointRun, Rows, Simulator, never};
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
+use flap_sweep::vehicle::BodyRows;
 
 use crate::args::{PointArgs, SolverArgs};
 use crate::console;
@@ -70,6 +71,7 @@ impl Chosen {
         }
         let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set, set_with_unit };
         chosen.find_resonance()?;
+        chosen.find_hover()?;
         Ok(chosen)
     }
 
@@ -90,6 +92,19 @@ impl Chosen {
         })?;
         self.values[index] = found;
         console::say(&format!("{DRIVE_FREQUENCY} = {} Hz, the resonance", six_digits(found)));
+        Ok(())
+    }
+
+    /// If rows are computed at hover, searches the inputs of hover.
+    fn find_hover(&mut self) -> Result<(), Failure> {
+        let trim = |body: &BodyRows| body.trim(self.plan.solver(), &self.values, &never);
+        let Some(found) = self.plan.body().and_then(trim) else { return Ok(()) };
+        let found = found?;
+        let inputs = found.inputs.iter().zip(&found.values);
+        let inputs =
+            inputs.map(|(input, value)| format!("{} = {} {}", input.name, six_digits(*value), input.unit));
+        console::say(&format!("{}: the vehicle hovers", inputs.collect::<Vec<_>>().join(", ")));
+        self.values = found.applied(&self.values);
         Ok(())
     }
 

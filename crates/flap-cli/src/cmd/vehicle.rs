@@ -11,7 +11,7 @@ use flap_core::simulate::{NoSlope, never};
 use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
-use flap_sweep::study::control::{
+use flap_sweep::vehicle::control::{
     COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, TrimError, trim,
 };
 
@@ -115,12 +115,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
 /// Returns the inputs that the command line selects, or the default inputs.
 fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<Input>, Failure> {
     if names.is_empty() {
-        let parameters = chosen.plan.parameters().iter().zip(&chosen.values);
-        let shape = parameters.filter(|(parameter, _)| parameter.name == "drive_shape");
-        let has_harmonics = shape
-            .filter_map(|(parameter, value)| text::option(parameter, *value))
-            .any(|shape| shape == "harmonics");
-        return Ok(Input::usual(vehicle, has_harmonics));
+        return Ok(Input::usual(vehicle, &chosen.values));
     }
     let mut inputs: Vec<Input> = Vec::new();
     for name in names {

@@ -1,8 +1,8 @@
 //! The control matrix of a vehicle: numbers on colours that show their relative size.
 
 use flap_sweep::picture::colours::MISSING;
-use flap_sweep::study::control::COMPONENTS;
 use flap_sweep::table::labels;
+use flap_sweep::vehicle::control::COMPONENTS;
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene, TextAnchor};

@@ -2,7 +2,7 @@
 
 use flap_sweep::picture::measures::{Role, usual};
 use flap_sweep::plan::gradient;
-use flap_sweep::study::control::COMPONENTS;
+use flap_sweep::vehicle::control::COMPONENTS;
 
 use super::scale;
 use super::slices::{self, Taken};

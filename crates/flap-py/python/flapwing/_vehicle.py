@@ -137,6 +137,12 @@ class Vehicle(_Entries):
     total_mass : float or str, optional
         The mass of the whole vehicle, which determines the column `lift_to_weight`: a number in kilograms, or text such
         as ``"85 mg"``.
+    trim : str, optional
+        ``"hover"`` to compute each design at hover: flap searches the inputs with which the lift is the weight and all
+        torques are zero. Rows then also have the growth rate and the period of the mode of hover that grows fastest,
+        and the inputs. Requires `total_mass`.
+    damping : bool
+        True for rows with the 36 derivatives of mean force and torque with respect to velocity and rates of the body.
 
     Raises
     ------
@@ -169,6 +175,8 @@ class Vehicle(_Entries):
         *,
         about: Sequence[Value] | None = None,
         total_mass: Value | None = None,
+        trim: str | None = None,
+        damping: bool = False,
     ) -> None:
         self._held = _design(design)
         vehicle: dict[str, Any] = {}
@@ -176,6 +184,10 @@ class Vehicle(_Entries):
             vehicle["about"] = _vector("about", about)
         if total_mass is not None:
             vehicle["total_mass"] = total_mass
+        if trim is not None:
+            vehicle["trim"] = trim
+        if damping:
+            vehicle["damping"] = damping
         vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
         self._held["vehicle"] = vehicle
         # This call reports mistakes with their place.

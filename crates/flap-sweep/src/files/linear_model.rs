@@ -9,8 +9,8 @@ use nalgebra::DMatrix;
 
 use super::matlab::{self, Variable};
 use crate::notation::text;
-use crate::study::control::{Effectiveness, Flight};
-use crate::study::hover::{HoverError, HoverModel, HoverWarning, STATES, WRENCH_UNITS, component};
+use crate::vehicle::control::{Effectiveness, Flight};
+use crate::vehicle::hover::{HoverError, HoverModel, HoverWarning, STATES, WRENCH_UNITS, component};
 
 /// Input of a linear model, in SI units.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,7 @@
 //! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
 
-use std::ops::Range;
-
-use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
-use flap_core::vehicle::{FORCES, TORQUES};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -13,9 +9,10 @@ use super::formula::Names;
 use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
+use crate::derivative::Per;
 use crate::notation::expression::Kind;
 use crate::plan::formula::Derived;
-use crate::plan::gradient::{Gradient, Per, check};
+use crate::plan::gradient::{Gradient, check};
 
 pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
@@ -27,6 +24,7 @@ pub(super) fn read(
     names: &Names<'_>,
     derived: &Derived,
     at_resonance: bool,
+    of_body: bool,
     problems: &mut Problems,
 ) -> Option<Gradient> {
     let entry = entry?;
@@ -37,6 +35,14 @@ pub(super) fn read(
             .report(entry.key_span.clone(), "rows at the resonance of each design have no derivatives")
             .note("the resonance changes with the design, and flap does not compute this change")
             .help("set drive_frequency, or remove [gradient]");
+    }
+    if of_body {
+        problems
+            .report(
+                entry.key_span.clone(),
+                "rows at hover, and rows with the damping matrix, have no further derivatives",
+            )
+            .help("remove [gradient], or remove trim and damping from [vehicle]");
     }
     if let Err(error) = simulator.gradients() {
         problems.report(entry.key_span.clone(), error.to_string());
@@ -54,45 +60,6 @@ pub(super) fn read(
         parameter(name, item, names, derived, problems)
     });
     Some(Gradient { of, with_respect_to, per: Per::Cent })
-}
-
-/// Returns the derivatives of the mean wrench with respect to velocity and rates of the body: the damping matrix of a vehicle.
-///
-/// `at` is the position of the key that requests the matrix, `section` the section `[gradient]`.
-pub(super) fn damping(
-    at: &Range<usize>,
-    section: Option<&Entry<'_>>,
-    simulator: &dyn Simulator,
-    names: &Names<'_>,
-    at_resonance: bool,
-    problems: &mut Problems,
-) -> Option<Gradient> {
-    if let Some(section) = section {
-        problems
-            .report(
-                section.key_span.clone(),
-                "a grid with damping = true in [vehicle] cannot have [gradient]",
-            )
-            .help("remove one of the two");
-    }
-    if at_resonance {
-        problems
-            .report(at.clone(), "rows at the resonance of each design have no damping matrix")
-            .help("set drive_frequency, or remove damping");
-    }
-    if let Err(error) = simulator.gradients() {
-        problems.report(at.clone(), error.to_string());
-    }
-    let motion = BodyParameters::MOTION.map(|name| Parameter::index(names.parameters, name));
-    let Some(with_respect_to) = motion.into_iter().collect::<Option<Vec<usize>>>() else {
-        problems
-            .report(at.clone(), format!("the model {} has no motion of the body", simulator.name()))
-            .help("remove damping, or choose a preset of another model");
-        return None;
-    };
-    let place = |name: &str| names.columns.iter().position(|column| column.name == name);
-    let of = FORCES.into_iter().chain(TORQUES).map(place).collect::<Option<Vec<usize>>>()?;
-    Some(Gradient { of, with_respect_to, per: Per::Unit })
 }
 
 /// Returns the indices of the names in a list. `index` returns the index of a name, or reports an unknown name.

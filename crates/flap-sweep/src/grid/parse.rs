@@ -23,6 +23,7 @@ use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
 use crate::plan::{Differences, Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
+use crate::vehicle::BodyRows;
 
 /// Checks the grid file `text` and returns its plan. Presets are looked up in `models`; `name` appears in messages.
 ///
@@ -67,19 +68,25 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         output::read(output_entry, None, &mut problems);
         return Err(problems.into_mistakes());
     };
-    let damping = settings.damping.clone();
     let (robot, preset) = (start.base.robot.clone(), start.base.preset);
     let simulator = &*robot;
-    let Points { base, differences, axes, sample_file, resonance, derived, conditions, unreached, mut names } =
-        read_points(&root, start, simulator, settings, reader.models, &mut problems);
+    let Points {
+        base,
+        differences,
+        axes,
+        sample_file,
+        resonance,
+        body,
+        derived,
+        conditions,
+        unreached,
+        mut names,
+    } = read_points(&root, start, simulator, settings, reader.models, &mut problems);
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
-    let at_resonance = resonance.is_some();
-    let gradient = match &damping {
-        Some(at) => gradient::damping(at, section, simulator, &names, at_resonance, &mut problems),
-        None => gradient::read(section, simulator, &names, &derived, at_resonance, &mut problems),
-    };
+    let (at_resonance, of_body) = (resonance.is_some(), body.is_some());
+    let gradient = gradient::read(section, simulator, &names, &derived, at_resonance, of_body, &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
     let refine = table::find(&root, "refine").and_then(|section| {
@@ -100,6 +107,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     Ok(Plan::new(Space {
         robot: base.robot,
         resonance,
+        body,
         preset: preset.name,
         base: base.values,
         with_units: base.with_units,
@@ -127,6 +135,7 @@ struct Points<'n> {
     axes: Vec<axes::Placed>,
     sample_file: Option<PointsFile>,
     resonance: Option<AtResonance>,
+    body: Option<BodyRows>,
     derived: Derived,
     conditions: Vec<Condition>,
     /// Parameters of all wings that the grid sets without effect, because each wing has its own value.
@@ -177,11 +186,12 @@ fn read_points<'n>(
     let moved: Vec<usize> = moved.chain(drafts.iter().map(|draft| draft.parameter)).collect();
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
+    let is_set = |parameter: usize| base.values[parameter].given().is_some() || moved.contains(&parameter);
+    let is_derived = |parameter: usize| drafts.iter().any(|draft| draft.parameter == parameter);
+    let body = settings.body_rows(&base, is_set, is_derived, problems);
     settings.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
-    let unreached = base.robot.vehicle().map_or_else(Vec::new, |vehicle| {
-        let is_own = |own: usize| base.values[own].given().is_some() || moved.contains(&own);
-        vehicle::unreached(vehicle, &chosen, is_own)
-    });
+    let unreached =
+        base.robot.vehicle().map_or_else(Vec::new, |vehicle| vehicle::unreached(vehicle, &chosen, is_set));
 
     let is_vehicle = base.robot.vehicle().is_some();
     let resonance = resonance::read(root, base.robot.model(), is_vehicle, &mut base.values, problems);
@@ -193,12 +203,16 @@ fn read_points<'n>(
     let parameters = simulator.parameters();
     let preset = presets.into_iter().map(|preset| Value::of_preset(simulator, preset)).collect();
     let device = (!base.devices.is_empty()).then_some(designs);
-    let columns =
-        resonance.as_ref().map_or_else(|| simulator.columns(), |resonance| resonance.columns()).to_vec();
+    let columns = match (&resonance, &body) {
+        (Some(resonance), _) => resonance.columns(),
+        (None, Some(body)) => body.columns(),
+        (None, None) => simulator.columns(),
+    };
+    let columns = columns.to_vec();
     let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
     let derived = formula::read_derived(&drafts, &names, problems);
     let conditions = formula::read_conditions(table::find(root, "where"), &names, problems);
-    Points { base, differences, axes, sample_file, resonance, derived, conditions, unreached, names }
+    Points { base, differences, axes, sample_file, resonance, body, derived, conditions, unreached, names }
 }
 
 /// Returns the values of parameters that are not sampled. These values are the default means of normal distributions.

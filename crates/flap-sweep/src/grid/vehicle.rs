@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use std::sync::Arc;
 
+use flap_core::body::BodyParameters;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MOST_WINGS, Mount, Vehicle, VehicleError};
@@ -17,10 +18,13 @@ use super::table::{self, Entry};
 use super::{uncertainty, value};
 use crate::plan::{Robot, Value};
 use crate::resonance::DRIVE_FREQUENCY;
+use crate::vehicle::BodyRows;
+use crate::vehicle::control::Input;
 
-pub(super) const KEYS: [&str; 9] = [
+pub(super) const KEYS: [&str; 10] = [
     "about",
     "damping",
+    "trim",
     "total_mass",
     "body_inertia_roll",
     "body_inertia_pitch",
@@ -36,6 +40,9 @@ pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
 /// Body axes: last parts of the names of parameters.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Value of the key `trim`.
+pub(super) const HOVER: &str = "hover";
+
 /// Group of the parameters that are the same for all wings and the grid, even if wings have their own design.
 const DRIVE: &str = "drive";
 
@@ -45,16 +52,64 @@ pub(super) struct VehicleSettings {
     /// Parameters that the section sets, with the positions of their entries.
     pub(super) set: Vec<(usize, Range<usize>)>,
     /// Position of the key `damping` if rows have the damping matrix.
-    pub(super) damping: Option<Range<usize>>,
+    damping: Option<Range<usize>>,
+    /// Position of the key `trim` if rows are computed at hover.
+    trim: Option<Range<usize>>,
     /// Wings whose design has a different drive frequency from the grid, each with a position in the file and a
     /// message.
     frequencies: Vec<(Range<usize>, String)>,
 }
 
+/// Mass of the vehicle, which determines the lift at hover.
+const TOTAL_MASS: &str = "total_mass";
+
 impl VehicleSettings {
     /// Adds the mistakes of the same section with another design.
     pub(super) fn append(&mut self, other: VehicleSettings) {
         self.frequencies.extend(other.frequencies);
+    }
+
+    /// Returns the source of rows at hover or with the damping matrix, if the section requests such rows.
+    ///
+    /// `is_set` returns true for a parameter with a value, and `is_derived` for a parameter that formulas determine.
+    pub(super) fn body_rows(
+        &self,
+        base: &Base,
+        is_set: impl Fn(usize) -> bool,
+        is_derived: impl Fn(usize) -> bool,
+        problems: &mut Problems,
+    ) -> Option<BodyRows> {
+        let asked = self.trim.as_ref().or(self.damping.as_ref())?;
+        let Robot::Vehicle(vehicle) = &base.robot else {
+            problems
+                .report(asked.clone(), "rows at hover, and rows with the damping matrix, are for one design")
+                .help("write a grid file for each device");
+            return None;
+        };
+        let index = |name: &str| Parameter::index(vehicle.parameters(), name);
+        if index(BodyParameters::MOTION[0]).is_none() {
+            problems
+                .report(asked.clone(), format!("the model {} has no motion of the body", vehicle.name()))
+                .help("remove damping and trim, or choose a preset of another model");
+            return None;
+        }
+        let inputs = self.trim.as_ref().map(|trim| {
+            if !index(TOTAL_MASS).is_some_and(is_set) {
+                problems
+                    .report(trim.clone(), "rows at hover require total_mass")
+                    .help("write total_mass = \"85 mg\" in [vehicle]");
+            }
+            let values: Vec<f64> = base.values.iter().map(|value| value.in_point()).collect();
+            let inputs = Input::usual(vehicle, &values);
+            for input in inputs.iter().filter(|input| is_derived(input.parameter)) {
+                let name = vehicle.parameters()[input.parameter].name;
+                problems
+                    .report(trim.clone(), format!("the search for hover changes {name}, which is derived"))
+                    .help(format!("remove {name} from [derived]"));
+            }
+            inputs
+        });
+        Some(BodyRows::new(Arc::clone(vehicle), inputs, self.damping.is_some()))
     }
 
     /// Reports wings with other drive frequencies, unless the grid `sets` the frequency of all wings.
@@ -121,7 +176,12 @@ pub(super) fn read(
             }
         }
     }
-    for name in KEYS.into_iter().filter(|key| !["about", "damping", "wings"].contains(key)) {
+    if let Some(entry) = table::find(&entries, "trim")
+        && value::option("trim", &[HOVER], entry.value, own.problems).is_some()
+    {
+        own.settings.trim = Some(entry.key_span.clone());
+    }
+    for name in KEYS.into_iter().filter(|key| !["about", "damping", "trim", "wings"].contains(key)) {
         if let Some(entry) = table::find(&entries, name) {
             own.number(name, entry);
         }

@@ -9,10 +9,11 @@ use flap_core::vehicle::of_all_wings;
 use super::Plan;
 use super::axes::{Along, Axes, Axis, TooManyPoints, Values};
 use super::formula::{Condition, Derived, OwnMeasure};
-use super::gradient::{self, Gradient, NoShares, Per};
+use super::gradient::{self, Gradient, NoShares};
 use super::robot::Differences;
 use super::selection::{Selection, Shard};
 use super::value::Value;
+use crate::derivative::Per;
 use crate::notation::expression;
 use crate::notation::value::{self, ValueError};
 
@@ -57,6 +58,9 @@ pub enum ChangeError {
     /// Rows at the resonance of each design have neither derivatives nor initial states.
     #[error("each design runs at its own resonance, so rows have neither derivatives nor states")]
     AtResonance,
+    /// Rows at hover, and rows with the damping matrix, have neither derivatives nor initial states.
+    #[error("rows at hover, and rows with the damping matrix, have neither derivatives nor states")]
+    OfBody,
     /// The model computes only rows, for the contained reason.
     #[error("{0}")]
     NoMotions(String),
@@ -129,7 +133,7 @@ impl Plan {
     ///
     /// # Errors
     /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives
-    /// - [`ChangeError::AtResonance`]
+    /// - [`ChangeError::AtResonance`], [`ChangeError::OfBody`]
     /// - [`ChangeError::NoMotions`]
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
@@ -168,7 +172,7 @@ impl Plan {
     ///
     /// # Errors
     /// - [`ChangeError::States`] if the number of states differs from the number of points
-    /// - [`ChangeError::AtResonance`]
+    /// - [`ChangeError::AtResonance`], [`ChangeError::OfBody`]
     /// - [`ChangeError::NoMotions`]
     pub fn begun_at(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
@@ -184,7 +188,7 @@ impl Plan {
     /// begin.
     ///
     /// # Errors
-    /// [`ChangeError::AtResonance`], [`ChangeError::NoMotions`].
+    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`], [`ChangeError::NoMotions`].
     pub fn with_states(mut self) -> Result<Plan, ChangeError> {
         self.states = self.check_motions()?;
         Ok(self)
@@ -363,6 +367,9 @@ impl Plan {
     fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
         if self.resonance().is_some() {
             return Err(ChangeError::AtResonance);
+        }
+        if self.body().is_some() {
+            return Err(ChangeError::OfBody);
         }
         let gradients = self.simulator().gradients();
         gradients.map(Gradients::states).map_err(|error| ChangeError::NoMotions(error.to_string()))

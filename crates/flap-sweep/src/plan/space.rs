@@ -20,6 +20,7 @@ use super::selection::Selection;
 use super::uncertainty::Uncertainty;
 use super::value::{Value, WithUnits};
 use crate::resonance::AtResonance;
+use crate::vehicle::BodyRows;
 
 /// A checked design space, and the settings for running its points.
 ///
@@ -45,6 +46,8 @@ pub(crate) struct Space {
     pub(crate) robot: Robot,
     /// Search for resonances, if each design is run at its own resonance.
     pub(crate) resonance: Option<AtResonance>,
+    /// Rows at hover or with the damping matrix, if the vehicle has such rows.
+    pub(crate) body: Option<BodyRows>,
     /// Name of the preset.
     pub(crate) preset: &'static str,
     /// Value of each parameter: the value of the preset or the device, or of `[params]`.
@@ -119,12 +122,23 @@ impl Plan {
         self.space.resonance.as_ref()
     }
 
-    /// Returns the source of rows: the model, or the model at the resonance of each design.
+    /// Returns the source of rows at hover or with the damping matrix, if the vehicle has such rows.
+    pub fn body(&self) -> Option<&BodyRows> {
+        self.space.body.as_ref()
+    }
+
+    /// Returns the source of rows: the model or vehicle, or the source that searches the resonance or hover of each design.
     pub fn rows(&self) -> &dyn Rows {
-        match self.resonance() {
-            Some(resonance) => resonance,
-            None => self.simulator(),
+        match (self.resonance(), self.body()) {
+            (Some(resonance), _) => resonance,
+            (None, Some(body)) => body,
+            (None, None) => self.simulator(),
         }
+    }
+
+    /// Returns true if the model or vehicle computes the rows itself, so that derivatives and initial states are possible.
+    pub fn is_direct(&self) -> bool {
+        self.resonance().is_none() && self.body().is_none()
     }
 
     /// Returns the name of the preset; empty if the plan has none.
@@ -304,7 +318,7 @@ impl Plan {
 
     /// Adds the measures of the plan to the measures of a row, if the point has measures.
     pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
-        // A row of the model at a known resonance lacks the columns about this resonance.
+        // A row of the model at a known resonance, or of a vehicle at a known trim, lacks the columns about it.
         if self.measures().is_empty() || measures.len() != self.rows().columns().len() {
             return;
         }

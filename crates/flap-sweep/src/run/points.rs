@@ -8,7 +8,8 @@ use flap_core::vehicle::standing;
 use serde::{Deserialize, Serialize};
 
 use super::{Run, RunError, RunOptions, Worker};
-use crate::plan::gradient::{Gradient, Per, is_least, moved, size};
+use crate::derivative::{Per, is_least, moved, size};
+use crate::plan::gradient::Gradient;
 use crate::plan::{Admission, Plan};
 
 /// Result of running a point, or a design with a curve.

@@ -1,13 +1,10 @@
-//! Studies of a plan: response curves, control effectiveness of vehicles, deviations of parameters, linked parameters.
+//! Studies of a plan: response curves, deviations of parameters, linked parameters.
 //!
 //! Further studies are most important parameters, effects of terms, surveys, optima, and quadratic maps of vehicles.
 //! The module also contains experiments on single points.
 
-pub mod control;
 pub mod deviation;
 pub mod experiment;
-pub mod flight;
-pub mod hover;
 pub mod linked;
 pub mod optimum;
 pub mod response;

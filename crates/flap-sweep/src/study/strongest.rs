@@ -3,8 +3,8 @@
 use flap_core::parameter::{Kind, Range};
 use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};
 
+use crate::derivative::{moved, size};
 use crate::plan::Plan;
-use crate::plan::gradient::{moved, size};
 
 /// Derivatives of a measure with respect to all parameters that can change.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,11 +10,11 @@
 use flap_core::simulate::{Row, Rows as _, Status};
 use nalgebra::{DMatrix, DVector};
 
-use super::control::{COMPONENTS, Input};
 use crate::notation::text;
 use crate::plan::sample::{Design, Distribution, Method};
 use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
+use crate::vehicle::control::{COMPONENTS, Input};
 
 /// Number of rows of which one row is left out of the fit.
 const LEFT_OUT: usize = 5;

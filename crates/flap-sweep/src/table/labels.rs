@@ -7,7 +7,7 @@ use flap_core::simulate::Simulator;
 use flap_core::vehicle::FORCES;
 
 use super::layout;
-use crate::plan::gradient;
+use crate::derivative;
 
 /// Label of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,9 +56,9 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
 /// names, the ending of the name determines the unit.
 pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
     let of_model = |name| unit_in_models(name, models);
-    let derivative = gradient::parts(column).and_then(|(of, by, per)| {
-        let is_known = per == gradient::Per::Cent || of_model(by).is_some();
-        is_known.then(|| gradient::unit(&unit_of(of, models), of_model(by).unwrap_or_default(), per))
+    let derivative = derivative::parts(column).and_then(|(of, by, per)| {
+        let is_known = per == derivative::Per::Cent || of_model(by).is_some();
+        is_known.then(|| derivative::unit(&unit_of(of, models), of_model(by).unwrap_or_default(), per))
     });
     derivative
         .map_or_else(|| of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(), Cow::from)

@@ -6,9 +6,9 @@ use std::sync::LazyLock;
 use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{NoSlope, Point, Row};
 
+use crate::derivative::{self, column_name, meaning};
 use crate::notation::{expression, text};
 use crate::plan::Plan;
-use crate::plan::gradient::{self, column_name, meaning};
 
 /// Columns of the rows of a plan.
 ///
@@ -178,7 +178,7 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
     let columns = gradient.pairs().map(|(of, by)| {
         let ((of, unit), by) = (name(of), &plan.parameters()[by]);
         let doc = meaning(of, unit, by.name, gradient.per);
-        let per = gradient::unit(unit, by.unit, gradient.per);
+        let per = derivative::unit(unit, by.unit, gradient.per);
         Column::new(&column_name(of, by.name, gradient.per), per, CellKind::Number, &doc)
     });
     let columns = columns.chain([gradient_gap()]).enumerate();

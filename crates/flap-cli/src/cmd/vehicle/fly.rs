@@ -2,9 +2,9 @@
 
 use flap_core::simulate::Trajectory;
 use flap_sweep::notation::units;
-use flap_sweep::study::control::{Flight, Input};
-use flap_sweep::study::flight::{FED_BACK, FlightError, FlightRequest, fly};
-use flap_sweep::study::hover::STATES;
+use flap_sweep::vehicle::control::{Flight, Input};
+use flap_sweep::vehicle::flight::{FED_BACK, FlightError, FlightRequest, fly};
+use flap_sweep::vehicle::hover::STATES;
 
 use crate::args::VehicleArgs;
 use crate::console;

@@ -9,8 +9,8 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::study::control::{Effectiveness, Flight, Target};
-use flap_sweep::study::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
+use flap_sweep::vehicle::control::{Effectiveness, Flight, Target};
+use flap_sweep::vehicle::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
 use nalgebra::Matrix6;
 
 use super::super::outputs;
@@ -191,6 +191,9 @@ impl From<HoverError> for Failure {
     fn from(error: HoverError) -> Failure {
         let help = match &error {
             HoverError::Control(error) => return error.clone().into(),
+            HoverError::Trim(_) => {
+                "start closer to hover: set the drive with --set, or total_mass. `flap vehicle` prints the effect of each input"
+            }
             HoverError::Missing(_) => {
                 "add the numbers to [vehicle], or use --set, as in --set total_mass='85 mg' --set body_inertia_roll='1.5e-9 kg*m^2'"
             }

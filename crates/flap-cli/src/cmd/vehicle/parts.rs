@@ -2,7 +2,7 @@
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::grid;
-use flap_sweep::study::control::{ControlInputError, Input};
+use flap_sweep::vehicle::control::{ControlInputError, Input};
 
 use super::super::point::Chosen;
 use crate::failure::Failure;

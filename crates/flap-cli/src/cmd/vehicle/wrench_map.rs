@@ -6,8 +6,8 @@ use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text::{self, count};
 use flap_sweep::notation::units::prefixed;
 use flap_sweep::run::RunOptions;
-use flap_sweep::study::control::COMPONENTS;
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
+use flap_sweep::vehicle::control::COMPONENTS;
 use serde_json::{Value, json};
 
 use super::parts::{HEADINGS, input, tidy, title};

@@ -5,7 +5,7 @@ use flap_core::vehicle::MOST_WINGS;
 use serde_json::{Map, Value, json};
 
 use crate::grid::uncertainty::VALUE_KEYS;
-use crate::grid::vehicle::{KEYS, PLANE_KEYS, WING_KEYS};
+use crate::grid::vehicle::{HOVER, KEYS, PLANE_KEYS, WING_KEYS};
 use crate::grid::{refine, resonance};
 use crate::plan::refine::Refine;
 use crate::resonance::{Objective, Range};
@@ -225,6 +225,10 @@ pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
         "damping" => json!({
             "description": "True for rows with the damping matrix: derivatives of force and torque with respect to velocity and rates of the body.",
             "type": "boolean", "default": false,
+        }),
+        "trim" => json!({
+            "description": "\"hover\" for rows at hover: flap searches the inputs with which the lift is the weight and all torques are zero.",
+            "enum": [HOVER],
         }),
         "wings" => json!({
             "description": "The wings of the vehicle, each in its own table [[vehicle.wings]].",

@@ -12,8 +12,8 @@ use crate::run::{Outcome, RunError, RunOptions, alone};
 /// The step of the differences, in coordinates, that replace a missing derivative of a row.
 const STEP: f64 = 2e-3;
 
-/// The same setting for designs at their resonance, because the resonance frequency has an error.
-const STEP_AT_RESONANCE: f64 = 2e-2;
+/// The same for designs at their resonance or at hover, because both searches have an error.
+const STEP_OF_SEARCH: f64 = 2e-2;
 
 /// A point of the region with its row.
 #[derive(Clone, Debug)]
@@ -230,7 +230,7 @@ impl<'p> Evaluator<'p> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()
         };
         let here = quantities(trial);
-        let step = if self.problem.plan.resonance().is_some() { STEP_AT_RESONANCE } else { STEP };
+        let step = if self.problem.plan.is_direct() { STEP } else { STEP_OF_SEARCH };
         for step in [step, -step] {
             let mut moved = trial.coordinates.clone();
             moved[number] += step;

@@ -4,7 +4,7 @@
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
 use flap_core::vehicle::{Mount, Vehicle};
-use flap_sweep::plan::gradient::{meaning, parts};
+use flap_sweep::derivative::{meaning, parts};
 
 use super::entry::{Entry, of_measure, of_table};
 

@@ -9,7 +9,8 @@ use flap_core::simulate::{
 use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::{DMatrix, DVector};
 
-use crate::plan::gradient::{self, is_least};
+use crate::derivative::{self, is_least};
+use crate::notation::text;
 
 /// Words for drive parameters, each with the names in different models.
 pub const WORDS: [(&str, &[&str]); 6] = [
@@ -78,8 +79,12 @@ impl Input {
 
     /// Returns the default inputs of a vehicle: amplitude, bias and, if the drive has harmonics, the second harmonic.
     ///
-    /// Each word applies to all wings and, if there are wings on both sides, also to the difference.
-    pub fn usual(vehicle: &Vehicle, has_harmonics: bool) -> Vec<Input> {
+    /// Each word applies to all wings and, if there are wings on both sides, also to the difference. `values` are values of
+    /// the vehicle's parameters.
+    pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
+        let shape = Parameter::index(parameters(vehicle), "drive_shape");
+        let shape = shape.and_then(|shape| text::option(&parameters(vehicle)[shape], values[shape]));
+        let has_harmonics = shape == Some("harmonics");
         let words = ["amplitude", "bias", "second_harmonic"];
         let words = if has_harmonics { &words[..] } else { &words[..2] };
         let names = words.iter().flat_map(|word| [(*word).to_owned(), format!("{word}{DIFFERENCE}")]);
@@ -100,7 +105,7 @@ impl Input {
 
     /// Returns the size (SI) of the input's parameter, to which relative changes refer; `None` if the size is unknown.
     fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
-        gradient::size(vehicle, values, self.parameter).map(f64::abs)
+        derivative::size(vehicle, values, self.parameter).map(f64::abs)
     }
 }
 

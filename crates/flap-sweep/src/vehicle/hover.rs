@@ -13,7 +13,7 @@ use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MassProperties, Vehicle};
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input, Target};
+use super::control::{self, COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, TrimError};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -102,6 +102,9 @@ pub enum HoverError {
     /// A derivative cannot be computed.
     #[error(transparent)]
     Control(#[from] ControlError),
+    /// The inputs do not reach hover.
+    #[error("the vehicle does not reach hover: {0}")]
+    Trim(TrimError),
     /// The iteration for the eigenvalues does not end, or a matrix contains NaN.
     #[error("the eigenvalues of the hover model cannot be computed")]
     Eigenvalues,
@@ -177,6 +180,26 @@ pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let torques = (3..6).map(|component| Target { component, value: 0.0 });
     let lift = Target { component: 2, value: weight / WRENCH_TO_SI[2] };
     weight.is_finite().then(|| core::iter::once(lift).chain(torques).collect())
+}
+
+/// Returns the control effectiveness at hover, with inputs near `values`. Inputs without effect keep their values.
+///
+/// # Errors
+/// If the mass is not set, the mass properties are impossible, the body moves, or there is no trim. The moments of inertia
+/// may be missing.
+pub fn trim(flight: &Flight<'_>, values: &[f64], inputs: &[Input]) -> Result<Effectiveness, HoverError> {
+    let body = flight.vehicle.mass_properties(values);
+    let targets = targets(&body).ok_or_else(|| HoverError::Missing(vec!["total_mass"]))?;
+    if body.inertia.iter().all(|moment| !moment.is_nan()) {
+        check(&body)?;
+    }
+    at_rest(flight.vehicle, values)?;
+    let found = flight.effectiveness(values, inputs, None)?.without_idle(flight, values);
+    match control::trim(flight, values, &found.inputs, &targets) {
+        Ok(found) => Ok(found.at),
+        Err(TrimError::Control(error)) => Err(error.into()),
+        Err(error) => Err(HoverError::Trim(error)),
+    }
 }
 
 /// Motion that belongs to one real eigenvalue, or to a pair of complex eigenvalues.
@@ -321,6 +344,11 @@ impl HoverModel {
             core::iter::once(mode.eigenvalue).chain(pair)
         });
         each.collect()
+    }
+
+    /// Returns the mode with the largest real part, without heading and positions, whose eigenvalues are always zero.
+    pub fn fastest_growing(&self) -> Option<&HoverMode> {
+        self.modes.iter().find(|mode| mode.participation[DYNAMIC..].iter().all(|share| *share == 0.0))
     }
 
     /// Returns the force (N) and torque (N·m) that are not balanced: the wrench minus the weight.

@@ -1,0 +1,158 @@
+//! Derivatives of measures with respect to parameters: names and units of columns, and sizes of changes.
+
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::Simulator;
+use flap_core::vehicle::standing;
+
+/// Change of a parameter to which derivatives refer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Per {
+    /// One per cent of the parameter.
+    Cent,
+    /// One SI unit of the parameter.
+    Unit,
+}
+
+/// Returns the name of the column with the change of the measure `of` per per cent or per SI unit of the parameter
+/// `by`.
+///
+/// ```
+/// use flap_sweep::derivative::{Per, column_name};
+/// let of_lift = |per| column_name("lift_mean_mn", "hinge_stiffness", per);
+/// assert_eq!(of_lift(Per::Cent), "d_lift_mean_mn_per_pct_hinge_stiffness");
+/// assert_eq!(of_lift(Per::Unit), "d_lift_mean_mn_per_si_hinge_stiffness");
+/// ```
+pub fn column_name(of: &str, by: &str, per: Per) -> String {
+    match per {
+        Per::Cent => format!("d_{of}_per_pct_{by}"),
+        Per::Unit => format!("d_{of}_per_si_{by}"),
+    }
+}
+
+/// Returns measure, parameter and change from a column name of [`column_name`]; `None` for other names.
+///
+/// ```
+/// use flap_sweep::derivative::{Per, parts};
+/// let found = parts("d_lift_mean_mn_per_pct_hinge_stiffness");
+/// assert_eq!(found, Some(("lift_mean_mn", "hinge_stiffness", Per::Cent)));
+/// assert_eq!(parts("lift_mean_mn"), None);
+/// ```
+pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
+    let rest = column.strip_prefix("d_")?;
+    [("_per_pct_", Per::Cent), ("_per_si_", Per::Unit)]
+        .into_iter()
+        .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
+}
+
+/// Returns the unit of a derivative: the unit `of` of the measure per per cent, or per unit `by` of the parameter.
+///
+/// ```
+/// use flap_sweep::derivative::{Per, unit};
+/// assert_eq!(unit("mN", "N*m/rad", Per::Unit), "mN/(N*m/rad)");
+/// assert_eq!(unit("mN", "N*m/rad", Per::Cent), "mN/%");
+/// assert_eq!(unit("", "Hz", Per::Unit), "1/Hz");
+/// assert_eq!(unit("mN", "", Per::Unit), "mN");
+/// ```
+pub fn unit(of: &str, by: &str, per: Per) -> String {
+    let by = match per {
+        Per::Cent => "%",
+        Per::Unit => by,
+    };
+    let above = if of.is_empty() { "1" } else { of };
+    match by {
+        "" => of.to_owned(),
+        by if by.contains(['*', '/']) => format!("{above}/({by})"),
+        by => format!("{above}/{by}"),
+    }
+}
+
+/// Returns the description of the column with the change of the measure `of`, which has this unit, by the parameter
+/// `by`.
+pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
+    let change = match per {
+        Per::Cent => "1 %",
+        Per::Unit => "SI unit",
+    };
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    format!("change of {of}{unit} per {change} of {by}")
+}
+
+/// Share of the largest published value below which a value counts as small.
+///
+/// It is not larger because robots may be far smaller than the published ones.
+const SMALL: f64 = 1e-3;
+
+/// Returns the size (SI) to which relative changes of a parameter refer; `None` if it is zero and has no typical
+/// size.
+///
+/// It is the parameter's value. For a value of zero, or so small that changes would be lost in rounding, it is a
+/// typical size.
+pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
+    let value = standing(simulator.parameters(), values, index);
+    let known = (value != 0.0 && value.is_finite()).then_some(value);
+    match simulator.parameters()[index].kind {
+        Kind::Number(range) | Kind::Following(range, _) if !range.contains(0.0) => return known,
+        Kind::Number(_) | Kind::Following(..) | Kind::Choice(_) => {}
+    }
+    let typical = typical(simulator, values, index);
+    typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
+}
+
+/// Returns true if a parameter is zero and cannot be negative, so that its differences are one-sided.
+pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
+    let range = match parameters[index].kind {
+        Kind::Number(range) | Kind::Following(range, _) => range,
+        Kind::Choice(_) => return false,
+    };
+    standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
+}
+
+/// Returns a value after a change by a share of its [`size`].
+pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
+    match size {
+        Some(size) if size != value => share.mul_add(size, value),
+        _ => value * (1.0 + share),
+    }
+}
+
+/// Returns the typical size of a parameter (SI).
+///
+/// For a parameter of one wing or a difference, it is the size of the parameter of all wings. Otherwise it is the
+/// published size, or the size of such quantities in insect-scale robots.
+fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
+    let parameters = simulator.parameters();
+    let parameter = &parameters[index];
+    let of = |name: &str| {
+        let other = Parameter::index(parameters, name).filter(|other| *other != index)?;
+        size(simulator, values, other).map(f64::abs)
+    };
+    let shared = match parameter.kind {
+        Kind::Following(_, follows) => Some(follows),
+        Kind::Number(_) | Kind::Choice(_) => parameter.name.strip_prefix("difference_"),
+    };
+    if let Some(size) = shared.and_then(of) {
+        return Some(size);
+    }
+    let published = published(simulator, index);
+    if published > 0.0 {
+        return Some(published).filter(|published| values[index].abs() < SMALL * published);
+    }
+    match parameter.unit {
+        "V" => of("drive_voltage_pp"),
+        "" | "rad" | "m/s" => Some(1.0),
+        "m" => Some(1e-3),
+        "N*m*s" => Some(1e-9),
+        "rad/m^3" => Some(1e9),
+        "rad/s" => Some(100.0),
+        "m/V" => Some(1e-7),
+        "kg" | "N*m/rad" | "N*m/rad^3" => Some(1e-6),
+        "kg*m^2" => Some(1e-11),
+        _ => None,
+    }
+}
+
+/// Returns the largest value of a parameter in the presets of the model; zero if there is none.
+fn published(simulator: &dyn Simulator, index: usize) -> f64 {
+    let values = simulator.presets().iter().filter_map(|preset| (preset.values)().get(index).copied());
+    values.filter(|value| value.is_finite()).fold(0.0, |largest, value| value.abs().max(largest))
+}

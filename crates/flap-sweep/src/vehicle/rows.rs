@@ -1,0 +1,146 @@
+//! Rows of vehicles at hover, and rows with the damping matrix.
+
+use std::sync::Arc;
+
+use flap_core::body::BodyParameters;
+use flap_core::model::OverWings;
+use flap_core::num::Backend;
+use flap_core::simulate::{
+    Column, Interrupt, Jobs, PointRun, Row, Rows, Simulator as _, SolverSettings, Status,
+};
+use flap_core::vehicle::{Vehicle, standing};
+use nalgebra::DMatrix;
+
+use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input};
+use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, trim};
+use crate::derivative::{Per, column_name, meaning};
+
+/// Units of the derivatives of a force and of a torque with respect to a velocity and to a rate.
+const DAMPING_UNITS: [[&str; 2]; 2] = [["mN/(m/s)", "mN/(rad/s)"], ["uN*m/(m/s)", "uN*m/(rad/s)"]];
+
+/// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
+///
+/// After the vehicle's measures, a row at hover contains the growth rate and the period of the hover mode that grows
+/// fastest, and the values of the inputs. The damping matrix follows.
+#[derive(Clone)]
+pub struct BodyRows {
+    vehicle: Arc<Vehicle>,
+    /// Inputs that the search for hover changes; `None` if rows are computed at the given inputs.
+    inputs: Option<Vec<Input>>,
+    has_damping: bool,
+    columns: Vec<Column>,
+}
+
+impl BodyRows {
+    /// Returns the rows of `vehicle` at hover, reached with `inputs`, or at the given inputs if they are `None`.
+    pub fn new(vehicle: Arc<Vehicle>, inputs: Option<Vec<Input>>, has_damping: bool) -> BodyRows {
+        let mut columns = vehicle.columns().to_vec();
+        let mut add = |name: String, unit, doc: String| {
+            columns.push(Column { name, unit, doc, over_wings: OverWings::Omitted });
+        };
+        if let Some(inputs) = &inputs {
+            let growth = "largest real part of the eigenvalues of hover: positive if hover is unstable; without the eigenvalue zero of the heading";
+            add("hover_growth_1_s".to_owned(), "1/s", growth.to_owned());
+            let period =
+                "period of the mode of hover with this real part; empty if the mode is no oscillation";
+            add("hover_period_s".to_owned(), "s", period.to_owned());
+            for input in inputs {
+                let doc = format!("value of the input {} at which the vehicle hovers", input.name);
+                add(input_column(input), input.unit, doc);
+            }
+        }
+        if has_damping {
+            for (i, of) in COMPONENTS.into_iter().enumerate() {
+                for (j, by) in BodyParameters::MOTION.into_iter().enumerate() {
+                    let unit = DAMPING_UNITS[i / 3][j / 3];
+                    let of_unit = ["mN", "uN*m"][i / 3];
+                    add(column_name(of, by, Per::Unit), unit, meaning(of, of_unit, by, Per::Unit));
+                }
+            }
+        }
+        BodyRows { vehicle, inputs, has_damping, columns }
+    }
+
+    /// Returns the trim to hover from these values of the vehicle's parameters, if rows are computed at hover.
+    ///
+    /// # Errors
+    /// If the mass is not set, the body moves, or there is no trim.
+    pub fn trim(
+        &self,
+        solver: &SolverSettings,
+        values: &[f64],
+        interrupted: Interrupt<'_>,
+    ) -> Option<Result<Effectiveness, HoverError>> {
+        let flight = Flight { vehicle: &self.vehicle, solver, interrupted };
+        self.inputs.as_ref().map(|inputs| trim(&flight, values, inputs))
+    }
+
+    /// Adds the columns of this source to the measures of a row of the vehicle at these values.
+    fn extend(&self, flight: &Flight<'_>, values: &[f64], row: &mut Row) {
+        // Cells stay empty if a derivative is missing, or the moments of inertia are not set.
+        let damping = damping(flight, values, &row.state).ok();
+        if let Some(inputs) = &self.inputs {
+            let body = self.vehicle.mass_properties(values);
+            let wrench = flight.wrench(row);
+            let wrench = core::array::from_fn(|i| wrench[i] * WRENCH_TO_SI[i]);
+            let model = damping.and_then(|damping| {
+                HoverModel::new(body, damping, &DMatrix::zeros(6, 0), wrench, false).ok()
+            });
+            let mode = model.as_ref().and_then(HoverModel::fastest_growing);
+            row.measures.push(mode.map_or(f64::NAN, |mode| mode.eigenvalue.re));
+            row.measures.push(mode.and_then(HoverMode::period).unwrap_or(f64::NAN));
+            let value =
+                |input: &Input| standing(self.vehicle.parameters(), values, input.parameter) / input.factor;
+            row.measures.extend(inputs.iter().map(value));
+        }
+        if self.has_damping {
+            let entry = |i: usize, j: usize| damping.map_or(f64::NAN, |all| all[(i, j)] / WRENCH_TO_SI[i]);
+            row.measures.extend((0..36).map(|place| entry(place / 6, place % 6)));
+        }
+    }
+}
+
+impl Rows for BodyRows {
+    fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
+        while let Some(point) = jobs.next(true) {
+            let interrupted = || jobs.interrupted();
+            let run = PointRun::new(backend, solver, &point.values).until(&interrupted);
+            let row = self.run_point(&run, point.begin.as_deref());
+            if jobs.interrupted() {
+                break;
+            }
+            jobs.done(point.index, row);
+        }
+    }
+
+    /// The search for hover begins at rest, so `begin` is ignored there.
+    fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
+        let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
+        let found = match &self.inputs {
+            None => Ok((run.values.to_vec(), self.vehicle.run_point(run, begin))),
+            Some(inputs) => trim(&flight, run.values, inputs).map(|at| (at.applied(run.values), at.row)),
+        };
+        match found {
+            Ok((values, mut row)) => {
+                if row.status == Status::Periodic {
+                    self.extend(&flight, &values, &mut row);
+                }
+                row
+            }
+            Err(HoverError::Control(ControlError::NotPeriodic { status, reason })) => {
+                Row { status, reason, ..Row::invalid("") }
+            }
+            Err(error) => Row::invalid(error),
+        }
+    }
+}
+
+/// Returns the name of the column with the value of an input at hover, such as `hover_amplitude_v`.
+fn input_column(input: &Input) -> String {
+    let unit = input.unit.to_lowercase();
+    if unit.is_empty() { format!("hover_{}", input.name) } else { format!("hover_{}_{unit}", input.name) }
+}

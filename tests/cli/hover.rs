@@ -1,0 +1,134 @@
+//! Rows of vehicles at hover, and rows with the damping matrix.
+
+use crate::support::Folder;
+
+/// The robot of the manual, with `[vehicle]` to be continued.
+const HEAD: &str = "\
+preset = \"jafferis2016\"
+[params]
+drive_voltage_pp = \"140 V\"
+drive_frequency = \"120 Hz\"
+[axes]
+about_z = [\"-1 mm\", \"-3 mm\"]
+hinge_stiffness = [1.3e-6, 1.7e-6]
+";
+
+const WINGS: &str = "\
+[[vehicle.wings]]
+name = \"left\"
+position = [0, \"2 mm\", 0]
+[[vehicle.wings]]
+name = \"right\"
+position = [0, \"2 mm\", 0]
+mirrored = true
+";
+
+const BODY: &str = "\
+[vehicle]
+total_mass = \"69 mg\"
+body_inertia_roll = 1.5e-9
+body_inertia_pitch = 1.5e-9
+body_inertia_yaw = 0.5e-9
+";
+
+/// The cells of the column `name` in comma-separated text.
+fn column(text: &str, name: &str) -> Vec<String> {
+    let mut lines = text.lines();
+    let place = lines.next().unwrap().split(',').position(|column| column == name).expect(name);
+    lines.map(|line| line.split(',').nth(place).unwrap().to_owned()).collect()
+}
+
+fn numbers(text: &str, name: &str) -> Vec<f64> {
+    column(text, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+}
+
+fn near(found: f64, wanted: f64, share: f64) {
+    assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
+}
+
+/// The columns of hover are the numbers that `flap vehicle` prints, and every way to compute them gives the same bytes.
+#[test]
+fn rows_at_hover_are_the_numbers_of_the_command() {
+    let folder = Folder::with_grid(&format!("{HEAD}{BODY}trim = \"hover\"\ndamping = true\n{WINGS}"));
+    folder.ends(0, "sweep grid.toml --out all.csv --threads 2");
+    folder.ends(0, "sweep grid.toml --out one.csv --threads 1");
+    folder.ends(0, "sweep grid.toml --out part1.csv --shard 1/2");
+    folder.ends(0, "sweep grid.toml --out part2.csv --shard 2/2");
+    folder.ends(0, "results merge merged.csv part1.csv part2.csv");
+    let rows = folder.read("all.csv");
+    assert_eq!(rows, folder.read("one.csv"));
+    assert_eq!(rows, folder.read("merged.csv"));
+
+    let given = Folder::with_grid(&format!("{HEAD}{BODY}{WINGS}"));
+    let growth = numbers(&rows, "hover_growth_1_s");
+    let weight = 69e-6 * 9.80665 * 1e3;
+    for point in 0..4 {
+        near(numbers(&rows, "force_up_mn")[point], weight, 2e-6);
+        let command = |options: &str| {
+            let line = format!("vehicle grid.toml --point {point} --trim hover --format csv {options}");
+            given.ends(0, &line).stdout
+        };
+        let modes = command("--hover");
+        near(growth[point], numbers(&modes, "eigenvalue_real")[0], 1e-9);
+        let period = numbers(&modes, "period_s")[0];
+        let found = numbers(&rows, "hover_period_s")[point];
+        assert!(found.is_nan() == period.is_nan() && (found.is_nan() || (found / period - 1.0).abs() < 1e-9));
+        let inputs = command("");
+        for (name, value) in column(&inputs, "input").iter().zip(numbers(&inputs, "value")).skip(1) {
+            near(numbers(&rows, &format!("hover_{name}_v"))[point], value, 1e-9);
+        }
+        let damping = command("--damping");
+        let yaw = numbers(&rows, "d_torque_yaw_unm_per_si_body_rate_yaw")[point];
+        near(yaw * 1e-6, numbers(&damping, "rate_yaw")[5], 1e-9);
+        let coupling = numbers(&rows, "d_torque_pitch_unm_per_si_body_velocity_forward")[point];
+        near(coupling * 1e-6, numbers(&damping, "velocity_forward")[4], 1e-9);
+    }
+    // The robot of 1 mm tips over without oscillation, and the robot of 3 mm oscillates.
+    assert!(growth[0] > 4.0 * growth[2], "{growth:?}");
+    assert!(numbers(&rows, "hover_period_s")[0].is_nan() && numbers(&rows, "hover_period_s")[2] > 0.5);
+
+    // The trim of the grid file applies to single points, too.
+    let modes = folder.ends(0, "vehicle grid.toml --point 2 --hover --format csv");
+    near(growth[2], numbers(&modes.stdout, "eigenvalue_real")[0], 1e-4);
+    assert!(modes.stderr.contains("amplitude = ") && modes.stderr.contains("hovers"), "{}", modes.stderr);
+}
+
+/// A design that cannot hover has a row without measures, and the summary contains the reason.
+#[test]
+fn designs_that_cannot_hover_are_invalid() {
+    let axes = HEAD.replace("about_z = [\"-1 mm\", \"-3 mm\"]", "total_mass = [\"69 mg\", \"2 g\"]");
+    let body = BODY.replace("total_mass = \"69 mg\"\n", "");
+    let folder = Folder::with_grid(&format!("{axes}{body}trim = \"hover\"\n{WINGS}"));
+    let ended = folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    assert_eq!(column(&rows, "status"), ["periodic", "periodic", "invalid", "invalid"]);
+    assert_eq!(column(&rows, "hover_growth_1_s")[2], "");
+    assert!(ended.stderr.contains("does not reach hover"), "{}", ended.stderr);
+    let one = folder.ends(2, "run grid.toml --point 2");
+    assert!(one.stderr.contains("does not reach hover"), "{}", one.stderr);
+}
+
+/// Without moments of inertia, rows at hover have their inputs and their power, but no modes.
+#[test]
+fn a_mass_is_enough_for_the_power_of_hover() {
+    let folder =
+        Folder::with_grid(&format!("{HEAD}[vehicle]\ntotal_mass = \"69 mg\"\ntrim = \"hover\"\n{WINGS}"));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    assert!(column(&rows, "hover_growth_1_s").iter().all(String::is_empty), "{rows}");
+    assert!(numbers(&rows, "hover_amplitude_v").iter().all(|volts| (100.0..200.0).contains(volts)), "{rows}");
+    assert!(numbers(&rows, "power_mean_mw").iter().all(|power| *power > 1.0), "{rows}");
+}
+
+/// The lift of the four-bar jumps strip by strip, so differences replace its derivatives.
+#[test]
+fn rows_of_the_four_bar_have_a_damping_matrix() {
+    let grid = format!("preset = \"arabagi2013-75hz\"\n[vehicle]\ndamping = true\n{WINGS}");
+    let folder = Folder::with_grid(&grid);
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    let damping = folder.ends(0, "vehicle grid.toml --damping --format csv").stdout;
+    let vertical = numbers(&rows, "d_force_up_mn_per_si_body_velocity_up")[0];
+    near(vertical * 1e-3, numbers(&damping, "velocity_up")[2], 1e-9);
+    assert!(vertical < 0.0, "{vertical}");
+}
