@@ -3,9 +3,9 @@
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Status};
+use flap_sweep::derivative::{Per, column_name};
 use flap_sweep::picture::colours::{DARK, SERIES};
 use flap_sweep::plan::Plan;
-use flap_sweep::plan::gradient::{Per, column_name};
 use flap_sweep::study::strongest;
 use flap_sweep::table::labels;
 use kuva::render::layout::ComputedLayout;

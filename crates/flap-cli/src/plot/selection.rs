@@ -1,7 +1,7 @@
 //! Chooses the kind, the columns and the rows of a picture from the user's request and the file.
 
+use flap_sweep::derivative;
 use flap_sweep::picture::measures::{Role, usual};
-use flap_sweep::plan::gradient;
 use flap_sweep::vehicle::control::COMPONENTS;
 
 use super::scale;
@@ -100,7 +100,7 @@ impl<'a> Request<'a> {
             // The columns before the time name the motions.
             || self.place("time_s").is_some_and(|time| column < time)
             || self.matrix().is_some()
-            || (self.args.derivatives && gradient::parts(&self.names[column]).is_some())
+            || (self.args.derivatives && derivative::parts(&self.names[column]).is_some())
             || NEEDED.contains(&self.names[column].as_str())
     }
 

@@ -66,7 +66,8 @@ pub(super) fn read(root: &[Entry<'_>], reader: Reader<'_>, problems: &mut Proble
     let bases = bases.into_iter().collect::<Option<Vec<Base>>>()?;
     let labels = labels(key, list, problems)?;
     let model = bases[0].robot.name();
-    for (base, value) in bases.iter().zip(list).filter(|(base, _)| base.robot.name() != model) {
+    let mut designs = bases.iter().zip(list);
+    if let Some((base, value)) = designs.find(|(base, _)| base.robot.name() != model) {
         let other = base.robot.name();
         problems
             .report(

@@ -54,13 +54,13 @@ pub(super) fn list(description: &str, items: &Value) -> Value {
 }
 
 /// Returns the schema of one value, or of a list of values.
-fn one_or_more(description: &str, one: &Value, list: Value) -> Value {
+fn one_or_more(description: &str, one: &Value, list: &Value) -> Value {
     json!({"description": description, "anyOf": [one, list]})
 }
 
 /// Returns the schema of the design at the start of a grid, or of several designs.
 pub(super) fn designs(key: &str, one: &Value) -> Value {
-    one_or_more(about(key), one, list("Designs along an axis of the grid, all of one model.", one))
+    one_or_more(about(key), one, &list("Designs along an axis of the grid, all of one model.", one))
 }
 
 /// Returns the schema of a number, bare or as text. The text has a unit if `has_unit` is true.
@@ -150,11 +150,11 @@ pub(super) fn refine() -> Value {
         "measure" => one_or_more(
             "The measure whose interpolation error is limited, or several.",
             &name,
-            list("Names of measures.", &name),
+            &list("Names of measures.", &name),
         ),
         "error" => {
             let errors = json!({"type": "array", "items": error, "minItems": 1});
-            one_or_more("The largest error of interpolation, for all measures or for each.", &error, errors)
+            one_or_more("The largest error of interpolation, for all measures or for each.", &error, &errors)
         }
         "max_points" => {
             count("The largest number of points, including the points of the axes.", Refine::MOST_POINTS)
