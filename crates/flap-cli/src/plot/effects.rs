@@ -198,8 +198,10 @@ fn effects(table: &Table, selection: &Selection, plan: Option<&Plan>) -> Result<
     Ok(Effects { parameters: effects, designs: rows.len(), deviations })
 }
 
-/// Returns the derivatives of the measure with respect to the varied parameters: the means of the columns of `[gradient]`, else
-/// the derivatives at the means of the parameters. A missing derivative is NaN.
+/// Returns the derivatives of the measure with respect to the varied parameters.
+///
+/// The derivatives are the means of the columns of `[gradient]`, or derivatives at the means of the parameters. A missing
+/// derivative is NaN.
 fn slopes(
     table: &Table,
     measure: usize,

@@ -19,8 +19,9 @@ crate::parameters! {
         /// Coefficient l_2 of the lift coefficient, which contains sin(2a) (l_1 cos(2a) + l_2 cos(2a)^2) at the attack angle
         /// a. The paper of the model does not use this parameter.
         lift_term_2: f64 = ("", "l_2", Number(Any), default: 0.0),
-        /// Coefficient p_c0 of the centre of pressure, which contains sin(2a) (p_c0 + p_c1 cos(2a)) at the attack angle a, in
-        /// the unit of the other parameters of the centre of pressure. The term is zero at 0 and 90 deg, and p_c0 at 45 deg.
+        /// Coefficient p_c0 of the centre of pressure, which contains sin(2a) (p_c0 + p_c1 cos(2a)) at the attack angle a.
+        /// The unit is the same as for the other parameters of the centre of pressure. The term is zero at 0 and 90 deg, and p_c0 at
+        /// 45 deg.
         /// The paper of the model does not use this parameter.
         pressure_term_0: f64 = ("", "p_c0", Number(Any), default: 0.0),
         /// Coefficient p_c1 of the centre of pressure, which contains sin(2a) (p_c0 + p_c1 cos(2a)) at the attack angle a. The
@@ -45,8 +46,8 @@ crate::per_lane! {
     /// Terms of the force coefficients and of the centre of pressure that no paper has, at an attack angle α.
     ///
     /// Together with a law b₁ + b₂ cos 2α or b_L sin 2α, the terms are Fourier series with three harmonics. The terms have
-    /// the symmetries of a flat plate in reversed flow: at π − α, the drag is the same, and the lift and the shift of the
-    /// centre of pressure from the mid-chord change their signs.
+    /// the symmetries of a flat plate in reversed flow. At π − α, the drag is the same. The lift and the shift of the centre
+    /// of pressure from the mid-chord change their signs.
     pub struct Harmonics<R> {
         /// Terms of the drag coefficient: d₀, d₁.
         pub drag: [R; 2],

@@ -1,5 +1,7 @@
-//! Aerodynamics that several models use: strips of the wing, further terms of the force coefficients, added mass and
-//! rotational circulation, the chord table, the wing's outline and mass.
+//! Aerodynamics that several models use.
+//!
+//! The files contain strips of the wing, force coefficients, added mass and rotational circulation. Further files contain
+//! the table of the chord, and outline and mass of the wing.
 
 mod chord_table;
 mod harmonics;

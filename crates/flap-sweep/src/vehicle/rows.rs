@@ -20,8 +20,8 @@ const DAMPING_UNITS: [[&str; 2]; 2] = [["mN/(m/s)", "mN/(rad/s)"], ["uN*m/(m/s)"
 
 /// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
 ///
-/// After the vehicle's measures, a row at hover contains the growth rate and the period of the hover mode that grows
-/// fastest, and the values of the inputs. The damping matrix follows.
+/// After the measures of the vehicle, a row at hover contains growth rate and period of the fastest-growing mode of hover.
+/// The values of the inputs and the damping matrix follow.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,

@@ -139,8 +139,9 @@ pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
     elastic_force(c, x) / x
 }
 
-/// Returns the lift coefficient of the wing per sin 2ψ, b_L, and its drag coefficient, b₁ + b₂ cos 2ψ; with the further
-/// terms of the attack angle 90° − ψ if `harmonics`.
+/// Returns the lift coefficient of the wing per sin 2ψ, b_L, and the drag coefficient, b₁ + b₂ cos 2ψ.
+///
+/// If `harmonics` is true, both contain the further terms of the attack angle 90° − ψ.
 #[inline(always)]
 fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 2] {
     let (lift, drag) = (c.b_l, c.b_1 + c.b_2 * cos_2psi);

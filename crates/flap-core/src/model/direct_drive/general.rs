@@ -1,4 +1,6 @@
-//! The equations of the direct-drive model with the terms that the paper leaves out: motion of the body, further terms of
+//! The equations of the direct-drive model with the terms that the paper leaves out.
+//!
+//! The terms are motion of the body, further terms of
 //! the attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! Body motion requires the blade elements, each of which has its own direction of flow. The forces of the air are compiled out of

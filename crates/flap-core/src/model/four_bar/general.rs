@@ -1,4 +1,6 @@
-//! The equations of the four-bar model with the terms that the paper leaves out: motion of the body, further terms of the
+//! The equations of the four-bar model with the terms that the paper leaves out.
+//!
+//! The terms are motion of the body, further terms of the
 //! attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! On a moving body, each strip has its own direction of flow and its own jump of the lift. The forces of the air are compiled out of
