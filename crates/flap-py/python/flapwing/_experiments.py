@@ -103,7 +103,8 @@ def impulse(
     Raises
     ------
     ValueError
-        The same errors as for `run`. The impulse is zero or more than half a turn, or the duration is zero.
+        The same errors as for `run`. The impulse is zero, or the impulse is more than half a turn, or the duration is
+        zero.
     TypeError
         An argument has the wrong type.
 

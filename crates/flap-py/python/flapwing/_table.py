@@ -270,8 +270,8 @@ class Table:
         order.
 
         A dimension has the name of the first parameter of its axis. Other parameters of the axis are coordinates along
-        this dimension. A table with a motion over time has the dimension ``time_s``. Tables of other kinds without axes
-        have the dimension ``row``. For a response, the columns that locate a row on its curve are coordinates along
+        this dimension. A table with a motion over time has the dimension ``time_s``. Every other table without axes
+        has the dimension ``row``. For a response, the columns that locate a row on its curve are coordinates along
         ``row``: `curve`, the design's parameters, `branch`, and the followed parameter. Columns are variables with the
         attributes `units`, `long_name` and `description`. Points that the grid excludes have no row. The cells of an
         excluded point are nan, 0 or empty text, and columns of flags become float64. The column `point`, or the

@@ -175,9 +175,10 @@ def _decide(
     """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
 
     If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
-    difference of both predictions, divided by the variance of the reading and of the second prediction. This rise
-    already contains the new fit of the second law, whose predictions at all candidates move towards the first law. The
-    mean of this rise and of the rise with exchanged fits is the expected difference.
+    difference of both predictions, divided by the variance of the reading and of the second prediction. A new
+    fit of the second law to the reading moves the predictions of the second law towards the predictions of the first
+    law, so the rise becomes smaller. The expected difference is the mean of this smaller rise and of the rise with
+    exchanged fits.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
