@@ -26,7 +26,8 @@ pub(crate) fn print(effort: Effort) {
          The peak rate is the rate of a loop of fused multiplications and additions in ten independent registers.\n\
          The integration loop and the peak loop run in turn.\n\
          The program counts the executed instructions by single steps, and reads the kind of each instruction from a disassembly.\n\
-         Counts are numbers of instructions per right-hand side and vector of two registers.\n\
+         Each count is a number of instructions for one right-hand side.\n\
+         The lanes of this right-hand side fill two registers.\n\
          Counts include the other instructions of an integration step.\n\
          \n\
          - *arithmetic*: instructions that add, multiply, divide or compare vectors of doubles, or fuse a multiplication and an addition\n\

@@ -261,7 +261,7 @@ def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """Join a column of all parts of a batch, and return the joined column. Each part has its own list of words."""
+    """Join the same column of all parts of a batch. Each part has its own list of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}

@@ -320,8 +320,9 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """Return the rows of cells, with one curve in each line of cells. A cell between the ends of a curve gets the
-    nearest row of the curve.
+    """Return the number of the row that each cell shows. Each line of the array `rows` is one curve.
+
+    A cell between the ends of a curve gets the nearest row of the curve.
     """
     filled = rows.copy()
     places = np.log(axis.centres) if axis.log else axis.centres

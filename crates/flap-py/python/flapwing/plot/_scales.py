@@ -81,7 +81,7 @@ def in_ratio(values: np.ndarray) -> bool:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers for the ticks of a logarithmic scale. A short scale may contain no power of ten."""
+    """Return round numbers for the ticks of a logarithmic scale. Some short scales contain no power of ten."""
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]

@@ -239,8 +239,8 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 def pitch_sign_of(data: Data, cycle: Cycle) -> int:
     """Return 1 if the trailing edge lags at a positive pitch, and -1 if the trailing edge leads.
 
-    The sign is the convention of the model. For a table without a model, the sign is chosen so that the trailing edge
-    lags on average.
+    The sign follows the convention of the model. For a table without a model, the sign is chosen so that the trailing
+    edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
