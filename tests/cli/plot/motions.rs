@@ -87,9 +87,8 @@ fn impossible_designs_are_refused() {
 #[test]
 fn numbers_of_frames_name_no_designs() {
     let folder = Folder::new();
-    let rows: String =
-        (0..40).map(|i| format!("{i},{},{},{}\n", f64::from(i) * 1e-4, i % 7, i % 5)).collect();
-    std::fs::write(folder.path("frames.csv"), "frame,time_s,stroke_deg,pitch_deg\n".to_owned() + &rows)
-        .unwrap();
+    let mut lines = vec!["frame,time_s,stroke_deg,pitch_deg".to_owned()];
+    lines.extend((0..40).map(|i| format!("{i},{},{},{}", f64::from(i) * 1e-4, i % 7, i % 5)));
+    std::fs::write(folder.path("frames.csv"), lines.join("\n") + "\n").unwrap();
     drawn(&folder, "frames.csv").has(&["Rate (°/ms)"]);
 }

@@ -55,9 +55,9 @@ fn an_svg_has_its_size_in_millimetres() {
 #[test]
 fn numbers_of_a_narrow_picture_do_not_overlap() {
     let folder = Folder::new();
-    let header = "point,share,status,lift_mean_mn\n";
-    let rows: String = (0..7).map(|i| format!("{i},0.000{}1,periodic,{i}\n", 3 + i)).collect();
-    fs::write(folder.path("fine.csv"), header.to_owned() + &rows).unwrap();
+    let mut lines = vec!["point,share,status,lift_mean_mn".to_owned()];
+    lines.extend((0..7).map(|i| format!("{i},0.000{}1,periodic,{i}", 3 + i)));
+    fs::write(folder.path("fine.csv"), lines.join("\n") + "\n").unwrap();
     folder.ends(0, "plot fine.csv --out out.svg --size 60x60mm");
     let svg = folder.read("out.svg");
     let mut places: Vec<f64> = (svg.split("<text").skip(1))
