@@ -335,6 +335,7 @@ def save(figure: Figure, path: Path, few: bool) -> None:
     from PIL import Image
 
     figure.savefig(path, dpi=90)
+    plt.close(figure)
     with Image.open(path) as image:
         drawn = image.convert("RGB")
     if few:
