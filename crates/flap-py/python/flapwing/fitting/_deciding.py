@@ -176,8 +176,8 @@ def _decide(
 
     If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
     difference of both predictions, divided by the variance of the reading and of the second prediction. A new
-    fit of the second law to the reading moves the predictions of the second law towards the predictions of the first
-    law, so the rise becomes smaller. The expected difference is the mean of this smaller rise and of the rise with
+    fit of the second law to the reading makes the rise smaller. The reason is that this fit moves the predictions of the
+    second law towards the predictions of the first law. The expected difference is the mean of this smaller rise and of the rise with
     exchanged fits.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.

@@ -56,8 +56,8 @@ def response(
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis, and a warning
-        shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows
+        this middle value.
     label : sequence of str, optional
         The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
@@ -137,8 +137,8 @@ def response_panels(
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis, and a warning
-        shows this value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows
+        this middle value.
     label : sequence of str, optional
         The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
