@@ -175,10 +175,10 @@ def _decide(
     """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
 
     If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
-    difference of both predictions, divided by the variance of the reading and of the second prediction. A new
-    fit of the second law to the reading makes the rise smaller. The reason is that this fit moves the predictions of the
-    second law towards the predictions of the first law. The expected difference is the mean of this smaller rise and of the rise with
-    exchanged fits.
+    difference of both predictions, divided by the variance of the reading and of the second prediction. A new fit
+    of the second law to the reading makes the rise smaller. The reason is that this fit moves the predictions of
+    the second law towards the predictions of the first law. The expected difference is the mean of this smaller
+    rise and of the rise with exchanged fits.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
