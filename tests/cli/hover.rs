@@ -132,3 +132,15 @@ fn rows_of_the_four_bar_have_a_damping_matrix() {
     near(vertical * 1e-3, numbers(&damping, "velocity_up")[2], 1e-9);
     assert!(vertical < 0.0, "{vertical}");
 }
+
+/// Rows with terms of the body belong to one design.
+#[test]
+fn several_designs_have_no_rows_at_hover() {
+    let presets = "preset = [\"jafferis2016\", \"jafferis2016-improved\"]";
+    for key in ["damping = true", "trim = \"hover\""] {
+        let folder = Folder::with_grid(&format!("{presets}\n{BODY}{key}\n{WINGS}"));
+        let refused = folder.ends(2, "check grid.toml").stderr;
+        assert!(refused.contains("are for one design"), "{refused}");
+        assert!(refused.contains("write a grid file for each device"), "{refused}");
+    }
+}
