@@ -71,8 +71,8 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
         The column `attack_deg` or `attack_rad` contains attack angles from 0 to 90°, at least four different ones. At
         least one other column is required: `lift_coefficient`, `drag_coefficient`, or `pressure`, the centre of
         pressure. In `bimorph`, the centre of pressure is the distance behind the hinge's axis in mean wing widths, as
-        `pressure_min`. In the other models, it is the distance behind the leading edge in chords, as `pressure_offset`.
-        Other columns are ignored.
+        `pressure_min`. In the other models, the centre of pressure is the distance behind the leading edge in chords,
+        as `pressure_offset`. Other columns are ignored.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
         The design is unknown, or its model does not have these laws. A column is missing, an angle is not between 0 and
         90°, a number is not finite, or the table has too few angles.
     TypeError
-        The table is of another type.
+        The table has another type.
 
     Examples
     --------
