@@ -111,12 +111,18 @@ def test_an_exception_of_the_user_cancels_the_tasks():
 
 def test_a_sweep_continues_after_an_interruption(tmp_path):
     script = f"""
-import multiprocessing, flapwing
+import multiprocessing, time, flapwing
 from concurrent.futures import ProcessPoolExecutor
+
+def progress(done, points):
+    print(done, flush=True)
+    if done > 0:
+        time.sleep(60)
+
 if __name__ == "__main__":
     with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
         try:
-            flapwing.sweep({LONG!r}, client=pool, out="rows.csv", progress=lambda done, _: print(done, flush=True))
+            flapwing.sweep({LONG!r}, client=pool, out="rows.csv", progress=progress)
         except KeyboardInterrupt:
             print("interrupted")
 """
