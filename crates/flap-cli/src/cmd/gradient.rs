@@ -46,6 +46,11 @@ impl<'c> Gradient<'c> {
                 "--gradient: the motion is {status}, and only periodic motions have derivatives"
             )));
         }
+        let found = chosen.found_parameters().iter().map(|&index| chosen.plan.parameters()[index].name);
+        let found: Vec<&str> = found.collect();
+        if !found.is_empty() {
+            console::say(&format!("--gradient: the derivatives are at fixed {}", found.join(", ")));
+        }
         let fixed = chosen.set_parameters();
         let slopes = strongest::slopes(&chosen.plan, chosen.simulator(), &chosen.run(), row, measure, fixed)?;
         let column = &chosen.simulator().columns()[measure];

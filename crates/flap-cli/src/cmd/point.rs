@@ -31,6 +31,8 @@ pub(crate) struct Chosen {
     set: Vec<usize>,
     /// Indices of the parameters in `set` whose values have a unit.
     set_with_unit: Vec<usize>,
+    /// Indices of the parameters whose values the search for the resonance or for hover found.
+    found: Vec<usize>,
 }
 
 impl Chosen {
@@ -56,6 +58,7 @@ impl Chosen {
             set.push(index);
             set_with_unit.extend(units::has_unit(value).then_some(index));
         }
+        plan.fill_design(&mut values, &set);
         plan.derived().fill(&mut values, &set);
         match plan.judge(&values) {
             Admission::Runs => {}
@@ -69,7 +72,8 @@ impl Chosen {
             }
             Admission::Invalid(invalid) => return Err(invalid.into()),
         }
-        let mut chosen = Chosen { plan, values, sampled: None, index: point.point, set, set_with_unit };
+        let index = point.point;
+        let mut chosen = Chosen { plan, values, sampled: None, index, set, set_with_unit, found: Vec::new() };
         chosen.find_resonance()?;
         chosen.find_hover()?;
         Ok(chosen)
@@ -91,6 +95,7 @@ impl Chosen {
             Failure::usage(format!("the resonance of this point was not found: {reason}"))
         })?;
         self.values[index] = found;
+        self.found.push(index);
         console::say(&format!("{DRIVE_FREQUENCY} = {} Hz, the resonance", six_digits(found)));
         Ok(())
     }
@@ -105,6 +110,7 @@ impl Chosen {
             inputs.map(|(input, value)| format!("{} = {} {}", input.name, six_digits(*value), input.unit));
         console::say(&format!("{}: the vehicle hovers", inputs.collect::<Vec<_>>().join(", ")));
         self.values = found.applied(&self.values);
+        self.found.extend(found.inputs.iter().map(|input| input.parameter));
         Ok(())
     }
 
@@ -130,6 +136,11 @@ impl Chosen {
     /// Returns the indices of the parameters that the command line sets.
     pub(crate) fn set_parameters(&self) -> &[usize] {
         &self.set
+    }
+
+    /// Returns the indices of the parameters whose values the search for the resonance or for hover found.
+    pub(crate) fn found_parameters(&self) -> &[usize] {
+        &self.found
     }
 
     /// Returns true if the value of a parameter has a unit in the file or on the command line.

@@ -174,21 +174,39 @@ enum Arrangement {
 }
 
 /// Returns a scene with panels below one title, and their legend on the right.
-fn figure(panels: Vec<Panel>, arrangement: Arrangement, title: &str, notes: &[String], size: Size) -> Scene {
+///
+/// Long names in the legend are shortened, so that the panels keep 40 % of the width.
+fn figure(
+    mut panels: Vec<Panel>,
+    arrangement: Arrangement,
+    title: &str,
+    notes: &[String],
+    size: Size,
+) -> Scene {
     /// The width of the legend without its names.
     const LEGEND: f64 = 75.0;
-    let names = panels.iter().flat_map(|panel| &panel.plots).filter_map(|plot| match plot {
-        Plot::Line(line) => line.legend_label.as_ref(),
+    let letter = LETTER * f64::from(TEXT);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
+    let most = ((0.6 * size.width - LEGEND) / letter).max(6.0) as usize;
+    let names = panels.iter_mut().flat_map(|panel| &mut panel.plots).filter_map(|plot| match plot {
+        Plot::Line(line) => line.legend_label.as_mut(),
         _ => None,
     });
-    let longest = names.map(|name| name.chars().count()).max().unwrap_or(0) as f64;
+    let longest = names.map(|name| {
+        *name = shortened(name, most);
+        name.chars().count()
+    });
+    let longest = longest.max().unwrap_or(0) as f64;
     let count = panels.len();
     let (rows, columns) = if arrangement == Arrangement::Beside { (1, count) } else { (count, 1) };
-    let width = size.width - LEGEND - longest * LETTER * f64::from(TEXT);
+    let width = size.width - LEGEND - longest * letter;
     let panel = Size { width: width / columns as f64, height: (size.height - 60.0) / rows as f64, ..size };
     let layouts = panels.iter().map(|one| {
         let mut layout = one.layout(panel);
-        "none".clone_into(&mut layout.theme.legend_border);
+        // A background would cover parts of the title.
+        for colour in [&mut layout.theme.legend_border, &mut layout.theme.legend_bg] {
+            "none".clone_into(colour);
+        }
         layout
     });
     let layouts = layouts.collect();
@@ -211,6 +229,16 @@ fn figure(panels: Vec<Panel>, arrangement: Arrangement, title: &str, notes: &[St
     figure.render()
 }
 
+/// Returns `name` with at most `most` letters, of which an ellipsis replaces the middle.
+fn shortened(name: &str, most: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= most {
+        return name.to_owned();
+    }
+    let (begin, end) = (most / 2, most - most / 2 - 1);
+    letters[..begin].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
+}
+
 /// Returns rates in degrees per millisecond, from the differences of neighbours.
 fn rates(time: &[f64], angles: &[f64]) -> Vec<f64> {
     let last = time.len() - 1;
@@ -225,6 +253,12 @@ fn rates(time: &[f64], angles: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_names_lose_their_middle() {
+        assert_eq!(shortened("150 V, 120 Hz", 13), "150 V, 120 Hz");
+        assert_eq!(shortened("wing_with_stiff_hinge_v2, 150 V", 11), "wing_…150 V");
+    }
 
     #[test]
     fn rates_are_those_of_a_line() {

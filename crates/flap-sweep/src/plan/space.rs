@@ -290,13 +290,20 @@ impl Plan {
             Some(positions) => self.axes().fill_between(positions, &mut values),
             None => self.axes().fill(index, &mut values),
         }
-        let is_varied = |parameter| self.axes().varied().any(|varied| varied == parameter);
-        self.space.differences.fill(&mut values, is_varied);
+        self.fill_design(&mut values, &[]);
         if let Some((parameter, moved)) = change {
             values[parameter] = moved(values[parameter]);
         }
         self.derived().fill(&mut values, &[]);
         values
+    }
+
+    /// Writes the values in which the designs of the plan differ: the values of the design that `values` names, except
+    /// parameters that vary and parameters in `set`.
+    pub fn fill_design(&self, values: &mut [f64], set: &[usize]) {
+        let is_set =
+            |parameter| set.contains(&parameter) || self.axes().varied().any(|varied| varied == parameter);
+        self.space.differences.fill(values, is_set);
     }
 
     /// Returns the number of points to run.
