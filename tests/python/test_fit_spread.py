@@ -93,6 +93,9 @@ def test_a_spread_has_limits(robots):
         fit(robots, spread="5 %", prior=(TRUTH["hinge_stiffness"], "5 %"))
     with pytest.raises(ValueError, match="the spread is '0 %'\\nit must be finite and more than zero"):
         fit(robots, spread="0 %")
+    for wrong in (0, 0.0, -1e-8, np.inf):
+        with pytest.raises(ValueError, match=f"the spread is {wrong!r}\nit must be finite and more than zero"):
+            fit(robots, spread=wrong)
     with pytest.raises(ValueError, match="has a `spread`, which a selection cannot have"):
         start = {"hinge_stiffness": flapwing.FreeParameter(spread=True)}
         flapwing.select(PRESET, robots, ["drag_coefficient_max"], start=start)

@@ -53,6 +53,21 @@ def test_mistakes_of_damping_and_eigenvalues_have_help():
         flapwing.Grid(GRID.replace("DAMPING", "damping = true") + gradient)
     with pytest.raises(ValueError, match="set damping = true"):
         flapwing.hover_eigenvalues({"lift_mean_mn": np.ones(2)}, 69e-6, [1e-9, 1e-9, 1e-9])
+    parts = [f"force_{way}_mn" for way in ("forward", "left", "up")]
+    parts += [f"torque_{way}_unm" for way in ("roll", "pitch", "yaw")]
+    motions = [f"velocity_{way}" for way in ("forward", "left", "up")] + ["rate_roll", "rate_pitch", "rate_yaw"]
+    rows = {f"d_{of}_per_si_body_{by}": np.zeros(2) for of in parts for by in motions}
+    assert flapwing.hover_eigenvalues(rows, 69e-6, [1e-9, 1e-9, 1e-9]).shape == (2, 8)
+    for mass, inertia, message in [
+        (69e-6, [1e-9, 1e-9], "`body_inertia` must be a list of the three moments"),
+        (69e-6, {"roll": 1e-9, "pitch": 1e-9, "yaw": 1e-9}, "`body_inertia` must be a list of the three moments"),
+        ("69 mg", [1e-9, 1e-9, 1e-9], "`total_mass` must be a number in SI units"),
+        (69e-6, [[1e-9] * 3, 1e-9, 1e-9], "`body_inertia` must be .* for each of the 2 rows"),
+        (np.nan, [1e-9, 1e-9, 1e-9], "not positive definite"),
+        (69e-6, [1e-9, np.inf, 1e-9], "not positive definite"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            flapwing.hover_eigenvalues(rows, mass, inertia)
 
 
 def test_rows_at_hover_have_the_numbers_of_the_linear_model():

@@ -21,6 +21,10 @@ _COLUMNS = ("lift_coefficient", "drag_coefficient", "pressure")
 _ANGLES = {"attack_deg": np.pi / 180.0, "attack_rad": 1.0}
 
 
+#: Smallest ratio of the singular values of a law at the angles of a table that determines the coefficients of the law.
+_DETERMINED = 1e-5
+
+
 @dataclass(frozen=True, eq=False)
 class CoefficientFit:
     """Parameters of a model that reproduce a table of coefficients; see `fit_coefficients`.
@@ -83,7 +87,8 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     ------
     ValueError
         The design is unknown, or its model does not have these laws. A column is missing, an angle is not between 0 and
-        90°, a number is not finite, or the table has too few angles.
+        90°, a number is not finite, or columns differ in length. The table has too few angles, or the angles do not
+        determine a law: the lift requires three different angles between 0 and 90°, without the ends.
     TypeError
         The table has another type.
 
@@ -108,9 +113,11 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
         if not np.isfinite(values).all():
             raise ValueError(f"`{name}` must contain finite numbers only")
         functions, least, parameters = laws[name]
-        solution = _solve(np.stack(functions(attack), axis=-1), values, least)
+        columns = np.stack(functions(attack), axis=-1)
+        _check_angles(name, columns)
+        solution = _solve(columns, values, least)
         params |= parameters(*(float(number) for number in solution))
-        fitted[name] = np.stack(functions(attack), axis=-1) @ solution
+        fitted[name] = columns @ solution
         errors[name] = float(np.abs(fitted[name] - values).max())
     return CoefficientFit(params, attack, fitted, errors)
 
@@ -127,6 +134,17 @@ def _attack(data: Data) -> Array:
     if len(np.unique(attack)) < 4:
         raise ValueError(f"`{given[0]}` must contain at least four different attack angles")
     return attack
+
+
+def _check_angles(name: str, columns: Array) -> None:
+    """Raise ValueError if the attack angles do not determine the coefficients of a law."""
+    sizes = np.linalg.svd(columns, compute_uv=False)
+    if len(columns) < columns.shape[1] or sizes[-1] < _DETERMINED * sizes[0]:
+        raise ValueError(
+            f"the attack angles of the table do not determine the {columns.shape[1]} coefficients of `{name}`\n"
+            "add rows: the lift requires three different angles between 0 and 90 deg, and other laws four from 0 to "
+            "90 deg; the angles must not be close together"
+        )
 
 
 def _solve(columns: Array, values: Array, least: int) -> Array:

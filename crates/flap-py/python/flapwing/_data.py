@@ -59,6 +59,7 @@ class Data:
             columns = {name: _column(data[name]) for name in names}
             units = getattr(data, "units", None)
             meta = getattr(data, "meta", None)
+        _check_lengths(columns)
         return cls(
             columns,
             units if isinstance(units, Mapping) else {},
@@ -358,6 +359,18 @@ def _callers_level() -> int:
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
         level, frame = level + 1, frame.f_back
     return level
+
+
+def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
+    """Raise ValueError if a column is not a list of cells, or the columns differ in length."""
+    for name, column in columns.items():
+        if column.ndim != 1:
+            told = "a single value" if column.ndim == 0 else f"an array of shape {column.shape}"
+            raise ValueError(f"column `{name}` is {told}\ngive one column with a cell per row for each name")
+    lengths = {len(column) for column in columns.values()}
+    if len(lengths) > 1:
+        told = ", ".join(f"`{name}` has {len(column)}" for name, column in columns.items())
+        raise ValueError(f"columns differ in length: {told}\ngive each one cell per row")
 
 
 def _column(values: Any) -> np.ndarray:

@@ -34,8 +34,8 @@ def hover_eigenvalues(
     """Return the eigenvalues of hover for each row of a sweep of vehicles with ``damping = true``.
 
     The states are velocities, rates, roll angle and pitch angle. The reference point of the torques must be the centre
-    of mass. The rows are not trimmed: the eigenvalues are correct for rows that hover, and an estimate for rows near
-    hover. `Vehicle.linear` trims one design and describes its modes.
+    of mass. This function does not trim the rows: the eigenvalues are correct for rows that hover, such as rows with
+    ``trim = "hover"``, and an estimate for rows near hover. `Vehicle.linear` trims one design and describes its modes.
 
     Parameters
     ----------
@@ -59,7 +59,8 @@ def hover_eigenvalues(
     Raises
     ------
     ValueError
-        If a column of the damping matrix is missing, or the inertia of the body is not positive definite.
+        If a column of the damping matrix is missing, `body_inertia` has not three entries, an argument is not a number
+        or an array with a number for each row, or the inertia of the body is not positive definite.
     """
     columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
     missing = [name for line in columns for name in line if name not in rows]
@@ -71,12 +72,13 @@ def hover_eigenvalues(
     damping = np.array([[np.asarray(rows[name], dtype=np.float64) for name in line] for line in columns])
     damping = np.moveaxis(damping * np.array(list(_WRENCH.values()))[:, None, None], 2, 0)
     count = len(damping)
-    roll, pitch, yaw = (np.broadcast_to(moment, count) for moment in body_inertia)
+    if isinstance(body_inertia, (str, Mapping)) or not hasattr(body_inertia, "__len__") or len(body_inertia) != 3:
+        raise ValueError("`body_inertia` must be a list of the three moments of inertia for roll, pitch and yaw")
     mass = np.zeros((count, 6, 6))
-    mass[:, range(3), range(3)] = np.broadcast_to(total_mass, count)[:, None]
-    mass[:, range(3, 6), range(3, 6)] = np.stack([roll, pitch, yaw], axis=1)
-    mass[:, 3, 5] = mass[:, 5, 3] = -np.broadcast_to(body_inertia_product, count)
-    if not (np.linalg.eigvalsh(mass) > 0).all():
+    mass[:, range(3), range(3)] = _of_rows("total_mass", total_mass, count)[:, None]
+    mass[:, range(3, 6), range(3, 6)] = np.stack([_of_rows("body_inertia", one, count) for one in body_inertia], axis=1)
+    mass[:, 3, 5] = mass[:, 5, 3] = -_of_rows("body_inertia_product", body_inertia_product, count)
+    if not (np.isfinite(mass).all() and (np.linalg.eigvalsh(mass) > 0).all()):
         raise ValueError(
             "the mass or the inertia of the body is not positive definite\n"
             "mass and moments must be positive, and the square of body_inertia_product smaller than roll times yaw"
@@ -91,3 +93,13 @@ def hover_eigenvalues(
     found = np.take_along_axis(found, np.argsort(-found.real, axis=1, kind="stable"), axis=1)
     found[~known] = np.nan
     return found
+
+
+def _of_rows(name: str, given: Array | float, count: int) -> Array:
+    """Return an argument as an array with a number for each row."""
+    try:
+        return np.broadcast_to(np.asarray(given, dtype=np.float64), count)
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"`{name}` must be a number in SI units, or an array with a number for each of the {count} rows"
+        ) from None

@@ -182,7 +182,7 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
             raise ValueError(f"`free` has `{name}` twice\nremove one")
         parameter = _free_of(name, given)
         made = _coordinates(name, parameter, names, sets)
-        if parameter.spread is not None and parameter.spread is not False:
+        if _has_spread(parameter):
             groups.append(_group(name, parameter, names, np.arange(len(coordinates), len(coordinates) + len(made))))
         coordinates += made
     return Space(coordinates, groups)
@@ -216,6 +216,11 @@ def _free_of(name: str, given: Any) -> FreeParameter:
     )
 
 
+def _has_spread(free: FreeParameter) -> bool:
+    # A spread of 0 equals False, but is a mistake.
+    return free.spread is not None and free.spread is not False
+
+
 def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[DataSet]) -> list[Coordinate]:
     nominal = names.nominal.get(name)
     nominal = float(nominal) if isinstance(nominal, (int, float)) and np.isfinite(nominal) else None
@@ -242,7 +247,7 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     if prior is not None and not low <= prior[0] <= high:
         told = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
         raise ValueError(f"{told.rstrip()}\ngive bounds that contain it, with some standard errors on both sides")
-    if (not free.per_set and free.spread in (None, False)) or len(sets) == 1:
+    if not (free.per_set or _has_spread(free)) or len(sets) == 1:
         return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
     return [
         Coordinate(name, place, f"{name} of {one.name}", unit, log, low, high, nominal, prior)
@@ -291,6 +296,8 @@ def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Grou
 def _error(names: Names, name: str, told: str, given: Any) -> tuple[float, bool]:
     """Return a standard error or deviation: in SI units, or as a share with True."""
     text = given.strip() if isinstance(given, str) else ""
+    if isinstance(given, (int, float)) and not 0 < given < np.inf:
+        raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")
     try:
         size = float(text[:-1]) / 100 if text.endswith("%") else _value(names, name, given)
     except ValueError as mistake:
