@@ -1,14 +1,14 @@
-"""The work of a fit with exact derivatives beside one with differences.
+"""The work of a fit with exact derivatives, compared with a fit with finite differences.
 
-Both fit four parameters of the bimorph of Jafferis et al. to 100 readings from eight starts, with
-`scipy.optimize.least_squares` and the same settings; the best end is searched on with a tighter tolerance. Derivatives
-of `flapwing.evaluate` come with the rows, at the tolerance that rows need. Differences need rows at a tighter one, 1e-8
-for steps of a thousandth, and a row for every side of every parameter. Forward differences take the row in the middle
-from the step before.
+The fits determine four parameters of the bimorph of Jafferis et al. from 100 readings and eight starts. All fits use
+`scipy.optimize.least_squares` with the same settings. A last search from the best end has a tighter tolerance. Exact
+derivatives come from `flapwing.evaluate`, together with the rows. Finite differences require rows at a tolerance of
+1e-8 for steps of 0.001, and one or two additional rows for each parameter. Forward differences reuse the row of the
+previous step.
 
     python benches/fit/cost.py
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -34,14 +34,14 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 
 class Response:
-    """Readings as a function of the logarithms of the parameters' ratios to the preset."""
+    """The readings as a function of the logarithms of (parameter / value in the preset)."""
 
     def __init__(self, points: dict[str, Array]) -> None:
         self.points = points
         self.nominal = np.array([float(flapwing.params(PRESET)[name].value) for name in TRUE])
         self.measured, self.sigma = np.zeros(0), np.ones(1)
         self.rhs_evals = 0
-        #: The latest parameters of `residuals`, with their values.
+        #: The latest arguments of `residuals`, and the computed values.
         self.last = np.zeros(0), np.zeros(0)
         self.seen: dict[tuple[bytes, float], tuple[Array, Array]] = {}
 
@@ -64,7 +64,7 @@ class Response:
         return np.asarray((self.last[1] - self.measured) / self.sigma)
 
     def residuals_and_slopes(self, x: Array, rtol: float) -> tuple[Array, Array]:
-        """Both from one call, as `flapwing.fit` has them."""
+        """Return residuals and derivatives from one call of `flapwing.evaluate`, as in `flapwing.fit`."""
         key = (x.tobytes(), rtol)
         if key not in self.seen:
             table = self.rows([x], rtol, True)

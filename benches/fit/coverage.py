@@ -1,15 +1,16 @@
-"""Coverage of the intervals of `flapwing.fit`: synthetic experiments, of which the true parameters are known.
+"""Coverage of the intervals of `flapwing.fit`, in synthetic experiments with known true parameters.
 
-Each experiment is a response of the bimorph of Jafferis et al. at two voltages and 25 frequencies, with noise of 3 % on
+Each experiment is a response of the bimorph of Jafferis et al. at two voltages and 25 frequencies, with noise of 3 % in
 every reading. Three parameters are fitted. 95 % intervals by the profile likelihood should contain the true values in
-95 % of the experiments: with 300 experiments, between 92 and 98 %.
+95 % of the experiments. With 300 experiments, the fraction should be between 92 and 98 %.
 
-Then a fourth parameter is freed, the inertia of the air beside that of the wing. Only their sum is in the equations, so
-no data tell them apart, and the fit must say so in every experiment.
+In a second fit, the added inertia is a fourth free parameter. Only the sum of wing inertia and added inertia enters the
+equations, so no data can separate the two parameters. In every experiment, the fit must report that the data cannot
+separate the two parameters.
 
     python benches/fit/coverage.py --experiments 300
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -27,12 +28,12 @@ NOISE = 0.03
 
 
 def truth() -> dict[str, Any]:
-    """The true parameters."""
+    """Return the true parameters."""
     return {name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()}
 
 
 def experiment(seed: int) -> dict[str, Any]:
-    """Readings with noise."""
+    """Return readings with noise."""
     frequency, voltage = np.tile(np.linspace(70, 150, 25), 2), np.repeat([120.0, 160.0], 25)
     points = {"drive_frequency": frequency, "drive_voltage_pp": voltage}
     exact = flapwing.evaluate(PRESET, points, measures=["stroke_pp_deg"], **truth())["stroke_pp_deg"]

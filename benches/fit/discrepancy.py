@@ -1,12 +1,12 @@
-"""Coverage of the bands of `flapwing.fit` for new readings, if the model is wrong.
+"""Coverage of the bands of `flapwing.fit` for new readings, with a correct model and with wrong models.
 
-Readings of stroke and pitch at four voltages are made with the law of the model, and with terms that the fitted model
-leaves out. Readings at one of the voltages are held out and predicted. The 95 % bands should contain 90 to 98 % of the
-readings that are held out, for the right model and for wrong models.
+Readings of stroke and pitch at four voltages are simulated with the fitted model, and with terms that the fitted model
+leaves out. Readings at one voltage are held out and predicted. The 95 % bands should contain 90 to 98 % of the held-out
+readings, for the correct model and for wrong models.
 
     python benches/fit/discrepancy.py --seeds 3
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -21,7 +21,7 @@ TRUE = {"hinge_stiffness": 1.15, "wing_inertia_stroke": 0.93, "drag_coefficient_
 MEASURES = ["stroke_pp_deg", "pitch_amplitude_deg"]
 VOLTAGES = [110.0, 130.0, 150.0, 170.0]
 NOISE = 0.02
-#: Parameters of the synthetic robot that the fit does not know.
+#: Parameters of the synthetic robot that differ from the design of the fit.
 LAWS: dict[str, dict[str, Any]] = {
     "right model": {},
     "drag_coefficient_min": {"drag_coefficient_min": 1.5},

@@ -1,16 +1,16 @@
-"""The choice of a law by `flapwing.compare`, and of a missing term by `flapwing.select`: synthetic experiments.
+"""The choice of a law by `flapwing.compare`, and of a missing term by `flapwing.select`, in synthetic experiments.
 
 Each trial is a response of the bimorph of Jafferis et al. at three voltages and ten frequencies, with noise of 3 % on
-stroke and pitch: 60 readings. The true law is the paper's law, or the paper's law with one further term or another drag
-law; the trials take the laws in turn. Three parameters are unknown in all trials.
+stroke and pitch: 60 readings. The true law is the paper's law, or the paper's law with one further term or with a
+different drag law. The trials use the laws in turn. Three parameters are unknown in all trials.
 
-`compare` chooses among five fits, one for each law. `select` begins with the three parameters, and its candidates are
-`flapwing.candidates`. A selection is right if it frees the parameter of the true law first, and exact if it frees
-nothing else.
+`compare` chooses among five fits, one for each law. `select` begins with the three parameters, and uses the candidates
+of `flapwing.candidates`. A selection is correct if the parameter of the true law is freed first. A selection is exact
+if no further parameter is freed.
 
     python benches/fit/laws.py --trials 20
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -37,7 +37,7 @@ MEASURES = ["stroke_pp_deg", "pitch_amplitude_deg"]
 
 
 def experiment(law: str, seed: int) -> dict[str, Any]:
-    """Readings with noise."""
+    """Return readings with noise."""
     frequency, voltage = np.meshgrid(np.linspace(70.0, 150.0, 10), [100.0, 140.0, 180.0])
     points = {"drive_frequency": frequency.ravel(), "drive_voltage_pp": voltage.ravel()}
     truth: dict[str, Any] = {name: ratio * float(flapwing.params(PRESET)[name].value) for name, ratio in TRUE.items()}
@@ -48,7 +48,7 @@ def experiment(law: str, seed: int) -> dict[str, Any]:
 
 
 def free(law: str) -> dict[str, tuple[float, float] | None]:
-    """The free parameters of a fit with a law."""
+    """Return the free parameters of a fit with a law."""
     return {**dict.fromkeys(TRUE), **{name: (low, high) for name, (_, low, high) in LAWS[law].items()}}
 
 

@@ -1,13 +1,13 @@
-"""The next readings of a fit: those that `Fit.next_measurements` chooses beside readings at random.
+"""The next readings of a fit: readings that `Fit.next_measurements` chooses, compared with random readings.
 
 Each trial is a synthetic experiment with eight readings at random frequencies and voltages. A fit of three parameters
-says which two operating points to measure next, so that the error of the drag coefficient halves. Both are measured and
-fitted again, until it has. The same is done with points at random. Errors are computed from derivatives at the true
-parameters, which no plan knows.
+chooses two operating points for the next readings. The new readings are added to the fit, and the choice is repeated
+until the error of the drag coefficient is halved. A second series of fits uses random operating points. Errors are
+computed from derivatives at the true parameters, which the choice does not use.
 
     python benches/fit/next.py --trials 100
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -47,7 +47,7 @@ def main() -> None:
     number = {point: row for row, point in enumerate(zip(*(values.tolist() for values in candidates.values())))}
 
     def plan(rows: Rows, readings: Array) -> Rows:
-        """The rows to be measured next."""
+        """Return the operating points of the next readings."""
         data = {name: values[rows] for name, values in candidates.items()}
         found = flapwing.fit(PRESET, {**data, MEASURE: readings}, list(TRUE), sigma="3 %", starts=1, profile=False)
         points = found.next_measurements(candidates, TARGET, count=EACH, repeats=True).points

@@ -1,4 +1,4 @@
-"""Measures cost and memory of `flap sweep` over the number of points: `python3 benches/growth --help`."""
+"""Measures CPU time and memory of `flap sweep` for different numbers of points: `python3 benches/growth --help`."""
 
 from scaling.command import main
 

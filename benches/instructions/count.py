@@ -1,15 +1,15 @@
-"""Counts the instructions of small sweeps, and compares them with those of baseline.toml.
+"""Counts the instructions of small sweeps, and compares the counts with the counts in baseline.toml.
 
     python3 benches/instructions/count.py target/release/flap
     python3 benches/instructions/count.py target/release/flap --renew
 
-Valgrind's callgrind counts, in what turns points into rows: start-up and the writing of files are left out. It knows
-AVX2 at most, so that the AVX2 lanes are counted on every processor that has them, and it gives the same number every
-time, however busy the machine is. What counts change with is the source, the compiler and the dependencies, and the
-versions of those are pinned.
+Valgrind's callgrind counts the instructions of the computation of rows. The counts leave out the start of the program
+and the writing of files. Callgrind supports AVX2 but not AVX-512, so the AVX2 lanes are counted on every processor with
+AVX2. The counts do not depend on the load of the machine. The counts change with the source, the compiler and the
+dependencies. The versions of compiler and dependencies are fixed.
 
-A count that differs from the baseline by more than the tolerance is an error in either direction: what has become
-faster is to stay so.
+A count that differs from the baseline by more than the tolerance is an error, also if the new count is smaller. Store
+smaller counts in the baseline, so that later increases are found.
 """
 
 import argparse
@@ -58,18 +58,18 @@ HEAD = """\
 
 
 class Count(NamedTuple):
-    """The instructions of a sweep."""
+    """The number of instructions of a sweep."""
 
     instructions: int
     rhs_evals: int
 
 
 class NotComparableError(Exception):
-    """This machine does not count what the baseline counts."""
+    """The error for a machine whose counts cannot be compared with the baseline."""
 
 
 def grids() -> dict[str, str]:
-    """The grids by name, in the order of reports."""
+    """Return the grids by name, in the order of the report."""
     texts = {}
     ways = (("marching", MARCHING, 16), ("newton", NEWTON, 8), ("progressive", PROGRESSIVE, 8))
     for way, solver, points in ways:
@@ -81,13 +81,13 @@ def grids() -> dict[str, str]:
 
 
 def grid(preset: str, params: str, solver: str, points: int) -> str:
-    """A grid file over voltages at which every preset flies."""
+    """Return a grid file with voltages at which every preset has a periodic motion."""
     axis = f"drive_voltage_pp = {{ from = 100, to = 150, n = {points} }}"
     return f'preset = "{preset}"\n\n[params]\n{params}\n\n[axes]\n{axis}\n\n[solver]\n{solver}\n'
 
 
 def count(flap: Path, text: str) -> Count:
-    """Counts the sweep of a grid file on one thread."""
+    """Count the instructions of the sweep of a grid file on one thread."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "grid.toml").write_text(text)
         command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", f"--toggle-collect={COUNTED}"]
@@ -107,12 +107,12 @@ def count(flap: Path, text: str) -> Count:
 
 
 def read_baseline() -> dict[str, Count]:
-    """The stored counts by grid."""
+    """Return the stored counts by grid."""
     return {name: Count(**one) for name, one in tomllib.loads(BASELINE.read_text()).items()}
 
 
 def write_baseline(counts: dict[str, Count]) -> None:
-    """Stores counts."""
+    """Store the counts in baseline.toml."""
     tables = (
         f"\n[{name}]\ninstructions = {one.instructions:_}\nrhs_evals = {one.rhs_evals:_}\n"
         for name, one in counts.items()
@@ -121,12 +121,12 @@ def write_baseline(counts: dict[str, Count]) -> None:
 
 
 def change(new: float, old: float) -> float:
-    """By what part `new` is more than `old`."""
+    """Return the relative change from `old` to `new`."""
     return new / old - 1
 
 
 def compare(counts: dict[str, Count], baseline: dict[str, Count]) -> list[str]:
-    """Prints a line per grid. Returns what is wrong."""
+    """Print one line per grid, and return the error messages."""
     wrong = []
     for name, new in counts.items():
         if name not in baseline:
@@ -147,7 +147,7 @@ def compare(counts: dict[str, Count], baseline: dict[str, Count]) -> list[str]:
 
 
 def main() -> None:
-    """Counts, and compares or stores."""
+    """Count the instructions, and compare the counts with the baseline or store the counts."""
     parser = argparse.ArgumentParser(description="Counts the instructions of small sweeps.")
     parser.add_argument("flap", type=Path, help="the command as `cargo build --release` has made it")
     parser.add_argument("--renew", action="store_true", help="store the counts as the new baseline")

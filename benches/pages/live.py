@@ -1,11 +1,11 @@
-"""Time from moving a slider to the redrawn coarse family, in a headless browser.
+"""Time from the motion of a slider to the redrawn coarse curves of the live page, in a headless browser.
 
     python benches/pages/live.py [--flap target/release/flap] [--steps 200]
 
-Needs Debian's packages chromium and chromium-driver, and the Python package selenium. For one preset of each model, a
-slider is dragged with the mouse, 60 steps per second. The page measures from the slider's event to the frame after
-the picture has been drawn; steps that come while a request runs are shown by the next one, which counts from the
-first of them.
+The script requires the Debian packages chromium and chromium-driver, and the Python package selenium. For one preset of
+each model, a slider is dragged with the mouse, 60 steps per second. The page measures the time from the slider's event
+to the frame after the picture was drawn. Steps during a running request are shown by the next request. For the next
+request, the time is measured from the first step during the running request.
 """
 
 import argparse
@@ -37,9 +37,8 @@ def browser():
 
 
 def drag(driver, name, steps):
-    """Drags the slider of a parameter to and fro around its value, one pixel per step.
-
-    Gives the seconds of each step, and the values of x in a line at the end.
+    """Drag the slider of a parameter back and forth around the value of the parameter, one pixel per step. Return the
+    duration of the motion of the slider (s), and the number of x values in a line at the end.
     """
     place = """
       const slider = document.querySelector(`[data-name="${arguments[0]}"] input[type=range]`);
@@ -72,7 +71,8 @@ def drag(driver, name, steps):
 
 
 def measured(driver, command, preset, name, steps):
-    """Milliseconds of each picture, the values of x in a line at the end, and the steps per second."""
+    """Return the time of each picture (ms), the number of x values in a line at the end, and the number of steps per
+    second."""
     server = subprocess.Popen(
         [command, "live", preset, "--no-open"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     )

@@ -1,10 +1,11 @@
-"""Pictures of both pages for the documentation, taken in a headless browser.
+"""Pictures of the live page and of the page of results for the documentation, taken in a headless browser.
 
     python benches/pages/pictures.py [--flap target/release/flap] [FOLDER]
 
-Writes live.png (a wide window, light), live-dark.png (a tablet's width, dark) and cli-page.png (the page of results)
-to FOLDER, docs/pictures if none is given. Needs Debian's packages chromium and chromium-driver, and the Python
-packages selenium and pillow. The pictures have few colours, so that each is smaller than 60 kB.
+The script writes live.png (a wide window with light colours) and live-dark.png (the width of a tablet, with dark
+colours). The script also writes cli-page.png (the page of results). The files are written to FOLDER. Default:
+docs/pictures. The script requires the Debian packages chromium and chromium-driver, and the Python packages selenium
+and pillow. The pictures have few colours, so that each is smaller than 60 kB.
 """
 
 import argparse
@@ -47,7 +48,7 @@ def window(driver, width, height, scheme):
 
 
 def in_few_colours(picture, count):
-    """A picture in its most frequent colours: those of areas, lines and letters, none close to another."""
+    """Return a picture reduced to the most frequent colours, of which no two are similar."""
     kept = []
     for _, colour in sorted(picture.getcolors(picture.width * picture.height), reverse=True):
         if all(sum((a - b) ** 2 for a, b in zip(colour, other)) >= APART**2 for other in kept):
@@ -60,7 +61,7 @@ def in_few_colours(picture, count):
 
 
 def save(driver, path):
-    """The window as a PNG of as many colours as fit."""
+    """Save the window as a PNG file, with the largest number of colours that the limit of the file size allows."""
     driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
     shot = driver.execute_cdp_cmd("Page.captureScreenshot", {"format": "png"})["data"]
     picture = Image.open(io.BytesIO(base64.b64decode(shot))).convert("RGB")
@@ -73,7 +74,7 @@ def save(driver, path):
 
 
 def live(driver, flap, folder):
-    """The live page of the bimorph, with a stiffer hinge in place of the published one."""
+    """Save pictures of the live page of the bimorph, with a hinge that is stiffer than the published hinge."""
     arguments = [flap, "live", "jafferis2016", "--no-open"]
     server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     try:
@@ -94,7 +95,7 @@ def live(driver, flap, folder):
 
 
 def results(driver, flap, folder):
-    """The page of the example in docs/how-to/plots.md, with a row that was clicked."""
+    """Save a picture of the page of results in docs/how-to/plots.md, with one selected row."""
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
         subprocess.run(

@@ -1,11 +1,12 @@
-"""Time to the first picture of a large page of results, and of a step of a filter's slider, in a headless browser.
+"""Time to the first picture of a large page of results, and time of each step of a filter's slider, in a headless
+browser.
 
     python benches/pages/results.py [--flap target/release/flap] [--steps 60]
 
-Needs Debian's packages chromium and chromium-driver, and the Python package selenium. A sweep of three axes gives
-126,000 rows, of which `flap plot --html` makes a page. The page measures from its opening to the frame after its
-first picture, and in each frame from a slider's step to the redrawn picture. Each kind of picture is measured, and
-lines of all slices.
+The script requires the Debian packages chromium and chromium-driver, and the Python package selenium. A sweep of three
+axes gives 126,000 rows, and `flap plot --html` makes a page of these rows. The page measures the time from opening the
+page to the frame after the first picture. The page also measures the time from each step of a slider to the redrawn
+picture. The script measures each kind of picture, and a picture with the lines of all slices.
 """
 
 import argparse
@@ -44,14 +45,14 @@ requestAnimationFrame(() => arguments[0](performance.now() - begun));
 
 
 def measures(driver, name):
-    """Milliseconds of all measures of a name."""
+    """Return all measured times with the given name (ms)."""
     return driver.execute_script(
         "return performance.getEntriesByName(arguments[0]).map((entry) => entry.duration)", name
     )
 
 
 def steps_of_a_slider(driver, steps):
-    """Milliseconds of each picture while the lower bound of a filter rises."""
+    """Return the time of each picture (ms), while the lower bound of a filter rises."""
     driver.execute_script("document.querySelector('#add').click()")
     for step in range(steps):
         driver.execute_script(

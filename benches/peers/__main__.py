@@ -1,4 +1,4 @@
-"""Runs flap and other solvers side by side: see README.md."""
+"""Runs flap and other solvers on the same points, and compares the results: see README.md."""
 
 from harness.command import main
 

@@ -27,8 +27,8 @@ pub(crate) fn print(effort: Effort) {
          The integration loop and the peak loop run in turn.\n\
          The program counts the executed instructions by single steps, and reads the kind of each instruction from a disassembly.\n\
          Each count is a number of instructions for one right-hand side.\n\
-         The lanes of this right-hand side fill two registers.\n\
-         Counts include the other instructions of an integration step.\n\
+         The lanes of one right-hand side fill two registers.\n\
+         Counts also include the instructions of an integration step that do not belong to the right-hand side.\n\
          \n\
          - *arithmetic*: instructions that add, multiply, divide or compare vectors of doubles, or fuse a multiplication and an addition\n\
          - *with the stack*: instructions that read or write an operand on the stack in memory\n\n\

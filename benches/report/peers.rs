@@ -25,7 +25,7 @@ const WORKS: [Work; 3] = [
         name: "settled",
         text: "## Settled motions beside other solvers\n\n\
                The points have the preset `jafferis2016`, voltages of 120 to 200 V and frequencies of 102 to 132 Hz.\n\
-               Only the last table of this section has other points.\n\
+               Only the last table of this section has different points.\n\
                Each motion starts at rest, runs until a drive period changes the state by at most 1e-6, and is measured over the next drive period.\n\
                The other solvers [march](../glossary.md#march) until the motion is settled.\n\
                flap runs as the command `flap sweep`, which writes rows with all columns.\n\

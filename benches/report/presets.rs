@@ -23,7 +23,7 @@ pub(crate) fn print(effort: Effort) {
          - *cycles*: median number of drive periods per point\n\
          - *settled*: number of points with an orbit\n\
          - *ratio of times*: time with marching divided by time with Newton shooting\n\
-         - *lanes in use*: share of the [lanes](../glossary.md#lane) that integrate a point, on average over the steps with Newton shooting. The other lanes are idle\n\
+         - *lanes in use*: share of the [lanes](../glossary.md#lane) that integrate a point, on average over the steps with Newton shooting. The remaining lanes are idle\n\
          \n\
          The column *lanes in use* has one share for each part of the computation, and the share in all steps:\n\
          \n\

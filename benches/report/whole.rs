@@ -33,7 +33,7 @@ pub(crate) fn print(effort: Effort) {
     }
     let lane_use = listed.map_or_else(String::new, |listed| lanes_full(&listed.lane_use));
     println!(
-        "## A whole sweep\n\nThe sweep of this table computes {} points of `{PRESET}` and writes a CSV file:\n\n| | |\n|---|---|\n\
+        "## A whole sweep\n\nThe sweep of the next table computes {} points of `{PRESET}` and writes a CSV file:\n\n| | |\n|---|---|\n\
          | points per second, one thread | {} |\n| points per second, two threads | {} |\n| speed with two threads divided by speed with one thread | {} |\n\
          | time to write the CSV file, in % of the time of the sweep on one thread | {} |\n\
          | time to read the CSV file, in % of the time of the sweep on one thread | {} |\n\

@@ -1,4 +1,4 @@
-"""Fixtures of the tests of benchmarks."""
+"""Fixtures for the tests of the benchmarks."""
 
 import os
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def flap():
-    """Runs the command."""
+    """Return a function that runs the command `flap`."""
     command = os.environ.get("FLAP")
     if not command:
         pytest.fail("FLAP must name the command `flap`: `just test-benches` builds it and sets FLAP")

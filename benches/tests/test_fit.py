@@ -1,4 +1,4 @@
-"""The benchmarks of fits, in small."""
+"""Tests of the benchmarks of fits, with small numbers of experiments."""
 
 import re
 import subprocess
@@ -11,7 +11,7 @@ FIT = Path(__file__).parents[2] / "benches/fit"
 
 
 def run(name, *arguments):
-    """The output of a benchmark. Warnings are errors."""
+    """Return the output of a benchmark. Warnings are errors."""
     command = [sys.executable, "-W", "error", FIT / f"{name}.py", *arguments]
     ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, timeout=300)
     assert ended.returncode == 0, ended.stderr

@@ -1,4 +1,4 @@
-"""The measurement of benches/growth: sweeps of ever more points, with their times, memory and a picture."""
+"""Tests of benches/growth: sweeps of increasing numbers of points, with times, memory and a picture."""
 
 import json
 import os
@@ -18,7 +18,7 @@ def paths(monkeypatch):
 
 @pytest.fixture
 def small(monkeypatch):
-    """Sweeps of fewer points than are worth measuring."""
+    """Reduce the numbers of points of the sweeps, so that the tests are fast."""
     from scaling import command
 
     monkeypatch.setattr(command, "FEWEST", 6)

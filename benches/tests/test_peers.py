@@ -1,4 +1,5 @@
-"""The harness of benches/peers: its equations are those of flap, and a peer that is missing stops nothing."""
+"""Tests of the harness of benches/peers. The equations agree with flap, and a missing peer does not stop the
+comparison."""
 
 import csv
 import dataclasses
@@ -23,7 +24,7 @@ def paths(monkeypatch):
 
 
 def known(rows):
-    """Rows of the reference for the example: id, force, frequency, then measures."""
+    """Return the rows of the reference for the example: id, force, frequency, and measures."""
     with (REPOSITORY / "tests/data/own_equations.csv").open(newline="", encoding="utf-8") as file:
         return [[float(cell) for cell in row] for row in list(csv.reader(file))[1 : 1 + rows]]
 
@@ -85,7 +86,7 @@ def test_a_grid_has_as_many_points_as_asked_for(count, work):
     assert all(work.frequency.low <= point.frequency <= work.frequency.high for point in grid)
 
 
-#: A peer whose answers are of this factor of the true ones.
+#: A peer whose results are the true results times a factor.
 FAKE = """\
 import csv, json, sys
 points, rtol, out = sys.argv[1:]
@@ -106,7 +107,7 @@ with open(points) as file, open(out, "w") as table:
 
 
 class Script:
-    """Builds a program in Python."""
+    """A builder of a program in Python."""
 
     def __init__(self, text):
         self.text = text
@@ -116,7 +117,7 @@ class Script:
 
 
 class Missing:
-    """Cannot be built."""
+    """A builder of a program that cannot be built."""
 
     def build(self):
         from harness.build import Unavailable
@@ -126,7 +127,7 @@ class Missing:
 
 @pytest.fixture
 def run(monkeypatch, tmp_path, capsys):
-    """Runs the harness with peers of one's own, the first of which is the base."""
+    """Return a function that runs the harness with given peers. The first peer is the base."""
     from harness import command
     from harness.peer import Peer
     from harness.roster import WORKS

@@ -1,9 +1,9 @@
-"""Makes measured.csv: synthetic readings of the tutorial's robot, in place of a camera and a bench.
+"""Makes measured.csv: synthetic readings of the tutorial's robot, which replace an experiment.
 
     python examples/learn/make_measured.py measured.csv
 
-The "built" robot has the numbers of robot.toml, except for BUILT. The readings are the stroke from peak to peak and the
-pitch amplitude of its settled motion, with normally distributed noise.
+The simulated robot has the parameters of robot.toml, except for the values in `BUILT`. The readings are the
+peak-to-peak stroke and the pitch amplitude of the settled motion. Normally distributed noise is added to the readings.
 """
 
 import sys
@@ -26,7 +26,7 @@ SEED = 1
 
 
 def readings() -> str:
-    """The lines of the file."""
+    """Return the text of measured.csv."""
     voltage, frequency = np.repeat(VOLTAGES, len(FREQUENCIES_HZ)), np.tile(FREQUENCIES_HZ, len(VOLTAGES))
     points = {"drive_voltage_pp": voltage, "drive_frequency": frequency}
     rows = flapwing.evaluate(str(ROBOT), points, **BUILT)

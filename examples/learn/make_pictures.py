@@ -1,9 +1,11 @@
-"""Makes the pictures of docs/start and docs/learn, all or the named ones: docs/pictures/learn-NAME.png.
+"""Makes the pictures docs/pictures/learn-NAME.png of the pages in docs/start and docs/learn. Without a NAME, the script
+makes all pictures.
 
     python examples/learn/make_pictures.py [NAME]...
 
-Each picture is drawn by the commands of its page, then reduced to 1040 pixels and 256 colours or fewer. Needs the
-command flap on the PATH, and the extras plot and fit of flapwing.
+Each picture is drawn by the commands on the picture's page. The script then reduces the picture to a width of 1040
+pixels and to at most 256 colours. The script requires the command flap on the PATH, and the extras plot and fit of
+flapwing.
 """
 
 import os
@@ -61,7 +63,7 @@ COLOURS = {"fit": 64, "motion": 96}
 
 
 def wing(picture: Path) -> None:
-    """The outline, with the hinge's axis."""
+    """Draw the outline of the wing, with the axis of the hinge."""
     span, leading, trailing = np.loadtxt(HERE / "outline.csv", delimiter=",", skiprows=1).T
     figure, ax = plt.subplots(figsize=(6.5, 2.6), dpi=160, layout="constrained")
     ax.fill(np.concatenate([span, span[::-1]]), np.concatenate([leading, -trailing[::-1]]), fc="#d5e3f0", ec="#1f5582")
@@ -74,7 +76,7 @@ def wing(picture: Path) -> None:
 
 
 def fit(picture: Path) -> None:
-    """The readings with the fitted model, as on the page."""
+    """Draw the readings and the fitted model."""
     free = ["hinge_stiffness", "rotation_pressure_width", "drag_coefficient_max"]
     found = flapwing.fit("robot.toml", "measured.csv", free, sigma="1 deg", starts=2)
     plot.fit(found, "data").savefig(picture, dpi=160)

@@ -1,11 +1,13 @@
-"""Reference motions of the motor-driven wing, by SciPy, from a separate transcription of the equations.
+"""Reference motions of the motor-driven wing, computed by SciPy. The equations are written independently of the Rust
+code.
 
     python examples/own_model/reference.py > tests/data/motor_wing.csv
 
-The columns of a point are voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). The stiffness is
-empty where it follows the frequency. The measures are taken over the last of 100 drive periods. The first
-are the largest flap angle (deg) and the mean lift (mN). Then follow the mean and the mean magnitude of the electrical
-power (mW). The last are the mean power taken by the air (mW) and the root mean square of the current (mA).
+The columns of a point are voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). If the stiffness
+is computed from the frequency, the cell of the stiffness is empty. The measures are computed over the last of 100 drive
+periods. The first two measures are the largest flap angle (deg) and the mean lift (mN). The next two measures are the
+mean and the mean magnitude of the electrical power (mW). The last two measures are the mean power that the air absorbs
+(mW) and the root mean square of the current (mA).
 """
 
 import csv

@@ -1,13 +1,13 @@
-"""The largest lift of each design and its frequency, over hinge stiffness and voltage.
+"""The largest lift of each design and the frequency of the largest lift, over hinge stiffness and voltage.
 
 The script sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and converts the result to
-labelled arrays. With these it selects by value, finds the best frequency of each design, interpolates between
+labelled arrays. The script then selects designs by value, finds the best frequency of each design, interpolates between
 designs, and prints a map.
 
     python 01_xarray_map.py
     python 01_xarray_map.py --size full --save map.nc --picture map.png
 
-Needs xarray and scipy; for --picture, matplotlib: pip install xarray scipy matplotlib
+The script requires xarray and SciPy, and `--picture` requires matplotlib: pip install xarray scipy matplotlib
 
 S. Hoyer and J. Hamman, "xarray: N-D labeled arrays and datasets in Python", J. Open Res. Softw. 5 (2017) 10.
 """
@@ -27,7 +27,7 @@ STEPS: dict[str, dict[str, Any]] = {
 
 
 def grid(hinge: int, voltage: int, hz: float) -> dict[str, Any]:
-    """A grid as a dictionary: what a grid file would say."""
+    """Return a grid as a dictionary with the contents of a grid file."""
     return {
         "preset": "ozaki2018-large",
         "axes": {
@@ -98,7 +98,7 @@ def main() -> None:
 
 
 def step(atlas: xarray.Dataset, dimension: int) -> int:
-    """The stride along an axis of the map at which at most eight values are printed."""
+    """Return the step between the printed values along an axis of the map, so that at most eight values are printed."""
     return -(-list(atlas["lift_mean_mn"].shape)[dimension] // 8)
 
 

@@ -1,15 +1,17 @@
-"""A fit of hinge, wing inertia and drag to a measured frequency response.
+"""A fit of hinge stiffness, wing inertia and drag to a measured frequency response.
 
-The data are a CSV file with the column `frequency_hz` and one or more measures such as `stroke_pp_deg`. Without data,
-the script makes a response with noise from a bimorph with other parameters, and compares the fit with these values.
+The data are a CSV file with the column `frequency_hz` and one or more measures such as `stroke_pp_deg`. Without a file,
+the script simulates the response of a bimorph with changed parameters, and adds noise. The script then compares the
+fitted parameters with the changed parameters.
 
     python 02_fit_bimorph.py measured.csv --voltage 160
     python 02_fit_bimorph.py
 
-A response does not determine all parameters. If the force, both stiffnesses, both inertias and the drag grow by the
-same factor, the motion stays the same. Here, the force and the stiffness of the transmission are taken as known.
+A frequency response does not determine all parameters. If the force, both stiffnesses, both inertias and the drag grow
+by the same factor, the motion stays the same. The script therefore assumes that the force and the stiffness of the
+transmission are known.
 
-Needs SciPy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
@@ -26,7 +28,7 @@ NOISE_DEG = 1.0
 
 
 def synthetic(voltage: float) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A noisy response, and the parameters that it was computed with."""
+    """Return a response with noise, and the changed parameters of the simulated bimorph."""
     parameters = flapwing.params(PRESET)
     true: dict[str, Any] = {name: float(parameters[name].value) * ratio for name, ratio in zip(FITTED, TRUE_RATIOS)}
     frequency = np.linspace(70.0, 150.0, 21)

@@ -1,15 +1,16 @@
-"""Tolerances of a build: linear propagation by exact derivatives beside 2,000 sampled builds.
+"""Tolerances of a build: linear propagation with exact derivatives, compared with 2,000 sampled builds.
 
-Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). One row with
-derivatives gives the spread of a measure, sqrt(sum of (derivative * deviation)^2); the sample gives it by brute
-force. Both agree as long as the measure is nearly linear over the deviations. They differ near a peak, where the
-derivatives are small but every deviation lowers the measure. They also differ on the flank of a resonance, where some
-builds lose most of the lift.
+Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). From one row with
+derivatives, the standard deviation of a measure is sqrt(sum of (derivative * deviation)^2). From the sample, the
+standard deviation is computed directly. The two standard deviations agree if the measure is nearly linear over the
+deviations of the parameters. Near a peak the two standard deviations differ, because the derivatives are small but
+every deviation lowers the measure. On the flank of a resonance the two standard deviations differ, because some builds
+lose most of the lift.
 
     python 03_tolerance_linear.py
     python 03_tolerance_linear.py --deviation 0.02 --builds 4096
 
-Needs nothing but flapwing.
+The script requires only flapwing.
 """
 
 import argparse
@@ -35,7 +36,7 @@ PART = 0.1
 
 
 def linear(frequency: float, deviation: float) -> Any:
-    """Relative standard deviations of the measures, from one row."""
+    """Return the relative standard deviations of the measures, from one row with derivatives."""
     row = flapwing.evaluate(PRESET, {"drive_frequency": [frequency]}, measures=MEASURES, gradient=VARIED)
     values = flapwing.Grid({"preset": PRESET})[0]
     deviations = deviation * np.array([float(values[name]) for name in VARIED])
@@ -44,7 +45,8 @@ def linear(frequency: float, deviation: float) -> Any:
 
 
 def sampled(frequency: float, deviation: float, builds: int) -> Any:
-    """The same from many builds, and the share of builds whose motion is not periodic."""
+    """Return the relative standard deviations of the measures from sampled builds, and the share of builds without a
+    periodic motion."""
     table = flapwing.sweep(
         {
             "preset": PRESET,

@@ -1,16 +1,17 @@
-"""Sobol' indices of lift and power, for parameters that are known to 10 % only.
+"""Sobol' indices of lift and power, for parameters that are known to within 10 %.
 
 A Sobol' index is the share of the variance of a result that one parameter causes. The first-order index S1 counts the
-parameter alone. The total index ST also counts all interactions of the parameter with others. First-order indices add
-up to at most 1; the rest comes from interactions. A parameter whose ST is near 0 can be fixed.
+parameter alone. The total index ST also counts all interactions of the parameter with other parameters. The sum of all
+first-order indices is at most 1, and interactions cause the rest of the variance. A parameter with a total index ST
+near 0 can have a fixed value.
 
-All points go through one call of `flapwing.evaluate`.
+One call of `flapwing.evaluate` runs all points.
 
     python 04_sobol_indices.py
     python 04_sobol_indices.py --size full
     python 04_sobol_indices.py --preset jafferis2016 --spread 25
 
-Needs SALib: pip install SALib
+The script requires SALib: pip install SALib
 
 I. M. Sobol', "Global sensitivity indices for nonlinear mathematical models and their Monte Carlo estimates", Math.
 Comput. Simul. 55 (2001) 271-280.
@@ -52,7 +53,8 @@ BASES = {"small": 1024, "full": 8192}
 
 
 def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
-    """SALib's description of the parameters, each uniform within a share of its value in the preset."""
+    """Return the description of the parameters for SALib. Each parameter is distributed uniformly around the value in
+    the preset."""
     names = UNCERTAIN[preset]
     values = [float(flapwing.params(preset)[name].value) for name in names]
     bounds = [[value * (1 - spread), value * (1 + spread)] for value in values]
@@ -60,11 +62,11 @@ def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
 
 
 def rows_of_whole_blocks(periodic: np.ndarray, parameters: int) -> np.ndarray:
-    """Marks the rows of blocks that are periodic throughout.
+    """Return a mask, which is True for rows of blocks in which all rows are periodic.
 
-    Saltelli's design consists of blocks of rows: two points, and the first point with each parameter taken from the
-    second. The estimators compare rows within a block. If one row of a block is not periodic, the row has no lift or
-    power, and the whole block is left out.
+    Saltelli's sample consists of blocks of rows. A block contains two points, and copies of the first point in which
+    one parameter is taken from the second point. The estimators of the Sobol' indices compare rows within a block. If
+    one row of a block is not periodic, the row has no lift or power, and the whole block is left out.
     """
     blocks = periodic.reshape(-1, parameters + 2)
     whole = blocks.all(axis=1)

@@ -1,13 +1,15 @@
-"""Lift per watt over eight parameters, under limits: exact derivatives beside differential evolution.
+"""The largest lift per watt over eight parameters, under limits: exact derivatives compared with differential
+evolution.
 
-Maximises the lift per watt of the bimorph of Jafferis et al. over drive, transmission, hinge and actuator. The plates'
-strain, stroke and pitch have limits, and two wings must carry the vehicle. SLSQP takes the derivatives of settled rows;
-differential evolution of pymoo takes values alone. Both are counted: designs, right-hand sides, seconds.
+The script maximises the lift per watt of the bimorph of Jafferis et al. over parameters of drive, transmission, hinge
+and actuator. The strain of the plates, the stroke and the pitch have limits, and two wings must carry the vehicle.
+SLSQP uses the derivatives of settled rows. Differential evolution (pymoo) uses only the values of the rows. For each
+method, the script counts the designs, the evaluations of the right-hand side, and the seconds.
 
     python 05_gradient_design.py
     python 05_gradient_design.py --starts 8 --generations 120
 
-Needs SciPy and pymoo: pip install scipy pymoo
+The script requires SciPy and pymoo: pip install scipy pymoo
 
 D. Kraft, "A software package for sequential quadratic programming", DFVLR-FB 88-28 (1988).
 R. Storn and K. Price, "Differential evolution", J. Global Optim. 11 (1997) 341-359.
@@ -53,14 +55,14 @@ LOWEST, HIGHEST = np.array(list(VARIABLES.values())).T
 
 @dataclass
 class Count:
-    """Designs and right-hand sides of a search."""
+    """The number of designs and the number of evaluations of the right-hand side in a search."""
 
     designs: int = 0
     rhs: int = 0
 
 
 def rows(shares: Any, count: Count, gradient: bool) -> Any:
-    """The rows of designs given as shares of the preset's values, one design per line of `shares`."""
+    """Return the rows of designs. Each line of `shares` is one design, given as multiples of the preset's values."""
     columns = {name: BASE[name] * shares[:, place] for place, name in enumerate(VARIABLES)}
     table = flapwing.evaluate(DESIGN, columns, gradient=list(VARIABLES) if gradient else None)
     count.designs += len(table)
@@ -69,17 +71,18 @@ def rows(shares: Any, count: Count, gradient: bool) -> Any:
 
 
 def excesses(table: Any) -> Any:
-    """The excess over each limit, a column each: not more than zero in an allowed design."""
+    """Return the excess over each limit, with one column per limit. In an allowed design, no excess is more than
+    zero."""
     columns = [table[name] / limit - 1 for name, limit in LIMITS.items()]
     return np.column_stack([*columns, 1 - table["vehicle_lift_mgf"] / LIFT_MGF])
 
 
 class NoDerivative(Exception):
-    """A design on the way whose motion does not settle, or whose derivatives are not known."""
+    """The error for a design in a search without a settled motion or without derivatives."""
 
 
 class Search:
-    """Objective and limits with their derivatives, computed once per design."""
+    """The objective, the limits, and the derivatives of objective and limits, computed once per design."""
 
     def __init__(self) -> None:
         self.count = Count()
@@ -87,7 +90,8 @@ class Search:
         self.known: Any = None
 
     def row(self, x: Any) -> Any:
-        """[-lift per watt, room to each limit] and the derivatives of all with respect to the shares."""
+        """Return the negative lift per watt with the distances to the limits, and the derivatives of all these
+        values."""
         if self.at is None or not np.array_equal(self.at, x):
             table = rows(x[None, :], self.count, gradient=True)
             slopes = table.gradient[0] * np.array([BASE[name] for name in VARIABLES])
@@ -99,7 +103,8 @@ class Search:
         return self.known
 
     def best(self, start: Any) -> Any:
-        """The best design that SLSQP finds from a start; `None` where derivatives end."""
+        """Return the best design that SLSQP finds from a start. Return None if the search reaches a design without
+        derivatives."""
         room = {"type": "ineq", "fun": lambda x: self.row(x)[0][1:], "jac": lambda x: self.row(x)[1][1:]}
         try:
             return minimize(
@@ -116,7 +121,7 @@ class Search:
 
 
 class Wing(Problem):  # type: ignore[misc, unused-ignore]
-    """The same without derivatives, a generation at a time."""
+    """The optimisation problem without derivatives, for one generation of designs at a time."""
 
     def __init__(self) -> None:
         super().__init__(n_var=len(VARIABLES), n_obj=1, n_ieq_constr=len(LIMITS) + 1, xl=LOWEST, xu=HIGHEST)
@@ -130,12 +135,13 @@ class Wing(Problem):  # type: ignore[misc, unused-ignore]
 
 
 def keeps_the_limits(end: Any) -> bool:
-    """True if the end of a search keeps all limits to a thousandth."""
+    """Return True if the result of a search satisfies all limits to within 0.1 %."""
     return bool((excesses(rows(end.x[None, :], Count(), gradient=False)) < 1e-3).all())
 
 
 def by_derivatives(starts: int) -> tuple[Any, Count]:
-    """The best of SLSQP's ends, and the work: from the preset, and from random designs."""
+    """Return the best result of SLSQP from several starts, and the count of the work. The starts are the preset and
+    random designs."""
     search = Search()
     spread = np.random.default_rng(1).uniform(0.25, 0.75, (starts - 1, len(VARIABLES)))
     begins = [np.ones(len(VARIABLES)), *(LOWEST + (HIGHEST - LOWEST) * spread)]
@@ -146,7 +152,7 @@ def by_derivatives(starts: int) -> tuple[Any, Count]:
 
 
 def by_evolution(generations: int) -> tuple[Any, Count]:
-    """The best design of differential evolution, and the work."""
+    """Return the best design that differential evolution finds, and the count of the work."""
     wing = Wing()
     found = evolve(wing, DE(pop_size=64), ("n_gen", generations), seed=1)
     if found.X is None:

@@ -1,12 +1,12 @@
-"""Roll, pitch and yaw of a vehicle of two bimorph wings, each by the drive that makes it:
+"""Roll, pitch and yaw torques of a vehicle with two bimorph wings, for the drive that produces each torque:
 
     pip install ./crates/flap-py
     python examples/python/07_vehicle_torques.py
     python examples/python/07_vehicle_torques.py --preset jafferis2016-improved
 
-A difference of the amplitudes gives roll, a bias pitch, and a second harmonic of opposite signs (split cycle) yaw.
-Axes of the body: x forward, y to the left, z up. Positive roll lifts the left side, positive pitch lowers the nose, and
-positive yaw turns the nose to the left.
+A difference of the amplitudes produces a roll torque, and a bias produces a pitch torque. A second harmonic with
+opposite signs on the two wings (split cycle) produces a yaw torque. The body axes are x forward, y to the left, and z
+up. Positive roll lifts the left side, positive pitch lowers the nose, and positive yaw turns the nose to the left.
 
 K. Y. Ma, S. M. Felton and R. J. Wood, "Design, fabrication, and modeling of the split actuator microrobotic bee", IROS
 2012.
@@ -26,7 +26,7 @@ SHARE = 0.2
 
 
 def vehicle(preset: str) -> flapwing.Vehicle:
-    """Two wings beside each other, above the centre of mass."""
+    """Return a vehicle with two wings beside each other, above the centre of mass."""
     place = ["0 mm", "1.5 mm", "0 mm"]
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
     # A second harmonic of zero leaves the sine as it is.
@@ -35,7 +35,7 @@ def vehicle(preset: str) -> flapwing.Vehicle:
 
 
 def best_phase(robot: flapwing.Vehicle) -> float:
-    """The phase of the second harmonic (degrees) at which it makes the largest yaw."""
+    """Return the phase (degrees) of the second harmonic at which the yaw torque is largest."""
     degrees = np.arange(0.0, 360.0, 15.0)
     columns = {"drive_second_phase": np.radians(degrees)}
     rows = flapwing.evaluate(robot, columns, difference_drive_second_harmonic=2 * SHARE, measures=TORQUES)
@@ -43,7 +43,7 @@ def best_phase(robot: flapwing.Vehicle) -> float:
 
 
 def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
-    """Parameters of each drive, by its name."""
+    """Return the parameters of each drive, by the name of the drive."""
     volts = flapwing.params(preset)["drive_voltage_pp"].value
     assert isinstance(volts, float)
     split = {"drive_second_phase": float(np.radians(phase))}
@@ -59,7 +59,7 @@ def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
 
 
 def main() -> None:
-    """Prints a table of torques."""
+    """Print a table of torques."""
     parser = argparse.ArgumentParser(description="Prints the torques of a vehicle of two wings for several drives.")
     parser.add_argument("--preset", default="jafferis2016", help="design of the wings (default: %(default)s)")
     preset = parser.parse_args().preset

@@ -1,13 +1,13 @@
-"""The map from the drive of a two-winged vehicle to its forces and torques, at 4,096 combinations, and its inverse:
+"""The mean forces and torques of a vehicle with two wings, at 4,096 combinations of the drive inputs:
 
     pip install ./crates/flap-py
     python examples/python/08_wrench_map.py                 # 4 inputs, 8 levels each
     python examples/python/08_wrench_map.py --size small    # 4 levels each
     python examples/python/08_wrench_map.py --out map.csv
 
-The inputs are the amplitude of both wings, the difference of the amplitudes, the bias, and the second harmonic of
-opposite signs. The script template/sdab_num_wrenchmap.py of robobee3d (https://github.com/avikde/robobee3d) maps the
-same inputs with a simulator, one combination after the other."""
+The inputs are the amplitude of both wings, the difference of the amplitudes, the bias, and the second harmonic. The
+second harmonic has opposite signs on the two wings. The script template/sdab_num_wrenchmap.py of robobee3d
+(https://github.com/avikde/robobee3d) varies the same four inputs, but simulates the combinations one at a time."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ LEVELS = {"small": 4, "full": 8}
 
 
 def vehicle() -> flapwing.Vehicle:
-    """Two wings of `jafferis2016`, with a second harmonic at the phase of the largest yaw."""
+    """Return a vehicle with two wings of `jafferis2016`, with a second harmonic at the phase of the largest yaw
+    torque."""
     place = ["0 mm", "1.5 mm", "0 mm"]
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
     drive = {"drive_shape": "harmonics", "drive_second_phase": "315 deg"}
@@ -39,12 +40,13 @@ def vehicle() -> flapwing.Vehicle:
 
 
 def grid(levels: int) -> dict[str, object]:
-    """The vehicle at all combinations of the inputs."""
+    """Return a grid of the vehicle with all combinations of the inputs."""
     return {**vehicle(), "axes": {name: np.linspace(*ends, levels) for name, ends in INPUTS.items()}}
 
 
 def fitted(table: flapwing.Table) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A quadratic map from inputs (-1 to 1) to lift and torques: its coefficients, residuals (rms) and ranges."""
+    """Fit a quadratic map from inputs (-1 to 1) to lift and torques. Return the coefficients, the root mean square of
+    the residuals, and the ranges of lift and torques."""
     there = table.periodic
     scaled = [(there[name] - np.mean(ends)) / np.ptp(ends) * 2 for name, ends in INPUTS.items()]
     terms = [np.ones(len(there)), *scaled]
@@ -56,7 +58,7 @@ def fitted(table: flapwing.Table) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def main() -> None:
-    """Computes the map, and prints what it is like."""
+    """Compute the rows, fit a quadratic map, and print the linear part and the residuals of the map."""
     parser = argparse.ArgumentParser(description="Maps drives of a vehicle to forces and torques.")
     parser.add_argument("--size", choices=LEVELS, default="full", help="levels of each input (default: %(default)s)")
     parser.add_argument("--out", type=Path, help="write the rows to this file")

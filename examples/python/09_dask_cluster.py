@@ -1,29 +1,28 @@
 """A sweep spread over the processes of a cluster, with the same result as on one machine.
 
-The script starts a small Dask cluster on this machine and sweeps on it into one file. A sweep without a cluster gives
-the same bytes, which the script compares. If a worker dies, others run its points again. The same call continues an
-interrupted sweep, on the cluster or without it.
+The script starts a small Dask cluster on this machine and runs a sweep on the cluster, with one result file. The script
+also runs the sweep without a cluster, and checks that both files have the same bytes. If a worker dies, other workers
+run the points of the lost worker again. To continue an interrupted sweep, repeat the call, with or without the cluster.
 
     python 09_dask_cluster.py
     python 09_dask_cluster.py --size full --workers 8 --out sweep.csv
 
-On a cluster, put another line in place of `LocalCluster(...)`, and the rest stays as it is. With SLURM
-(pip install dask-jobqueue):
+For a real cluster, replace the line with `LocalCluster(...)`. For SLURM (pip install dask-jobqueue), write:
 
     from dask_jobqueue import SLURMCluster
     cluster = SLURMCluster(cores=1, memory="2GB", walltime="01:00:00")
     cluster.scale(64)
 
-With Kubernetes (pip install dask-kubernetes), where the image needs flapwing:
+For Kubernetes (pip install dask-kubernetes), use an image that contains flapwing, and write:
 
     from dask_kubernetes.operator import KubeCluster
     cluster = KubeCluster(image="registry.example/flapwing")
     cluster.scale(64)
 
-Workers need the same build of flapwing, and processors with the same rounding; otherwise the sweep ends with an
-error. This process writes the file, not the workers.
+All workers must have the same build of flapwing, and processors with the same rounding. If a worker differs, the sweep
+ends with an error. The process of the script writes the file.
 
-Needs Dask: pip install distributed
+The script requires Dask: pip install distributed
 
 M. Rocklin, "Dask: parallel computation with blocked algorithms and task scheduling", Proc. 14th Python in Science
 Conf. (2015) 126-132.

@@ -4,8 +4,8 @@
     python examples/python/10_four_panels.py              # writes docs/pictures/py-four-panels.png
     python examples/python/10_four_panels.py figure.pdf   # any format of matplotlib
 
-Each function of `flapwing.plot` draws in the axes that it is given, with the letters and lines of the script's
-settings.
+Each function of `flapwing.plot` draws in axes that the script gives. The settings of the script determine the sizes of
+letters and lines.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ REPOSITORY = Path(__file__).parents[2]
 
 
 def use_style_of_paper() -> None:
-    """Small letters and thin lines."""
+    """Set small letters and thin lines for all pictures."""
     plt.rc("font", size=7.0)
     plt.rc("axes", linewidth=0.6)
     plt.rc("lines", linewidth=1.0, markersize=4.0)
@@ -34,7 +34,7 @@ def use_style_of_paper() -> None:
 
 
 def four_panels() -> Figure:
-    """A response, a map, a Pareto front and a hysteresis loop in 7 by 5 inches."""
+    """Return a figure of 7 by 5 inches with a response, a map, a Pareto front and a hysteresis loop."""
     large = flapwing.sweep(REPOSITORY / "examples" / "ozaki_large.toml")
     loop = flapwing.respond(
         "jafferis2016",
@@ -58,7 +58,7 @@ def four_panels() -> Figure:
 
 
 def main() -> None:
-    """Writes the figure."""
+    """Write the figure to a file."""
     parser = argparse.ArgumentParser(description="Makes a figure of four panels.")
     parser.add_argument("file", nargs="?", type=Path, default=REPOSITORY / "docs" / "pictures" / "py-four-panels.png")
     file = parser.parse_args().file
@@ -71,7 +71,7 @@ def main() -> None:
 
 
 def reduce(path: Path) -> None:
-    """Makes a PNG smaller: few colours are enough for a chart."""
+    """Reduce the number of colours of a PNG file, so that the file becomes smaller."""
     from PIL import Image
 
     with Image.open(path) as image:

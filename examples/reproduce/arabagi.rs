@@ -26,7 +26,8 @@ pub(crate) const PAPER: Paper = Paper {
             title: "Resonances of small motions",
             preface: "The computed numbers are frequencies of peaks in the spectra of stroke and pitch during the first second after an impulse.\n\
                       The impulse is sized so that the stroke of the first mode alone, without damping, would reach 0.5°.\n\
-                      In the paper, the first link of the four-bar has amplitudes below 5°; this link moves with the stroke.",
+                      In the paper, the first link of the four-bar has amplitudes below 5°.\n\
+                      The first link of the four-bar moves with the stroke.",
             quick: true,
             claims: resonance::small_motions,
         },
@@ -44,10 +45,11 @@ pub(crate) const PAPER: Paper = Paper {
             preface: "The rows about rotation alone compute the pitch for a prescribed stroke, which is a sinusoid of the measured amplitude.\n\
                       The paper does not give the measured stroke amplitude as a number, so each row states an assumed amplitude.\n\
                       The paper measures the lever arms of the air forces from the leading edge instead of the axis of rotation.\n\
-                      The preset also measures the lever arms from the leading edge; this choice was made when the trends of the paper were known.\n\
+                      The preset also measures the lever arms from the leading edge.\n\
+                      The lever arms of the preset were chosen when the trends of the paper were known.\n\
                       The paper first states that the strokes of the full simulation are ≈20° smaller, peak to peak, than the measured strokes.\n\
-                      Later the paper states that the strokes of the full simulation are larger and make more lift.\n\
-                      Only the second statement agrees with the lift of the full simulation in the paper, so the rows use the second statement.",
+                      Later the paper states that the strokes of the full simulation are larger than the measured strokes, and make more lift.\n\
+                      Only the statement about larger strokes agrees with the lift of the full simulation in the paper, so the rows use this statement.",
             quick: true,
             claims: rotation::claims,
         },

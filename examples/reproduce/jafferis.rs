@@ -18,7 +18,7 @@ pub(crate) const PAPER: Paper = Paper {
               The design T₁ has the parameters of Table I in the paper (preset `jafferis2016`).\n\
               The designs T₂ and T₃ have 0.8 times and 0.6 times the transmission ratio of T₁, as in Fig. 5 of the paper.\n\
               The redesigned vehicle of the paper is the preset `jafferis2016-improved`.\n\
-              The paper fitted many parameters of Table I to the vehicle of the paper.\n\
+              In the paper, many parameters of Table I were fitted to the vehicle of the paper.\n\
               Agreement therefore tests the transcription of the paper and the corrected equations rather than the physics of the model.",
     groups: &[
         Group { title: "From Table I, without a motion", preface: "", quick: true, claims: design::claims },
@@ -31,8 +31,9 @@ pub(crate) const PAPER: Paper = Paper {
         Group {
             title: "The redesigned vehicle",
             preface: "The wings of the redesigned vehicle and of Table I differ in shape, but the preset uses the coefficients of Table I.\n\
-                      In rows with two computed numbers, the first number is computed at the frequency of the largest computed lift, and the verdict uses this number.\n\
-                      The second number is computed at 155 Hz, the frequency of the largest lift in the paper.",
+                      In rows with two computed numbers, the first number is computed at the frequency of the largest computed lift.\n\
+                      The verdict uses the first number.\n\
+                      The second number of a row is computed at 155 Hz, the frequency of the largest lift in the paper.",
             quick: true,
             claims: redesign::claims,
         },
@@ -73,7 +74,7 @@ fn unchecked() -> Vec<Claim> {
         said("Table II", "lift and lift per power of the previous vehicle", "140 mg, 7 mg/mW")
             .cannot_be_checked(
                 "the actuators of the previous vehicle differ from Table I, and the paper does not \
-                 describe them",
+                 describe these actuators",
                 "",
             ),
     ]

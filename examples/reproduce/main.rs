@@ -51,8 +51,8 @@ A fixed rule computes each verdict from the published number and the computed nu
 | a number that the paper measured | 20 % |
 | any other number of a robot whose wing and actuator are assumed | 25 % |
 
-The limits in this table were chosen after the computed numbers were known.
-Judge the agreement by X and by the computed number rather than by the verdict.
+The limits of the differences were chosen after the computed numbers were known.
+Judge the agreement by the difference in per cent and by the computed number rather than by the verdict.
 
 The pages on the models list all assumptions and all corrections to the equations of the papers: [direct drive](../models/direct-drive.md), [bimorph](../models/bimorph.md) and [four-bar](../models/four-bar.md).
 [Resonance](../how-to/resonance.md) describes how to compute motions after an impulse, and [Experiments](../how-to/experiments.md) describes how to prescribe strokes.

@@ -22,8 +22,8 @@ pub(crate) const PAPER: Paper = Paper {
                       The paper gives neither the size of the impulse nor the duration of the fitted motion.\n\
                       The fitted frequency depends on the impulse and on the duration, because the model has no linear damping.\n\
                       The numbers 208.5 Hz and 109.0 Hz in parentheses follow from the errors that the paper reports.\n\
-                      These errors are -0.7 % and 3.8 % of the measured frequencies, 210 Hz and 105 Hz.\n\
-                      If a row does not give another duration, the fit covers 4 periods of small motions.\n\
+                      The reported errors are -0.7 % of the measured frequency of 210 Hz, and 3.8 % of the measured frequency of 105 Hz.\n\
+                      If a row gives no duration, the fit covers 4 periods of small motions.\n\
                       The impulses are sized so that the stroke of small motions without damping would reach 0.3, 0.5 and 0.8 rad.\n\
                       The duration of the fit and the sizes of the impulses were chosen after the results were known.",
             quick: true,
@@ -50,7 +50,7 @@ pub(crate) const PAPER: Paper = Paper {
                       **The presets `ozaki2018-small` and `ozaki2018-large` have the printed values instead of the hypothetical values.**\n\
                       The first hypothesis is that the table swaps the hinge stiffnesses k_w of the small and the large type (presets `ozaki2018-small-kw-swapped` and `ozaki2018-large-kw-swapped`).\n\
                       The second hypothesis is that the inertia J_B of the small type is 3.39e-9 kg·m² instead of 3.89e-9 kg·m².\n\
-                      Both hypotheses were found by trying to match the paper.\n\
+                      The two hypotheses were found by trying to match the paper.\n\
                       Nothing in the paper proves the hypotheses, so agreement is weak evidence.\n\
                       The impulses are the same as in the section [Resonance after an impulse](#resonance-after-an-impulse).\n\
                       The verdict on a resonance frequency uses the impulse of 0.5 rad, because the first stroke peak after this impulse is nearest to 20°.",

@@ -25,10 +25,10 @@ pub(crate) const PAPER: Paper = Paper {
               No available page describes the wings, the actuators and the voltages of a robot completely, and few pages give torques.\n\
               You can therefore compare mostly signs, trends and ratios of the torques.\n\
               \n\
-              If a section does not describe another vehicle, the vehicle has two wings of the preset `jafferis2016` at 200 V and 120 Hz.\n\
+              If a section describes no vehicle, the vehicle has two wings of the preset `jafferis2016` at 200 V and 120 Hz.\n\
               [Forces and torques of vehicles](../how-to/vehicle.md) describes how to simulate a vehicle with several wings.\n\
               The shoulders of the two wings are 1.5 mm left and right of the middle of the vehicle.\n\
-              Torques act about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
+              Torques are computed about a point 2 mm below the shoulders, in [body axes](../glossary.md#body-axes): x points forward, y left and z up.\n\
               A positive roll torque lifts the left side of the vehicle.\n\
               A positive pitch torque lowers the nose, and a positive yaw torque turns the nose to the left.",
     groups: &[
@@ -50,7 +50,7 @@ pub(crate) const PAPER: Paper = Paper {
                       The roll command is a difference of the drive voltages (left minus right) from -40 V to 40 V.\n\
                       The pitch command is a bias voltage of both wings from -20 V to 20 V.\n\
                       Five values of the roll command and five values of the pitch command give 25 combinations.\n\
-                      The ranges of both commands are assumed.",
+                      The ranges of the two commands are assumed.",
             quick: true,
             claims: coupling::claims,
         },
@@ -74,7 +74,7 @@ pub(crate) const PAPER: Paper = Paper {
         },
         Group {
             title: "Damping of the body's motion",
-            preface: "Two simulators of such robots contain constants for the damping of the body's motion by the wings.\n\
+            preface: "Two simulators of flapping-wing robots contain constants for the damping of the body's motion by the wings.\n\
                       The wings, the drive and the lift of the robot in the wind tunnel are not known.\n\
                       For the comparison with Robofly_simulator, the vehicle has the preset `jafferis2016` at 140 V and 120 Hz.\n\
                       For the comparison with robobee_simulator, the vehicle has the preset `jafferis2016-improved` at 165 V and 155 Hz.\n\

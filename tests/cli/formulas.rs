@@ -59,7 +59,7 @@ fn parameters_without_a_default_are_told_as_such() {
         let grid = format!("preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [100, 110]\n{section}");
         Folder::with_grid(&grid).ends(2, "check grid.toml").stderr
     };
-    let no_default = "it has no default (hinge_strain_max is then empty)";
+    let no_default = "it has no default (hinge_strain_max is empty)";
     let thick = told("[where]\nthick = \"hinge_thickness > 1e-6\"\n");
     assert!(thick.contains(&format!("{no_default}: set `hinge_thickness` under [params]")), "{thick}");
     let preset = told("[where]\nthick = \"preset.hinge_thickness > 1e-6\"\n");

@@ -12,7 +12,8 @@ const STATUSES: [&str; 7] = [
     "the motion has settled on an orbit of one drive period; the row has measures",
     "an unstable orbit: nearby motions move away from the orbit; only `flap respond --unstable` writes such rows",
     "the motion has settled on an orbit of 2 to 8 drive periods, in which successive periods differ; the row has no measures",
-    "the motion has not settled after max_cycles drive periods: it is quasi-periodic, chaotic or slow. `flap results rerun --status unsettled --max-cycles N` runs such points longer",
+    "the motion has not settled after max_cycles drive periods: the motion is quasi-periodic, chaotic or slow. `flap \
+    results rerun --status unsettled --max-cycles N` runs unsettled points longer",
     "the state became infinite or not a number: check the parameters against their units",
     "one drive period needs more than max_steps integration steps: check the parameters against their units, or raise max_steps in [solver]",
     "the combination of parameter values is impossible, or a derived parameter is out of range; `flap run GRID --point N` prints the reason",
@@ -407,7 +408,8 @@ fn names_are_explained() {
     let resonance = "resonance_hz: a measure of the models bimorph, direct-drive and four-bar with drive_frequency = \"resonance\"\n";
     assert!(measure.contains(resonance), "{measure}");
     let gaps = folder.ends(0, "models resonance_gaps").stdout;
-    let meaning = "number of points without a periodic motion in the search for the resonance; a larger peak may lie at such a point";
+    let meaning = "number of points without a periodic motion in the search for the resonance; a larger peak could lie \
+    at one of these points";
     assert_eq!(gaps, resonance.replace("_hz", "_gaps") + "  " + meaning + "\n", "once for all models");
 
     let fixed = folder.ends(0, "models floquet_max").stdout;

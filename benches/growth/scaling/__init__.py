@@ -1,4 +1,5 @@
-"""Sweeps of ever more points, with their times, their memory and a picture of both.
+"""Sweeps of increasing numbers of points, with the times and the memory of the sweeps, and a picture of both
+quantities.
 
-Needs nothing but Python's standard library.
+The package requires only Python's standard library.
 """

@@ -1,4 +1,4 @@
-"""The command: options, sweeps, results."""
+"""The command line: options, sweeps and results."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ REPOSITORY = Path(__file__).resolve().parents[3]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or REPOSITORY / "target").resolve()
 
 FEWEST = 1_000
-#: Sweeps of more points than this run once.
+#: Number of points above which a sweep runs only once.
 REPEATED = 100_000
 
 TIGHT, LOOSE = 1e-6, 1e-3
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def measure(options: argparse.Namespace) -> dict[str, Any]:
-    """All sweeps: the small ones first."""
+    """Run all sweeps, with the smallest sweep first, and return the results."""
     flap = options.flap or build()
     ways = [Way(f"{count} thread{'s' * (count > 1)}", count) for count in options.threads]
     if options.shards > 1:
@@ -76,7 +76,7 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def sizes(most: int) -> list[int]:
-    """Numbers of points, by powers of ten."""
+    """Return the numbers of points of the sweeps, which are powers of ten."""
     found = [FEWEST]
     while found[-1] * 10 <= most:
         found.append(found[-1] * 10)
@@ -84,7 +84,7 @@ def sizes(most: int) -> list[int]:
 
 
 def record(points: int, rtol: float, way: Way, swept: Sequence[Swept]) -> dict[str, Any]:
-    """The rounds of a sweep, as JSON."""
+    """Return the rounds of a sweep as entries for a JSON file."""
     return {
         "points": points,
         "rtol": rtol,
@@ -101,7 +101,7 @@ def record(points: int, rtol: float, way: Way, swept: Sequence[Swept]) -> dict[s
 
 
 def table(runs: Sequence[dict[str, Any]]) -> str:
-    """The medians."""
+    """Return a table of the medians."""
     lines = [["points", "rtol", "way", "points/s", "CPU time per point (us)", "peak memory (MiB)", "file (MB)"]]
     for run in runs:
         lines.append(
@@ -120,7 +120,7 @@ def table(runs: Sequence[dict[str, Any]]) -> str:
 
 
 def build() -> Path:
-    """Builds the command."""
+    """Build the command `flap`, and return its path."""
     say("building flap")
     ended = subprocess.run(["cargo", "build", "--release", "--locked", "-p", "flap-cli"], check=False, cwd=REPOSITORY)
     if ended.returncode != 0:
@@ -162,7 +162,7 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def count(text: str) -> int:
-    """A number of 1 or more; 1e6 is one, too."""
+    """Return a number of 1 or more from text such as ``1000`` or ``1e6``."""
     try:
         value = float(text)
     except ValueError:
@@ -177,7 +177,7 @@ def counts(text: str) -> list[int]:
 
 
 def processor() -> str:
-    """The name of the processor."""
+    """Return the name of the processor."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

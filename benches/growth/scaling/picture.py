@@ -1,4 +1,4 @@
-"""The picture: CPU time per point and peak memory over the number of points, in the colours of flap's pictures."""
+"""A picture of CPU time per point and peak memory over the number of points, in the colours of flap's pictures."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from html import escape
 from statistics import median
 from typing import Any
 
-#: Okabe and Ito's colours, which readers with any colour vision tell apart.
+#: Okabe and Ito's colours, which readers with any colour vision can distinguish.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 DASHES = ("", ' stroke-dasharray="6 4"')
 
 WIDTH, HEIGHT = 900, 400
-#: Of the axes of each panel.
+#: The size of the axes of each panel.
 PANEL_WIDTH, TOP, BOTTOM = 370, 70, 340
 
 Run = dict[str, Any]
@@ -22,7 +22,7 @@ Run = dict[str, Any]
 
 @dataclass(frozen=True)
 class Panel:
-    """A quantity over the number of points, from zero."""
+    """A panel with a quantity over the number of points. The vertical axis begins at zero."""
 
     left: int
     label: str
@@ -37,7 +37,7 @@ class Panel:
         return BOTTOM - (BOTTOM - TOP) * value / self.highest
 
     def axes(self) -> Iterator[str]:
-        """Grid lines with their numbers, and the labels."""
+        """Yield the grid lines with numbers, and the labels of the axes."""
         for decade in range(self.decades[0], self.decades[1] + 1):
             x = self.x(10.0**decade)
             yield f'<path class="grid" d="M{x:.1f} {TOP}V{BOTTOM}"/>'
@@ -56,7 +56,7 @@ class Panel:
 
 
 def draw(runs: Sequence[Run]) -> str:
-    """An SVG."""
+    """Return the picture as SVG text."""
     cost = [1e6 * median(run["cpu_s"]) / run["points"] for run in runs]
     memory = [median(run["peak_mib"]) for run in runs]
     exponents = [math.log10(run["points"]) for run in runs]
@@ -80,7 +80,7 @@ def draw(runs: Sequence[Run]) -> str:
 
 
 def lines(runs: Sequence[Run]) -> Iterator[tuple[str, str, list[int]]]:
-    """Colour, dashes and runs of each line."""
+    """Yield the colour, the dashes and the runs of each line."""
     for name, colour in ways(runs):
         for rtol, dash in tolerances(runs):
             members = [number for number, run in enumerate(runs) if (run["way"], run["rtol"]) == (name, rtol)]
@@ -89,7 +89,7 @@ def lines(runs: Sequence[Run]) -> Iterator[tuple[str, str, list[int]]]:
 
 
 def legend(runs: Sequence[Run]) -> Iterator[str]:
-    """Above the panels: ways by colour, tolerances by dashes."""
+    """Yield the legend above the panels: colours stand for the kinds of sweeps, and dashes stand for tolerances."""
     keys = [(name, colour, "") for name, colour in ways(runs)]
     keys += [(f"rtol {tolerance(rtol)}", "#444", dash) for rtol, dash in tolerances(runs)]
     for number, (text, colour, dash) in enumerate(keys):
@@ -107,17 +107,17 @@ def tolerances(runs: Sequence[Run]) -> list[tuple[float, str]]:
 
 
 def tolerance(rtol: float) -> str:
-    """A tolerance as users write it."""
+    """Return a tolerance as short text, such as ``1e-6``."""
     return f"{rtol:.0e}".replace("e-0", "e-")
 
 
 def even(value: float) -> float:
-    """The next number of 1, 2 or 5 times a power of ten."""
+    """Return the next larger number that is 1, 2 or 5 times a power of ten."""
     ten = 10.0 ** math.floor(math.log10(value))
     return next(ten * factor for factor in (1, 2, 5, 10) if ten * factor >= value * (1 - 1e-9))
 
 
 def ceiling(value: float) -> float:
-    """The end of an axis: some even steps above the value."""
+    """Return the end of an axis: a whole number of steps, at or above the value."""
     step = even(value / 5)
     return step * math.ceil(value / step * 1.02)

@@ -1,4 +1,4 @@
-"""Processes and what they use."""
+"""Processes, and the time and the memory that the processes use."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-#: Seconds between two looks at the memory of running processes.
+#: Time between two readings of the memory of running processes (s).
 INTERVAL = 0.005
 
 
 class Failed(Exception):
-    """A process ended with an error."""
+    """The error for a process that ended with an error code."""
 
 
 @dataclass(frozen=True)
 class Usage:
-    """What processes that ran at the same time have used."""
+    """The time and the memory that several simultaneous processes used."""
 
     wall_s: float
-    #: Of all of them together.
+    #: The CPU time of all processes together (s).
     cpu_s: float
-    #: Peak resident memory of the largest (MiB).
+    #: Peak resident memory of the largest process (MiB).
     peak_mib: float
 
 
 def together(commands: Sequence[Sequence[str]]) -> Usage:
-    """Runs commands at the same time, to their ends."""
+    """Run commands at the same time, and wait until all commands have ended."""
     with tempfile.TemporaryFile() as errors:
         begin = time.perf_counter()
         running = [
@@ -49,7 +49,7 @@ def together(commands: Sequence[Sequence[str]]) -> Usage:
 
 
 def watch(running: Sequence[subprocess.Popen[bytes]], errors: IO[bytes], begin: float) -> Usage:
-    """Waits for processes, and looks at their memory meanwhile."""
+    """Wait for processes, and read the memory of the running processes at regular times."""
     cpu = peak = 0.0
     while any(process.returncode is None for process in running):
         for process in running:
@@ -71,8 +71,8 @@ def watch(running: Sequence[subprocess.Popen[bytes]], errors: IO[bytes], begin: 
 
 
 def peak_so_far(number: int) -> float:
-    """The peak resident memory of a running process (MiB); 0 where the system does not tell. What `wait4` tells of an
-    ended process on Linux is at least the memory of this one, from which it was forked."""
+    """Return the peak resident memory of a running process (MiB), or 0 if the system does not report the memory. On
+    Linux, the result of `wait4` for an ended process is not usable: it is at least the memory of the parent process."""
     try:
         lines = Path(f"/proc/{number}/status").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -11,7 +11,7 @@ from .process import Failed, Usage, together
 
 PRESET = "jafferis2016"
 
-#: Drive voltages and frequencies around the preset: every motion settles to one drive period.
+#: Drive voltages and frequencies around the values of the preset, at which every motion is periodic.
 GRID = """\
 preset = "{preset}"
 
@@ -30,7 +30,8 @@ columns = ["stroke_pp_deg", "pitch_amplitude_deg", "lift_mean_mn", "power_mean_m
 
 @dataclass(frozen=True)
 class Way:
-    """How a sweep is run: with threads in one process, or in shards of one thread each at the same time."""
+    """The kind of a sweep: one process with several threads, or several shards at the same time, each with one
+    thread."""
 
     name: str
     threads: int
@@ -39,7 +40,7 @@ class Way:
 
 @dataclass(frozen=True)
 class Swept:
-    """What a sweep has used: all its processes, and the merge of its shards."""
+    """The time and the memory of a sweep: of all processes, and of the merge of the shards."""
 
     usage: Usage
     merge_s: float
@@ -48,13 +49,13 @@ class Swept:
 
 
 def grid(points: int, rtol: float) -> str:
-    """A grid file with as many points, which is a product of two numbers above 1."""
+    """Return a grid file with `points` points. `points` must be a product of two whole numbers above 1."""
     voltages = next(side for side in range(math.isqrt(points), 0, -1) if points % side == 0)
     return GRID.format(preset=PRESET, voltages=voltages, frequencies=points // voltages, rtol=rtol)
 
 
 def sweep(flap: Path, points: int, rtol: float, way: Way, folder: Path) -> Swept:
-    """Runs a sweep into a CSV file in a folder of its own, which is deleted."""
+    """Run a sweep that writes a CSV file in a new folder, and delete the folder afterwards."""
     with tempfile.TemporaryDirectory(dir=folder) as name:
         path = Path(name) / "grid.toml"
         path.write_text(grid(points, rtol), encoding="utf-8")

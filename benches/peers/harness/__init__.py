@@ -1,4 +1,5 @@
-"""Runs flap and other solvers on the same points, in turn, and compares their speed and their answers.
+"""Runs flap and other solvers on the same points, in turn, and compares speeds and results.
 
-Needs nothing but Python's standard library; what a peer needs is the peer's matter.
+The package requires only Python's standard library. A peer is one of the compared programs, and can have further
+requirements.
 """

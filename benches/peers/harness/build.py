@@ -1,4 +1,4 @@
-"""The builds of peers: below target/peers, with a message for each that cannot be built."""
+"""The builds of peers in the folder target/peers. If a peer cannot be built, a message gives the reason."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ REPOSITORY = PEERS.parents[1]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or REPOSITORY / "target").resolve()
 WORK = TARGET / "peers"
 
-#: What helps where compilers are missing.
+#: The help in the message for a missing compiler.
 GXX = "install g++ (Debian: sudo apt-get install g++)"
 BOOST = "install g++ and Boost's headers (Debian: sudo apt-get install g++ libboost-dev)"
 
@@ -27,7 +27,7 @@ NUMBA = "numba==0.68.1"
 
 
 class Unavailable(Exception):
-    """A peer cannot be built: why, and what would help."""
+    """The error for a peer that cannot be built, with the reason and with help."""
 
     def __init__(self, why: str, remedy: str) -> None:
         super().__init__(why)
@@ -36,13 +36,13 @@ class Unavailable(Exception):
 
 
 def need(program: str, remedy: str) -> None:
-    """Refuses a build without this program."""
+    """Raise Unavailable if the program `program` is missing."""
     if shutil.which(program) is None:
         raise Unavailable(f"there is no {program}", remedy)
 
 
 def run(command: Sequence[object], remedy: str, cwd: Path | None = None) -> None:
-    """Runs a command of a build."""
+    """Run a command of a build."""
     ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False, cwd=cwd)
     if ended.returncode != 0:
         said = [line.strip() for line in ended.stderr.splitlines() if line.strip()]
@@ -52,7 +52,7 @@ def run(command: Sequence[object], remedy: str, cwd: Path | None = None) -> None
 
 @dataclass(frozen=True)
 class Cpp:
-    """A program in C++."""
+    """A peer in C++."""
 
     source: str
     flags: tuple[str, ...]
@@ -71,13 +71,13 @@ class Cpp:
 
 
 def processor_flag(level: str) -> str:
-    """The compiler's flag for instructions of this level, where processors have levels."""
+    """Return the compiler's flag for the instructions of a processor level such as x86-64-v3."""
     return f"-march={level}" if platform.machine() in ("x86_64", "AMD64") else "-mcpu=native"
 
 
 @dataclass(frozen=True)
 class Cargo:
-    """A program in Rust: below which folder, with which arguments of cargo, and where cargo puts it."""
+    """A peer in Rust: the folder of the package, the arguments of cargo, and the path of the built program."""
 
     folder: Path
     arguments: tuple[str, ...]
@@ -92,7 +92,7 @@ class Cargo:
 
 @dataclass(frozen=True)
 class Python:
-    """A script, with packages in a virtual environment that the scripts share."""
+    """A peer in Python: a script. All scripts share the packages of one virtual environment."""
 
     script: str
     packages: tuple[str, ...]
@@ -113,11 +113,12 @@ class Python:
 
 @dataclass(frozen=True)
 class Through:
-    """A program in Rust that does not take a peer's arguments: a script with the standard library alone runs it."""
+    """A program in Rust with different arguments than a peer. A Python script, which requires only the standard
+    library, runs the program."""
 
     script: str
     program: Cargo
-    #: Given to the script after the program.
+    #: Further arguments of the script, after the path of the program.
     arguments: tuple[str, ...]
 
     def build(self) -> list[str]:

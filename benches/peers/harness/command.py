@@ -1,4 +1,4 @@
-"""The command: options, builds, rounds, report."""
+"""The command line: options, builds, rounds and report."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .peer import Peer
 from .roster import WORKS
 from .work import Work
 
-#: Points that the reference is computed for at most: it takes a tenth of a second for each.
+#: Largest number of points for which the reference is computed. A point of the reference takes about 0.1 s.
 MOST_REFERENCES = 256
 
 
@@ -69,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def known(task: Task, skipped: list[dict[str, str]]) -> dict[bool, dict[int, points.Measures]]:
-    """The reference: what a peer that samples should find, and what one that does not."""
+    """Return the reference measures for peers that sample the motion, and for peers that find exact peaks and means."""
     say("computing the reference")
     try:
         path = measure.reference(task.work.reference.build(), task, MOST_REFERENCES)
@@ -83,7 +83,7 @@ def known(task: Task, skipped: list[dict[str, str]]) -> dict[bool, dict[int, poi
 
 
 def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measures]], work: Work) -> list[report.Row]:
-    """The lines of the report."""
+    """Return the lines of the report."""
     base = next((timing.speeds for timing in timings if timing.peer is work.base), [])
     return [
         report.Row(
@@ -97,7 +97,7 @@ def compared(timings: Sequence[Timing], truth: dict[bool, dict[int, points.Measu
 
 
 def show(rows: Sequence[report.Row], skipped: Sequence[dict[str, str]], setting: dict[str, Any], path: Path) -> None:
-    """Prints the table and writes the JSON."""
+    """Print the table, and write the JSON file."""
     base = next((row.integration for row in rows if row.timing.peer.name == setting["base"]), None)
     load = "{:.1f} – {:.1f}".format(*setting["load"])
     print(
@@ -122,7 +122,7 @@ def say(text: str) -> None:
 
 
 def chosen(work: Work, only: Pattern[str]) -> list[Peer]:
-    """The peers that take part: the base always does."""
+    """Return the peers that `only` selects, and always the base."""
     return [peer for peer in work.peers if peer is work.base or only.search(peer.name)]
 
 
@@ -167,7 +167,7 @@ def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def described(works: Mapping[str, Work]) -> str:
-    """The works in words."""
+    """Return the descriptions of all benchmarks as text."""
     return "; ".join(f"{work.name}: {work.what}" for work in works.values())
 
 
@@ -179,7 +179,7 @@ def pattern(text: str) -> Pattern[str]:
 
 
 def usable_cores() -> set[int]:
-    """The cores to which this process may be pinned: none where the system cannot do so."""
+    """Return the cores to which the process can be pinned. Return an empty set if the system cannot pin processes."""
     return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
 
 
@@ -188,7 +188,7 @@ def load() -> float:
 
 
 def processor() -> str:
-    """The name of the processor."""
+    """Return the name of the processor."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

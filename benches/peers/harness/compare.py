@@ -1,4 +1,4 @@
-"""The errors of a peer's answers."""
+"""The errors of the results of a peer."""
 
 from __future__ import annotations
 
@@ -12,17 +12,19 @@ from .work import Work
 
 @dataclass(frozen=True)
 class Deviation:
-    """Over the points, the relative deviation of the measure that is off most."""
+    """Statistics of the relative deviation over all points. The deviation of a point is the largest deviation of its
+    measures."""
 
     median: float
     largest: float
-    #: Points whose answer is missing or no number.
+    #: Number of points whose result is missing or is not a number.
     missing: int
 
 
 def deviation(found: dict[int, Measures], known: dict[int, Measures], points: int, work: Work) -> Deviation | None:
-    """Compares the answers for `points` points with those that are known. A measure that crosses zero counts by its
-    size, or that of a typical point where it is smaller; none if nothing can be compared.
+    """Compare the results for `points` points with known results. Deviations are relative to the known value. If a
+    measure crosses zero, a deviation is relative to the typical size of the measure where the known value is smaller.
+    Return None if nothing can be compared.
     """
     if not known:
         return None

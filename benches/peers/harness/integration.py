@@ -1,4 +1,4 @@
-"""The work `integration`: forty periods from rest of the equations of examples/own_equations."""
+"""The benchmark `integration`: forty drive periods from rest, with the equations of examples/own_equations."""
 
 from __future__ import annotations
 

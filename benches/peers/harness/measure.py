@@ -1,4 +1,4 @@
-"""One run of a peer, and rounds of runs in turn."""
+"""Runs of single peers, and rounds in which all peers run in turn."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from .peer import Peer
 from .points import Measures, Point
 from .work import Work
 
-#: Seconds after which a run is given up.
+#: Time after which a run is stopped (s).
 TIMEOUT = 600.0
 
-#: Libraries that would start threads are told not to.
+#: Environment variables that keep libraries from starting threads.
 ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("MKL", "NUMBA", "OMP", "OPENBLAS", "RAYON")}
 
 
 class Failed(Exception):
-    """A peer was built, but did not do its work."""
+    """The error for a peer that was built, but failed during the run."""
 
 
 @dataclass
 class Timing:
-    """The result of a peer."""
+    """The timings and the results of a peer."""
 
     peer: Peer
     command: list[str]
     points: int
-    #: Points per second of CPU time, round by round.
+    #: Points per second of CPU time, for each round.
     speeds: list[float] = field(default_factory=list)
     rhs_per_point: float | None = None
     periods_per_point: float | None = None
@@ -42,17 +42,17 @@ class Timing:
 
 @dataclass(frozen=True)
 class Task:
-    """What every peer is asked to do."""
+    """The task of every peer."""
 
     work: Work
     points: Sequence[Point]
     rtol: float
-    #: For the files that peers read and write.
+    #: The folder of the files that peers read and write.
     folder: Path
 
 
 def in_turn(timings: Sequence[Timing], task: Task, rounds: int, say: Callable[[str], None]) -> None:
-    """Runs every peer once a round, so that whatever slows the machine down slows all of them."""
+    """Run every peer once in each round, so that a temporary slowdown of the machine affects all peers."""
     for number in range(1, rounds + 1):
         for timing in timings:
             if timing.failure is None:
@@ -64,7 +64,7 @@ def in_turn(timings: Sequence[Timing], task: Task, rounds: int, say: Callable[[s
 
 
 def once(timing: Timing, task: Task) -> None:
-    """Runs a peer once."""
+    """Run a peer once."""
     name = timing.peer.name
     given, out = task.folder / f"{name}-points.csv", task.folder / f"{name}-results.csv"
     tables.write(task.points[: timing.points], task.work, given)
@@ -84,7 +84,7 @@ def once(timing: Timing, task: Task) -> None:
 
 
 def output(command: Sequence[str]) -> str:
-    """The output of a command."""
+    """Return the output of a command."""
     try:
         ended = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=TIMEOUT, env={**os.environ, **ONE_THREAD}
@@ -100,7 +100,8 @@ def output(command: Sequence[str]) -> str:
 
 
 def reference(command: Sequence[str], task: Task, most: int) -> Path:
-    """The table that peers are compared with, for the first points; that of the same points is kept."""
+    """Return the path of the reference table for the first `most` points. If a reference table of the same points
+    exists, the table is used again."""
     given, out = task.folder / "reference-points.csv", task.folder / "reference.csv"
     before = given.read_text(encoding="utf-8") if given.exists() else ""
     tables.write(task.points[:most], task.work, given)

@@ -1,4 +1,4 @@
-"""A program that takes part."""
+"""A program that is compared with other programs."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from typing import Protocol
 
 
 class Builder(Protocol):
-    """A peer that can be built into a command."""
+    """An object that builds the command of a peer."""
 
     def build(self) -> list[str]: ...
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A program that takes POINTS RTOL OUT."""
+    """A program with the arguments POINTS RTOL OUT."""
 
     name: str
     what: str
     builder: Builder
-    #: True if it measures by 64 samples a period, as users of libraries do; else it finds peaks and means exactly.
+    #: True if the peer measures from 64 samples per period, and False if the peer computes exact peaks and means.
     samples: bool = True
-    #: True if it chooses its steps by the error.
+    #: True if the peer controls the step by the error.
     adaptive: bool = True
-    #: Points that it gets at most, so that slow peers end.
+    #: Largest number of points for the peer, so that slow peers end in time.
     most_points: int | None = None

@@ -1,4 +1,4 @@
-"""The points of the sweep, and the tables that peers read and write."""
+"""The points of the comparison, and the tables that peers read and write."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from pathlib import Path
 
 from .work import Axis, Work
 
-#: What a point's motion is measured by: the measures of the work.
+#: The measures of the motion at a point, in the order of the benchmark.
 Measures = tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Point:
-    """A drive."""
+    """A point: the amplitude and the frequency of the drive."""
 
     id: int
     amplitude: float
@@ -26,7 +26,8 @@ class Point:
 
 
 def grid(count: int, work: Work) -> list[Point]:
-    """So many points of a grid of amplitude and frequency, shuffled: the first few are spread over it, too."""
+    """Return `count` shuffled points of a grid of amplitude and frequency. The first few points are also spread over
+    the whole grid."""
     amplitudes = math.isqrt(count)
     frequencies = -(-count // amplitudes)
     pairs = itertools.product(spread(work.amplitude, amplitudes), spread(work.frequency, frequencies))
@@ -36,12 +37,12 @@ def grid(count: int, work: Work) -> list[Point]:
 
 
 def spread(axis: Axis, count: int) -> list[float]:
-    """Numbers at equal distances."""
+    """Return `count` evenly spaced numbers of an axis."""
     return [axis.low + (axis.high - axis.low) * i / max(1, count - 1) for i in range(count)]
 
 
 def write(points: Sequence[Point], work: Work, path: Path) -> None:
-    """Writes points as peers read them."""
+    """Write the table of points that peers read."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["id", work.amplitude.column, work.frequency.column])
@@ -49,7 +50,7 @@ def write(points: Sequence[Point], work: Work, path: Path) -> None:
 
 
 def read(path: Path, work: Work, prefix: str = "") -> dict[int, Measures]:
-    """The measures in a table, by point."""
+    """Return the measures in a table, by point."""
     with path.open(newline="", encoding="utf-8") as file:
         rows = csv.DictReader(file)
         return {int(row["id"]): tuple(float(row[prefix + name]) for name in work.columns) for row in rows}

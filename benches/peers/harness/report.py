@@ -1,4 +1,4 @@
-"""The results, as a table and as JSON."""
+"""The results of the comparison, as a table and as JSON."""
 
 from __future__ import annotations
 
@@ -10,24 +10,25 @@ from typing import Any
 from .compare import Deviation
 from .measure import Timing
 
-#: Times the base's error of integration from which on a peer does not do the same work.
+#: Limit of a peer's integration error, as a multiple of the base's integration error. Above the limit, the work of the
+#: peer is not comparable.
 OUT_OF_LINE = 10.0
 
 
 @dataclass(frozen=True)
 class Row:
-    """A peer's line."""
+    """The line of a peer in the report."""
 
     timing: Timing
-    #: Speed over that of the base, round by round.
+    #: Speed of the peer divided by the speed of the base, for each round.
     ratios: list[float]
-    #: From the true values.
+    #: Deviation from the true values.
     deviation: Deviation | None
-    #: From what exact integration gives by the peer's own samples.
+    #: Deviation from an exact integration that is measured from the same samples.
     integration: Deviation | None
 
     def remarks(self, base: Deviation | None, of: int) -> list[str]:
-        """Notes on the line for its reader."""
+        """Return the remarks on the peer."""
         remarks = []
         if not self.timing.peer.adaptive:
             remarks.append("fixed step without error control")
@@ -35,7 +36,7 @@ class Row:
             remarks.append(f"{self.timing.points} of {of} points, because the solver is slow")
         if self.integration is not None:
             if self.integration.missing:
-                remarks.append(f"no result for {self.integration.missing} points")
+                remarks.append(f"points without a result: {self.integration.missing}")
             if base is not None and self.integration.median > OUT_OF_LINE * base.median:
                 remarks.append(f"OUT OF LINE: {self.integration.median / base.median:.0f} times the base's error")
         return remarks
@@ -48,7 +49,7 @@ HEADINGS = [
 
 
 def table(rows: Sequence[Row], base: Deviation | None, of: int) -> str:
-    """The table, fastest first."""
+    """Return the table as text, with the fastest peer first."""
     lines = [*HEADINGS]
     for row in sorted(rows, key=lambda row: -median(row.timing.speeds)):
         rhs, periods = row.timing.rhs_per_point, row.timing.periods_per_point
@@ -69,14 +70,14 @@ def table(rows: Sequence[Row], base: Deviation | None, of: int) -> str:
 
 
 def spread(values: Sequence[float]) -> str:
-    """Median, smallest and largest."""
+    """Return the median, the smallest and the largest value as text."""
     if not values:
         return "–"
     return f"{number(median(values))} ({number(min(values))} – {number(max(values))})"
 
 
 def number(value: float) -> str:
-    """Three digits or all before the point."""
+    """Return a number as text with three digits, or with all digits before the decimal point."""
     return f"{value:,.0f}" if value >= 100.0 else f"{value:.3g}"
 
 
@@ -85,7 +86,7 @@ def errors(found: Deviation | None) -> str:
 
 
 def record(row: Row, base: Deviation | None, of: int) -> dict[str, Any]:
-    """A line as JSON."""
+    """Return the line of a peer as entries for a JSON file."""
     return {
         "name": row.timing.peer.name,
         "what": row.timing.peer.what,
@@ -102,6 +103,6 @@ def record(row: Row, base: Deviation | None, of: int) -> dict[str, Any]:
 
 
 def summary(values: Iterable[float]) -> dict[str, Any] | None:
-    """Round by round, and what the table says of it."""
+    """Return the values of all rounds, and the numbers of the table."""
     rounds = list(values)
     return {"median": median(rounds), "min": min(rounds), "max": max(rounds), "rounds": rounds} if rounds else None

@@ -1,4 +1,4 @@
-"""The works, by name: the first is the one that is done unless another is asked for."""
+"""All benchmarks by name. The first benchmark is the default."""
 
 from __future__ import annotations
 

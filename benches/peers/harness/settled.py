@@ -1,5 +1,5 @@
-"""The works `settled` and `responses`: periods of the bimorph model from rest until the motion has settled, and one
-that is measured.
+"""The benchmarks `settled` and `responses`. The bimorph model is integrated from rest until the motion has settled, and
+is measured over the next drive period.
 """
 
 from __future__ import annotations

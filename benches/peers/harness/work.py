@@ -1,4 +1,4 @@
-"""A work: what the peers are asked to do."""
+"""Benchmarks. A benchmark is a task for all peers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ class Axis:
 
 @dataclass(frozen=True)
 class Measure:
-    """A column of the answers. One that `crosses_zero` has errors relative to its typical size where it is small."""
+    """A column of the results. If `crosses_zero` is true, errors of small values are relative to the typical size of
+    the measure."""
 
     column: str
     crosses_zero: bool = False
@@ -34,17 +35,17 @@ class Work:
     amplitude: Axis
     frequency: Axis
     measures: tuple[Measure, ...]
-    #: The tolerances that it can be asked for, and why no smaller and no larger ones.
+    #: The smallest and the largest allowed tolerance, and the reasons for these limits.
     rtol: tuple[float, float]
     rtol_limits: str
-    #: Gives the true answers: a program that takes POINTS OUT.
+    #: The program that computes the true results, with the arguments POINTS OUT.
     reference: Cpp
-    #: The peer that the others are compared with.
+    #: The peer with which all peers are compared.
     base: Peer
-    #: All peers in turn, with the base.
+    #: All peers in the order of the runs, including the base.
     peers: tuple[Peer, ...]
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns of the answers."""
+        """The columns of the results."""
         return tuple(measure.column for measure in self.measures)

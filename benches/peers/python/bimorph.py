@@ -1,7 +1,9 @@
-"""The bimorph of Jafferis, Graule and Wood (2016), preset jafferis2016: docs/models/bimorph.md has the equations.
+"""The bimorph of Jafferis, Graule and Wood (2016), with the preset jafferis2016. The page docs/models/bimorph.md has
+the equations.
 
-Time is the phase of the drive (rad), states are in units of their typical sizes (`TIP_SCALE`, `PITCH_SCALE`; rates in
-these per radian): all points share the phase, and one absolute tolerance serves all states.
+The time is the phase of the drive (rad), so that all points share the same times. The units of the states are the
+typical sizes `TIP_SCALE` and `PITCH_SCALE`, and rates are per radian. All states can therefore have the same absolute
+tolerance.
 """
 
 from __future__ import annotations
@@ -42,8 +44,8 @@ HINGE_DRAG = AIR * 0.39 * 1.93e-3 * (0.43 * 4.5e-3) ** 2 * 1.25 * 3.4  # C_C (N 
 
 
 def push(volts_pp: Any, sine: Any, exp: Callable[[Any], Any] = math.exp) -> tuple[Any, Any]:
-    """Difference and sum of the forces of both plates without strain (N), (6), (7): of the drive voltage and the sine
-    of its phase."""
+    """Return the difference and the sum of the forces of the two plates without strain (N), Eqs. (6) and (7). The
+    arguments are the drive voltage and the sine of the phase of the drive."""
     first = (0.5 * volts_pp - 0.5 * volts_pp * sine) / PLATE
     second = (0.5 * volts_pp + 0.5 * volts_pp * sine) / PLATE
     turned_1 = 1.0 / (1.0 + exp(10e-6 * (0.4e6 - first)))
@@ -56,7 +58,8 @@ def push(volts_pp: Any, sine: Any, exp: Callable[[Any], Any] = math.exp) -> tupl
 def rates(
     omega: float, difference: float, total: float, x: float, v: float, psi: float, w: float
 ) -> tuple[float, float, float, float]:
-    """The right-hand side, (1) and (2): of the drive's angular frequency (rad/s), `push` and the states."""
+    """Return the right-hand side, Eqs. (1) and (2), from the drive's angular frequency (rad/s), the result of `push`,
+    and the states."""
     tip, speed = TIP_SCALE * x, TIP_SCALE * omega * v
     pitch, turn = PITCH_SCALE * psi, PITCH_SCALE * omega * w
     sine, cosine = math.sin(pitch), math.cos(pitch)

@@ -1,4 +1,4 @@
-"""CyRK: its RK45, called from a loop that numba compiles."""
+"""CyRK: the integrator RK45, called from a loop that numba compiles."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""heyoka: Taylor series of an order that the tolerance asks for, as many points at a time as a register holds.
+"""heyoka: Taylor series whose order follows from the tolerance, with one point in each lane of a register.
 
-Magnitudes have kinks, where a Taylor series means nothing: their arguments are events, at which a sign changes.
+A magnitude |x| has a kink at x = 0, where a Taylor series is not valid. The zeros of x are events, at which a sign
+changes.
 """
 
 from __future__ import annotations
@@ -15,15 +16,16 @@ import numpy as np
 from measures import COLUMNS, measures, times
 from sweep import Answers, Array, sweep
 
-#: Periods after the start, where all magnitudes have a kink, at which integration begins, on the motion's tangent.
+#: Time after the start at which the integration begins (drive periods). Before the integration begins, the motion
+#: follows a tangent, because all magnitudes have a kink at the start.
 TANGENT = 1e-5
-#: The time for which an event is ignored after it has been found (s). The time that heyoka would choose by itself is so
-#: long that of two crossings of π/2 in short succession it overlooks the second.
+#: The time for which an event is ignored after the event was found (s). The default time of heyoka is so long that
+#: heyoka misses the second of two crossings of π/2 in short succession.
 COOLDOWN = 1e-9
 
 
 class Kinks:
-    """Magnitudes as a sign, which is a parameter, times what they are of."""
+    """Magnitudes |x| in the form s x, where the sign s is a parameter."""
 
     def __init__(self, first: int) -> None:
         self.first = first
@@ -44,7 +46,7 @@ def turned(sign: int) -> Callable[..., bool]:
 
 
 def integrator(rtol: float) -> Any:
-    """Compiles the equations; parameters are force, angular frequency and signs."""
+    """Compile the equations. The parameters are force, angular frequency and signs."""
     states = heyoka.make_vars("x", "v", "psi", "w")
     kinks = Kinks(first=2)
     rates = model.equations(heyoka.sin, heyoka.cos, kinks.magnitude)
@@ -60,7 +62,8 @@ def integrator(rtol: float) -> Any:
 
 
 def begin(system: Any, force: Array, frequency: Array) -> Array:
-    """Puts points at the beginning of their motions; the force grows in proportion to time there. Gives the time."""
+    """Set the states of all points at the beginning of the integration, and return the time. At the beginning, the
+    force grows in proportion to time."""
     system.reset_cooldowns()
     system.pars[:] = 1.0
     system.pars[0] = force

@@ -1,4 +1,4 @@
-"""Measures of a motion from equally spaced samples, as users of the libraries take them."""
+"""Measures of a motion from equally spaced samples, as in typical programs that use the libraries."""
 
 from __future__ import annotations
 
@@ -12,13 +12,15 @@ COLUMNS = ("max_x", "max_psi", "lift")
 
 
 def times(frequency: Any, per_period: int = model.SAMPLES_PER_PERIOD) -> NDArray[np.float64]:
-    """The times of the samples (s): the measured periods, with both ends."""
+    """Return the times of the samples (s). The samples cover the measured periods, including the first and the last
+    instant."""
     begin = model.PERIODS - model.MEASURED
     return (begin + np.arange(model.MEASURED * per_period + 1) / per_period) / frequency
 
 
 def measures(samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """max |x| (m), max |ψ| (rad) and mean lift (N) of states by point, time and state."""
+    """Return max |x| (m), max |ψ| (rad) and the mean lift (N). The dimensions of `samples` are point, time and
+    state."""
     tip = peak(np.abs(samples[:, :, 0])) * model.SCALE[0]
     psi = peak(np.abs(samples[:, :, 2]))
     v = samples[:, :, 1] * model.SCALE[1]
@@ -29,7 +31,7 @@ def measures(samples: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def peak(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The largest value of each row, with a parabola through the three samples around it."""
+    """Return the largest value of each row, from a parabola through the three samples around the largest sample."""
     before, middle, after = values[:, :-2], values[:, 1:-1], values[:, 2:]
     bend = before - 2.0 * middle + after
     turns = (middle >= before) & (middle >= after) & (bend < 0.0)

@@ -1,7 +1,7 @@
 """The reference equations: a bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal
 force, as in examples/own_equations.
 
-States are in units of their typical sizes (`SCALE`), so that one absolute tolerance serves all.
+The units of the states are the typical sizes `SCALE`, so that all states can have the same absolute tolerance.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ PERIODS = 40  # from rest
 MEASURED = 5  # the last of them
 SAMPLES_PER_PERIOD = 64
 
-#: Tip of the actuator (m), its rate (m/s), hinge angle (rad), its rate (rad/s).
+#: Displacement of the actuator's tip (m), velocity of the tip (m/s), pitch (rad), and pitch rate (rad/s).
 SCALE = (1e-4, 0.1, 1.0, 1e3)
 
 TRANSMISSION = 3333.0  # T (rad/m)
@@ -37,7 +37,8 @@ Function = Callable[[Any], Any]
 
 
 def equations(sin: Function, cos: Function, magnitude: Function) -> Callable[..., tuple[Any, Any, Any, Any]]:
-    """The right-hand side for whatever these functions take: numbers, or the symbols of a compiler."""
+    """Return the right-hand side. The functions `sin`, `cos` and `magnitude` determine the type of the arguments:
+    numbers, arrays, or symbols of a compiler."""
 
     def rates(force: Any, x: Any, v: Any, psi: Any, w: Any) -> tuple[Any, Any, Any, Any]:
         v = v * SCALE[1]

@@ -1,6 +1,7 @@
-"""numba: the sweep that is quickly written by hand, fixed-step Runge-Kutta 4 in a compiled loop.
+"""numba: a simple handwritten sweep with fixed-step Runge-Kutta 4 in a compiled loop.
 
-Nothing watches the error. Time is in periods, so that sines of the drive come from one table.
+The program does not control the error. The unit of time is the drive period, so that one table has the sines of the
+drive for all points.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ rates = compiled(model.equations(math.sin, math.cos, abs))
 
 @compiled
 def step(force: float, period: float, h: float, drive: Any, x: float, v: float, psi: float, w: float) -> Any:
-    """One step, of `h` periods, with the drive at its beginning, middle and end."""
+    """Return the state after one step of `h` drive periods. `drive` has the drive at the beginning, the middle and the
+    end of the step."""
     h *= period
     x1, v1, psi1, w1 = rates(force * drive[0], x, v, psi, w)
     k = 0.5 * h

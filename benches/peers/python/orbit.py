@@ -1,4 +1,4 @@
-"""A settled motion: when a march ends, and what is measured of the period after it."""
+"""Settled motions: the condition for the end of a march, and the measures of the next period."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from numpy.typing import NDArray
 
 #: Largest change of a state over a period of a settled motion.
 RESIDUAL = 1e-6
-#: Periods in which the residual of a march with error control is to fall.
+#: Number of periods within which the residual of a march with error control must fall.
 PATIENCE = 32
 MOST_PERIODS = 1000
-#: Per period.
+#: Number of samples per drive period.
 SAMPLES = 64
 
 COLUMNS = ("stroke_pp_deg", "pitch_pp_deg", "lift_mean_mn", "power_mean_mw")
 
 
 def measures(samples: NDArray[np.float64], frequency: Any) -> NDArray[np.float64]:
-    """The measures of settled periods, from states by point, phase and state, and the drive's frequencies (Hz)."""
+    """Return the measures of settled periods. The dimensions of `samples` are point, phase and state, and `frequency`
+    is the drive frequency (Hz)."""
     tip = samples[:, :, 0] * bimorph.TIP_SCALE
     speed = samples[:, :, 1] * bimorph.TIP_SCALE * 2.0 * math.pi * np.asarray(frequency)[:, None]
     pitch = samples[:, :, 2] * bimorph.PITCH_SCALE
@@ -39,7 +40,8 @@ def peak_to_peak(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def peak(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The largest value of each row, which is one period, with a parabola through the three samples around it."""
+    """Return the largest value of each row, from a parabola through the three samples around the largest sample. A row
+    is one period."""
     before, after = np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)
     bend = before - 2.0 * values + after
     turns = (values >= before) & (values >= after) & (bend < 0.0)

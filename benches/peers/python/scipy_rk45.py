@@ -19,7 +19,7 @@ def rhs(t: float, y: Any, force: float, omega: float) -> tuple[float, float, flo
 
 
 def motion(force: float, frequency: float, rtol: float, at: Array) -> Any:
-    """States at these times."""
+    """Return the states at the times `at`."""
     return solve_ivp(
         rhs,
         (0.0, at[-1]),

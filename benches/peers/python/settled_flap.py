@@ -1,7 +1,8 @@
-"""flap: the command `flap sweep` on one thread. The CPU time includes the whole process: it reads the points and
-writes rows with all columns.
+"""flap: the command `flap sweep` on one thread. The CPU time is the time of the whole process, which reads the points
+and writes rows with all columns.
 
-Arguments: FLAP NEWTON POINTS RTOL OUT, where NEWTON is `true` or `false`. Needs Python's standard library alone.
+Arguments: FLAP NEWTON POINTS RTOL OUT, where NEWTON is `true` or `false`. The script requires only Python's standard
+library.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-#: Largest change of the state over a period, as for all peers.
+#: Largest change of the state over a drive period of a settled motion. All peers have the same limit.
 RESIDUAL = 1e-6
 
 GRID = """\
@@ -34,13 +35,13 @@ Row = dict[str, str]
 
 
 def cpu_seconds() -> float:
-    """The CPU time of all child processes that have ended."""
+    """Return the CPU time of all child processes that have ended (s)."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def sweep(flap: str, newton: str, points: list[Row], rtol: float) -> tuple[list[Row], float]:
-    """The rows of these points, and the CPU time that they took."""
+    """Return the rows of `points`, and the CPU time of the sweep (s)."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         with (folder / "points.csv").open("w", newline="", encoding="utf-8") as file:

@@ -1,6 +1,7 @@
-"""numba: the sweep that is quickly written by hand, fixed-step Runge-Kutta 4 in a compiled loop until motions settle.
+"""numba: a simple handwritten sweep with fixed-step Runge-Kutta 4 in a compiled loop, until the motions settle.
 
-Nothing watches the error. The forces of the plates, which depend on the phase of the drive alone, come from tables.
+The program does not control the error. The forces of the plates depend only on the phase of the drive, and come from
+tables.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ rates = compiled(bimorph.rates)
 
 @compiled
 def step(omega: float, h: float, plates: Any, x: float, v: float, psi: float, w: float) -> Any:
-    """One step, of `h` radians, with the plates at its beginning, middle and end."""
+    """Return the state after one step of `h` radians. `plates` has the forces at the beginning, the middle and the end
+    of the step."""
     k = 0.5 * h
     x1, v1, psi1, w1 = rates(omega, plates[0, 0], plates[1, 0], x, v, psi, w)
     x2, v2, psi2, w2 = rates(omega, plates[0, 1], plates[1, 1], x + k * x1, v + k * v1, psi + k * psi1, w + k * w1)
@@ -36,8 +38,8 @@ def step(omega: float, h: float, plates: Any, x: float, v: float, psi: float, w:
 
 @compiled
 def settle(omega: float, steps: int, plates: Array, samples: Array) -> int:
-    """Takes samples of the period after the first that changes the state little enough; gives the number of periods, 0
-    if the motion does not settle."""
+    """Integrate until a period changes the state by less than the limit, and sample the next period. Return the number
+    of periods, or 0 if the motion does not settle."""
     every = steps // SAMPLES
     h = 2.0 * math.pi / steps
     y = (0.0, 0.0, 0.0, 0.0)

@@ -20,16 +20,17 @@ def rhs(phase: float, y: Any, volts_pp: float, omega: float) -> tuple[float, flo
 
 
 def period(y: Any, point: tuple[float, float], rtol: float, phases: Array | None = None) -> Any:
-    """One period from the state `y`. Each begins with the same step, so that its end depends on that state alone."""
+    """Integrate one period from the state `y`. Each period begins with the same step, so that the final state depends
+    only on `y`."""
     return solve_ivp(
         rhs, (0.0, PERIOD), y, t_eval=phases, rtol=rtol, atol=0.1 * rtol, first_step=PERIOD / SAMPLES, args=point
     )
 
 
 def settle(volts_pp: float, frequency: float, rtol: float, phases: Array = PHASES) -> tuple[Array, int, int]:
-    """States of the settled motion at these phases, evaluations of the right-hand side, and periods. A period map that
-    jumps by the error of integration may never come to rest: where the residual has stopped falling, the march goes on
-    at a tenth of the tolerance.
+    """Return the states of the settled motion at `phases`, the number of evaluations of the right-hand side, and the
+    number of periods. Integration errors can prevent the motion from settling. If the residual does not fall, the march
+    therefore continues with a tenth of the tolerance.
     """
     point = (volts_pp, PERIOD * frequency)
     y = np.zeros(4)

@@ -17,23 +17,24 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Answers:
-    """What a peer has found for all points together."""
+    """The results of a peer for all points."""
 
-    #: By point.
+    #: The measures of each point.
     measures: Array
     #: Evaluations of the right-hand side, if the library counts them.
     rhs: float | None
-    #: Drive periods; none if all points have the same.
+    #: Number of drive periods, or None if all points have the same number of periods.
     periods: float | None = None
 
 
-#: Amplitudes of the drive (N or V), frequencies (Hz) and tolerance to the answers.
+#: A function that returns the results from the amplitudes of the drive (N or V), the frequencies (Hz) and the
+#: tolerance.
 Solve = Callable[[Array, Array, float], Answers]
 
 
 def sweep(solve: Solve, columns: Sequence[str]) -> None:
-    """Runs all points, and writes their measures by these names; says how long that took, without what is compiled
-    once."""
+    """Run all points, and write the measures with the names `columns`. Print the time of the run without the time of
+    the compilation."""
     points, rtol, out = sys.argv[1:]
     with open(points, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))[1:]

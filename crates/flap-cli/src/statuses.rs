@@ -13,8 +13,8 @@ pub(crate) fn meaning(status: Status) -> &'static str {
             "the motion has settled on an orbit of 2 to 8 drive periods, in which successive periods differ; the row has no measures"
         }
         Status::Unsettled => {
-            "the motion has not settled after max_cycles drive periods: it is quasi-periodic, chaotic or slow. `flap results rerun --status unsettled \
-             --max-cycles N` runs such points longer"
+            "the motion has not settled after max_cycles drive periods: the motion is quasi-periodic, chaotic or slow. \
+            `flap results rerun --status unsettled --max-cycles N` runs unsettled points longer"
         }
         Status::Diverged => {
             "the state became infinite or not a number: check the parameters against their units"

@@ -30,10 +30,10 @@ crate::parameters! {
         /// the hinge.
         hinge_stop_stiffness: f64 = ("N*m/rad", "", Number(NonNegative), default: 0.0),
         /// Thickness of the flexure of the wing hinge. The thickness affects only the column hinge_strain_max.
-        hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
+        hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty")),
         /// Length of the flexure of the wing hinge, between the rigid parts. The length affects only the column
         /// hinge_strain_max.
-        hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is then empty")),
+        hinge_length: Option<f64> = ("m", "l_h", Following(Positive, "nothing: hinge_strain_max is empty")),
     }
 }
 

@@ -10,7 +10,8 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Run the points from `begin` to before `end`. Return the rows as bytes, which the function `chunks` of `sweep` may return.
+/// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes, which the function `chunks`
+/// of `sweep` may return.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, threads=None))]
 pub(crate) fn part<'py>(

@@ -14,7 +14,8 @@ use pyo3::prelude::*;
 /// line, column : int
 ///     The place of the mistake: line and column, counted from 1. Columns are in characters.
 /// start, end : int
-///     The place of the mistake as byte offsets in the UTF-8 text: its first byte, and the byte after its last byte.
+///     The place of the mistake as byte offsets in the UTF-8 text. `start` is the first byte of the mistake, and `end`
+///     is the byte after the last byte.
 /// message : str
 ///     The message about the mistake.
 /// notes, help : list of str

@@ -13,8 +13,9 @@ use crate::{begin, design, parameters, sweep};
 
 /// Run a batch of points; see `flapwing.evaluate`.
 ///
-/// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
-/// `initial_state` has one row of state components per point; a row of nan is a point at rest.
+/// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same
+/// length. `initial_state` has one row of state components per point; a row of nan stands for a point that begins at
+/// rest.
 #[pyfunction]
 #[pyo3(signature = (
     design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, initial_state=None,

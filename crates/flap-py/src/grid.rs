@@ -18,7 +18,7 @@ use crate::{columns, convert, error, grid_text, parameters};
 /// Largest number of points for which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
 
-/// A design space: a checked grid file.
+/// A grid file that was read and checked.
 ///
 /// A grid is a sequence of design points. The parameters of a point are computed on access::
 ///
@@ -36,7 +36,8 @@ const LOOKED_AT: u64 = 1_000_000;
 /// Raises
 /// ------
 /// GridError
-///     The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
+///     The grid has mistakes. The message lists each mistake with the line of the mistake, the allowed values and the
+///     most similar known name.
 /// ValueError
 ///     `source` is not the name of a preset.
 /// OSError
@@ -101,7 +102,7 @@ impl Grid {
         Ok((slf.get_type().getattr("_named")?, (source.name.clone(), source.text.clone())))
     }
 
-    /// The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of this file.
+    /// The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of the grid file.
     #[getter]
     fn name(&self) -> &str {
         &self.plan.source().name
@@ -113,7 +114,7 @@ impl Grid {
         &self.plan.source().text
     }
 
-    /// The name of the preset. Parameters that the grid does not set have the values of this preset.
+    /// The name of the preset. Parameters that the grid does not set have the values of the preset.
     #[getter]
     fn preset(&self) -> &'static str {
         self.plan.preset()
@@ -125,8 +126,8 @@ impl Grid {
         self.plan.simulator().name()
     }
 
-    /// The axes of the grid; the last axis varies fastest. Each dictionary has the parameters that vary together along an axis,
-    /// with their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+    /// The axes of the grid. The last axis varies fastest. Each dictionary has the parameters that vary together along
+    /// an axis, with values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
     #[getter]
     pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         axes(py, &self.plan)
@@ -162,7 +163,7 @@ impl Grid {
 /// excluded : int
 ///     Number of evaluated points that do not satisfy all conditions.
 /// unsatisfied : dict of str to int
-///     Conditions, each with the number of points that do not satisfy this condition.
+///     Conditions, each with the number of points that do not satisfy the condition.
 #[pyclass(frozen, get_all, module = "flapwing")]
 pub(crate) struct Exclusions {
     looked_at: u64,

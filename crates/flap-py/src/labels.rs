@@ -22,7 +22,8 @@ pub(crate) fn printed(unit: &str) -> String {
     labels::printed(unit)
 }
 
-/// Return the factor to a readable unit, and this unit for printing. `largest` is the largest of the values in `unit`.
+/// Return the factor to a readable unit, and the readable unit for printing. `largest` is the largest of the values in
+/// `unit`.
 #[pyfunction]
 #[pyo3(signature = (unit, largest, /))]
 pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
@@ -32,15 +33,15 @@ pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
 
 /// Return the unit of a column, or empty text if the unit is unknown.
 ///
-/// If `name` is a parameter, a measure or a derivative of a model, the unit of this quantity is returned. For all other names,
-/// the unit at the end of the name is returned.
+/// If `name` is a parameter, a measure or a derivative of a model, the unit of the quantity is returned. For all other
+/// names, the unit at the end of the name is returned.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {
     labels::unit_of(name, simulate::all())
 }
 
-/// Return the name of a column without the unit at the end, and this unit, which may be empty.
+/// Return the name of a column without the unit at the end, and the unit, which may be empty.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {

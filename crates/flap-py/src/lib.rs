@@ -39,7 +39,7 @@ mod sweep;
 mod watch;
 mod wrench_map;
 
-/// Native part of flapwing.
+/// The compiled module of flapwing.
 #[pyo3::pymodule]
 mod _flapwing {
     #[pymodule_export]

@@ -35,14 +35,16 @@ pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
     (0..count).map(|index| table::shade(index, count)).collect()
 }
 
-/// Return True if numbers from `low` to `high` have both signs. Such numbers require a diverging map with zero in its middle.
+/// Return True if numbers from `low` to `high` have both signs. Numbers of both signs require a diverging map with zero
+/// in the middle.
 #[pyfunction]
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {
     table::is_signed(low, high)
 }
 
-/// Return the default measure among `columns` that is not in `taken`; None if there is no such measure.
+/// Return the default measure among `columns` that is not in `taken`. Return None if no
+/// default measure remains.
 ///
 /// `role` is "response", "benefit", "cost" or "motion".
 #[pyfunction]

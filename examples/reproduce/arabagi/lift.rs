@@ -35,8 +35,8 @@ fn rise(system: &System, response: &Response, resonance: f64) -> Claim {
         &about(1.0, 0.01),
         straightness,
         format!(
-            "a straight line through the lift from 0.7 times the first resonance frequency to this \
-             frequency has R² = {straightness:.3}"
+            "a straight line through the lift from 0.7 times the first resonance frequency to the first \
+             resonance frequency has R² = {straightness:.3}"
         ),
     )
 }

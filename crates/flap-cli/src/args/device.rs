@@ -37,7 +37,7 @@ pub(crate) struct WingArgs {
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// Preset, device file or grid file to which flap adds the wing; the model of this design determines which
+    /// Preset, device file or grid file to which flap adds the wing; the model of the design determines which
     /// parameters flap computes
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
@@ -67,9 +67,9 @@ pub(crate) struct WingArgs {
 }
 
 const WING_HELP: &str = "\
-Distances are measured from the axis of the hinge. The leading edge lies ahead of the axis, and the trailing edge lies \
-behind the axis. Between two rows of the file, the edges of the wing are straight. Some parameters must change together \
-with the wing: see the manual, How to, Wings.
+The edges in the file are distances from the axis of the hinge. The leading edge lies ahead of the axis, and the \
+trailing edge lies behind the axis. Between two rows of the file, the edges of the wing are straight. Some parameters \
+must change together with the wing: see the manual, How to, Wings.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

@@ -26,7 +26,7 @@ pub(crate) struct CompletionsArgs {
 const COMPLETIONS_HELP: &str = "\
 Examples:
   flap generate completions bash > ~/.local/share/bash-completion/completions/flap
-  source <(flap generate completions zsh)               (in ~/.zshrc, behind compinit)
+  source <(flap generate completions zsh)               (in ~/.zshrc, after compinit)
   flap generate completions fish > ~/.config/fish/completions/flap.fish
   flap generate completions powershell >> $PROFILE";
 

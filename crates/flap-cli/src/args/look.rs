@@ -18,7 +18,7 @@ pub(crate) struct TopArgs {
     #[arg(short = 'n', long, value_name = "N", default_value = "10", value_parser = values::rows)]
     pub(crate) rows: NonZeroUsize,
 
-    /// More columns to list, separated by commas
+    /// Further columns to list, separated by commas
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -27,10 +27,11 @@ pub(crate) struct TopArgs {
 }
 
 const TOP_HELP: &str = "\
-flap lists the best rows: their varied and derived parameters, the column that ranks the rows, and their status. The \
-table shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking \
-column is empty are left out. Rows with equal values keep their order. If the best row is at the end of an axis, flap \
-prints a note: rows beyond this value may be better. If FILE is unfinished, flap ranks the rows up to the last checkpoint.
+For each of the best rows, flap lists the varied and derived parameters, the ranking column, and the status. The table \
+shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking \
+column is empty are left out. Rows with equal values in the ranking column keep the order of FILE. If the best row is \
+at the end of an axis, flap prints a note: rows beyond the end of the axis could be better. If FILE is unfinished, \
+flap ranks the rows up to the last checkpoint.
 
 Examples:
   flap top sweep.csv --by efficiency_gf_per_w
@@ -58,13 +59,14 @@ pub(crate) struct DescribeArgs {
 }
 
 const DESCRIBE_HELP: &str = "\
-flap prints three kinds of tables. The first table has the number of rows with each status. For each measure, the second \
-table has the mean, the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the largest value; \
-csv and json also have the standard error of the mean. The third kind of table is for one main measure, and shows the \
-best value of each axis. For each axis, the third table has the axis value of the best row, and the range of axis values \
-in the best tenth of the rows. If the best tenth of the rows has a wide range of an axis, this axis has little influence \
-on the measure. `at the end` means that the best value is at an end of the axis: a wider axis may contain better designs. \
-An axis is a varied parameter; in results of `flap respond`, the branch is an axis too.
+flap prints three kinds of tables. The first table has the number of rows with each status. For each measure, the \
+second table has the mean, the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the \
+largest value; csv and json also have the standard error of the mean. A table of the third kind is for one measure of \
+--by, and shows the best value of each axis. For each axis, the table has the axis value of the best row, and the \
+range of axis values in the best tenth of the rows. If the best tenth of the rows has a wide range of an axis, this \
+axis has little influence on the measure. `at the end` means that the best value is at an end of the axis: a wider \
+axis could contain better designs. An axis is a varied parameter. In results of `flap respond`, the branch is also an \
+axis.
 
 Examples:
   flap describe sweep.csv

@@ -47,9 +47,10 @@ pub(crate) struct PlotArgs {
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have several parts,
-    /// such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of the sweep,
-    /// flap draws only the rows at the middle value of this axis. With --where you choose another value of the axis.
+    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have
+    /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of
+    /// the sweep, flap draws only the rows at the middle value of this axis. Use --where to choose a different value of
+    /// the axis.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
@@ -83,10 +84,10 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
-    /// Width and height: in pixels, as 900x560, or in print, as 84x60mm, 8.4x6cm or 3.3x2.4in
+    /// Width and height: in pixels, such as 900x560, or in print, such as 84x60mm, 8.4x6cm or 3.3x2.4in
     ///
-    /// If the size is in pixels, a PNG has twice as many pixels in each direction as an SVG. If the size is in print, an SVG has
-    /// this size, and a PNG has the resolution of --dpi.
+    /// If the size is in pixels, a PNG has twice as many pixels in each direction as an SVG. If the size is in print,
+    /// an SVG has the given size, and a PNG has the resolution of --dpi.
     #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
     pub(crate) size: PictureSize,
 
@@ -137,7 +138,7 @@ pub(crate) enum PictureKind {
     /// Two measures of every design, with the Pareto front: the designs for which no other design is better in both
     /// measures
     Pareto,
-    /// Stroke and pitch over time, and their phase portrait (rates against angles)
+    /// Stroke and pitch over time, and the phase portraits of both (rates against angles)
     Trajectory,
     /// The rising and the falling branch of a response; unstable orbits are dashed
     Hysteresis,
@@ -168,10 +169,10 @@ For a sweep of one parameter, or of the drive frequency and other parameters, th
 two or more parameters, the kind is `map`. If --x and --y are measures, the kind is `pareto`, or `scatter` for a sample \
 and for a sweep of one parameter.
 
-If you give no columns, a scatter or Pareto picture shows the mean lift against the mean power. The points of a scatter \
-picture are coloured by the peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file does not have \
-these measures, flap draws other measures. If a grid combines a sample with an axis, flap draws only the rows at the \
-middle value of the axis.
+If you give no columns, a scatter or Pareto picture shows the mean lift against the mean power. The points of a \
+scatter picture are coloured by the peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file \
+does not have the default measures, flap draws other measures of the file. If a grid combines a sample with an axis, \
+flap draws only the rows at the middle value of the axis.
 
 Examples:
   flap plot sweep.csv

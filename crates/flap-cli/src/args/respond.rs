@@ -10,8 +10,8 @@ use super::values::assignment;
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// The grid may have an axis for the followed parameter. Each combination of the values of all other axes is a
-    /// design with its own curve.
+    /// The grid may have an axis for the followed parameter. Each combination of the values of the remaining axes is
+    /// one design with one curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
@@ -45,8 +45,8 @@ pub(crate) struct RespondArgs {
 
     /// Follow the ends of bistable bands in the plane of two parameters: the followed parameter and PARAMETER
     ///
-    /// flap first follows the response at the design's value of PARAMETER. flap then continues each end of the bistable
-    /// bands in the plane.
+    /// flap first follows the response at the design's value of PARAMETER. flap then continues each end of a bistable
+    /// band in the plane of the two parameters.
     #[arg(
         long,
         value_name = "PARAMETER",
@@ -64,7 +64,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only cusps, ends, and points at multiples of this step from --edge-from [default: all computed points]
+    /// Print only cusps, ends, and points at multiples of the step VALUE, counted from --edge-from [default: all
+    /// computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 
@@ -115,15 +116,16 @@ const BASINS: &str = "Basins";
 
 const RESPOND_HELP: &str = "\
 The followed parameter first rises, then falls. The first point of each branch starts at rest. Each later point starts \
-from the settled motion of the point before. If the motions of the rising and of the falling branch differ, the design is \
-bistable. flap halves a step if a bistable band ends in this step. flap also halves a step in which the motion changes by \
-more than a tenth, because such a step may hide a narrow bistable band. The summary has one line per design. flap prints \
-the summary to stdout, or to stderr if you give `--out -`.
+from the settled motion of the previous point. If the motions of the rising and of the falling branch differ, the \
+design is bistable. flap halves a step if a bistable band ends within the step. flap also halves a step in which the \
+motion changes by more than a tenth, because the step could contain a narrow bistable band. The summary has one line \
+per design. flap prints the summary to stdout, or to stderr if you give `--out -`.
 
-flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to half a \
-second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second signal \
-stops flap at once. FILE.meta.toml, in the folder of FILE, records the options of the command. Until all curves are \
-complete, FILE.journal records the progress. To continue an interrupted command, run the same command again.
+flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to \
+half a second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second \
+Ctrl-C or SIGTERM stops flap at once. FILE.meta.toml, in the folder of FILE, records the options of the command. Until \
+all curves are complete, FILE.journal records the progress. To continue an interrupted command, run the same command \
+again.
 
 Examples:
   flap respond jafferis2016 --from '60 Hz' --to '200 Hz' --step '1 Hz'

@@ -10,7 +10,7 @@ use super::values::status;
 
 #[derive(Subcommand)]
 pub(crate) enum ResultsCommand {
-    /// Continue an interrupted sweep with the grid that its sidecar records
+    /// Continue an interrupted sweep with the grid that the sidecar records
     Resume(ResumeArgs),
     /// Run points of earlier results again with other solver settings
     Rerun(RerunArgs),
@@ -25,7 +25,7 @@ pub(crate) enum ResultsCommand {
 #[derive(clap::Args)]
 #[command(after_help = VERIFY_HELP)]
 pub(crate) struct VerifyArgs {
-    /// Result files, each with its sidecar (FILE.meta.toml) in the same folder
+    /// Result files; for each file, the sidecar FILE.meta.toml must be in the same folder
     #[arg(value_name = "FILE", required = true)]
     pub(crate) results: Vec<PathBuf>,
 
@@ -37,9 +37,9 @@ pub(crate) struct VerifyArgs {
 }
 
 const VERIFY_HELP: &str = "\
-flap compares each FILE with the checksums in its sidecar FILE.meta.toml. For each file, flap prints one line: the file \
-is sound, or the damaged rows. An unfinished file is compared up to the end of its journal. flap counts rows from 1, and \
-compares blocks of 256 rows. If a row is missing or added, all later rows count as damaged.
+flap compares each FILE with the checksums in the sidecar FILE.meta.toml. For each file, flap prints one line: that \
+the file is sound, or which rows are damaged. flap compares an unfinished file up to the end of the journal. flap \
+counts rows from 1, and compares blocks of 256 rows. If a row is missing or added, all later rows count as damaged.
 
 Exit codes:
   0    all files are sound
@@ -53,7 +53,7 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RESUME_HELP)]
 pub(crate) struct ResumeArgs {
-    /// Unfinished results, with their sidecar (FILE.meta.toml) in the same folder
+    /// Unfinished results; the sidecar FILE.meta.toml must be in the same folder
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
@@ -65,12 +65,12 @@ pub(crate) struct ResumeArgs {
 }
 
 const RESUME_HELP: &str = "\
-flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes as \
-a sweep without interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if the sweep was started \
-by another build of flap or on another kind of machine, or if complete results are damaged.
+flap continues after the last row of FILE that the journal FILE.journal records. The finished file has the same bytes \
+as a sweep without interruption. flap reads the grid from FILE.meta.toml. flap stops with an error if the sweep was \
+started by a different build of flap or on a different kind of machine, or if complete results are damaged.
 
-Merged shards of a grid with [refine] contain the points of the axes. For such a FILE, flap runs the points that [refine] \
-adds.
+Merged shards of a grid with [refine] contain only the points of the axes. If FILE consists of merged shards, flap \
+runs the points that [refine] adds.
 
 Example:
   flap results resume results/run1.csv";
@@ -78,11 +78,11 @@ Example:
 #[derive(clap::Args)]
 #[command(after_help = RERUN_HELP)]
 pub(crate) struct RerunArgs {
-    /// Earlier results, with their sidecar (RESULTS.meta.toml) in the same folder
+    /// Earlier results; the sidecar RESULTS.meta.toml must be in the same folder
     #[arg(value_name = "RESULTS")]
     pub(crate) results: PathBuf,
 
-    /// Statuses, separated by commas: flap runs the points with these statuses again
+    /// Statuses, separated by commas: flap runs the points with the listed statuses again
     #[arg(
         long,
         value_name = "STATUS,...",
@@ -125,7 +125,7 @@ pub(crate) struct MergeArgs {
     #[arg(value_name = "OUT")]
     pub(crate) out: PathBuf,
 
-    /// Results of all shards, each with its sidecar (SHARD.meta.toml) in the same folder
+    /// Results of all shards; for each shard, the sidecar SHARD.meta.toml must be in the same folder
     #[arg(value_name = "SHARD", required = true)]
     pub(crate) shards: Vec<PathBuf>,
 
@@ -142,9 +142,9 @@ pub(crate) struct MergeArgs {
 
 const MERGE_HELP: &str = "\
 OUT has the same bytes as the results of a sweep on one machine. flap stops with an error if a shard is missing, \
-unfinished, damaged, given twice, or part of another sweep. flap only joins the rows and computes no row again. If \
-another build of flap computed the shards, OUT.meta.toml records this build. Rows of different builds may differ, so flap \
-merges shards of several builds only if you give --mixed-builds.
+unfinished, damaged, given twice, or part of a different sweep. flap only joins the rows and computes no row again. If \
+a different build of flap computed the shards, OUT.meta.toml records the different build. Rows of different builds may \
+differ, so flap merges shards of several builds only if you give --mixed-builds.
 
 Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";
@@ -152,7 +152,7 @@ Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`
 #[derive(clap::Args)]
 #[command(after_help = CONVERT_HELP)]
 pub(crate) struct ConvertArgs {
-    /// Results, with their sidecar (IN.meta.toml) in the same folder
+    /// Results; the sidecar IN.meta.toml must be in the same folder
     #[arg(value_name = "IN")]
     pub(crate) from: PathBuf,
 
@@ -168,8 +168,8 @@ pub(crate) struct ConvertArgs {
 }
 
 const CONVERT_HELP: &str = "\
-OUT has the same bytes as the results of a sweep in the format of OUT. If IN is unfinished, flap converts the rows up to \
-the last checkpoint.
+OUT has the same bytes as a file that `flap sweep` writes in the format of OUT. If IN is unfinished, flap converts the \
+rows up to the last checkpoint.
 
 Examples:
   flap results convert sweep.csv sweep.parquet

@@ -13,7 +13,7 @@ use super::values::threads;
 pub(crate) struct SweepArgs {
     /// Grid file with preset, parameters and axes; `-` reads a grid from stdin
     ///
-    /// You can also give the sidecar of earlier results (FILE.meta.toml): flap then repeats the sweep of these results.
+    /// To repeat the sweep of earlier results, give the sidecar of the earlier results (FILE.meta.toml).
     #[arg(value_name = "GRID", required_unless_present = "named_grid")]
     first_grid: Option<PathBuf>,
 
@@ -49,11 +49,11 @@ impl SweepArgs {
 
 const SWEEP_HELP: &str = "\
 flap writes each row as soon as possible, in the order of the points. After Ctrl-C or SIGTERM, flap waits up to half a \
-second for the points that are being computed. flap keeps the complete rows and exits with code 130. A second signal \
-stops flap at once. FILE.meta.toml (the sidecar), in the folder of FILE, records the origin of the rows. Until the sweep \
-is complete, FILE.journal records the progress. To continue an interrupted sweep, run the same command again. If FILE \
-already has all rows, flap runs no points. flap replaces rows of another grid or of another build of flap only if you \
-give --restart.
+second for the points that are being computed. flap keeps the complete rows and exits with code 130. A second Ctrl-C \
+or SIGTERM stops flap at once. FILE.meta.toml (the sidecar), in the folder of FILE, records the origin of the rows. \
+Until the sweep is complete, FILE.journal records the progress. To continue an interrupted sweep, run the same command \
+again. If FILE already has all rows, flap runs no points. flap replaces rows of a different grid or of a different \
+build of flap only if you give --restart.
 
 Examples:
   flap sweep grid.toml
@@ -73,8 +73,8 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// Number of threads for which flap estimates the time, each as fast as a thread of this machine [default: one
-    /// thread per core]
+    /// Number of threads for which flap estimates the time; each thread is as fast as a thread of this machine
+    /// [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -93,10 +93,10 @@ pub(crate) struct CheckArgs {
 const CHECK_HELP: &str = "\
 flap shows the range of each axis, the number of points that [where] excludes, the first and the last point, and \
 estimates of the time of the sweep and of the size of the CSV file. For the estimates, flap runs up to 256 points for \
-about a second. The command also lists the parameters that differ from the preset, and parameters that stay the same \
-although they usually change with a varied parameter. flap warns if a value is more than a hundred times larger or \
-smaller than the value of the preset. If a grid has more than a million points, flap counts the excluded points in a \
-sample of a million. If the grid has [refine], the estimates are for `max_points` points.
+about a second. The command also lists the parameters that differ from the preset, and unchanged parameters that \
+usually change together with a varied parameter. flap warns if a value is more than a hundred times larger or smaller \
+than the value of the preset. If a grid has more than a million points, flap counts the excluded points in a sample of \
+a million points. If the grid has [refine], the estimates are for `max_points` points.
 
 Examples:
   flap check grid.toml

@@ -18,12 +18,13 @@ pub(crate) struct VehicleArgs {
     /// Inputs of the vehicle, separated by commas: parameters, or the words for inputs that are listed at the end of
     /// this help
     ///
-    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each of these words
-    /// gives two inputs: one input changes all wings together, and one input is the left-right difference.
+    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each of the default
+    /// words gives two inputs: one input changes all wings together, and one input is the left-right difference.
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 
-    /// Find values of the inputs, near the point, that give this force (mN) or torque (uN*m). You can repeat --trim
+    /// Find values of the inputs near the point at which the force (mN) or torque (uN*m) COLUMN has the value VALUE.
+    /// You can repeat --trim
     ///
     /// With `--trim hover`, force_up equals the weight, and all torques are zero.
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = target)]
@@ -35,11 +36,11 @@ pub(crate) struct VehicleArgs {
     #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]
     pub(crate) wrench_map: Vec<NamedRange>,
 
-    /// Number of rows of --wrench-map; every fifth row is left out of the fit and tests the map
+    /// Number of rows of --wrench-map; every fifth row is left out of the fit, to test the map
     #[arg(long, value_name = "N", default_value_t = WrenchMap::SAMPLES, value_parser = value_parser!(u32).range(1..=1_000_000), requires = "wrench_map")]
     pub(crate) samples: u32,
 
-    /// Number of worker threads of --wrench-map; the map does not depend on this number [default: one thread per core]
+    /// Number of worker threads of --wrench-map; the number does not change the map [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads, requires = "wrench_map")]
     pub(crate) threads: Option<NonZeroUsize>,
 
@@ -47,7 +48,7 @@ pub(crate) struct VehicleArgs {
     #[arg(long)]
     pub(crate) damping: bool,
 
-    /// Print the modes of the linear model about hover, with the trim residual
+    /// Print the modes of the linear model about hover, and the trim residual
     ///
     /// --hover requires total_mass and the moments of inertia, such as body_inertia_roll. The entry `about` of the
     /// vehicle must be the centre of mass.
@@ -56,7 +57,7 @@ pub(crate) struct VehicleArgs {
 
     /// Simulate a flight of this duration, such as 0.5s, and print the means over each wing beat
     ///
-    /// The simulation couples the motions of wings and body. --fly requires the same entries as --hover.
+    /// The simulation couples the motions of wings and body. --fly requires the entries that --hover requires.
     #[arg(long, value_name = "TIME", value_parser = time, conflicts_with_all = ["wrench_map", "damping", "hover", "export"])]
     pub(crate) fly: Option<f64>,
 
@@ -90,9 +91,9 @@ flap prints the mean force and torque of a vehicle at a point of a grid file wit
 and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular \
 values). The derivatives are exact derivatives of the settled motion.
 
-The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append _difference \
-for the left value minus the right value. Put the name of a wing before the word to change only this wing, as in \
-left_amplitude.
+The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append \
+_difference to a word for the value of the left wings minus the value of the right wings. Put the name of a wing \
+before the word to change only this wing, as in left_amplitude.
 The components of force and torque are force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw \
 (uN*m). A positive roll torque lifts the left side, a positive pitch torque lowers the nose, and a positive yaw torque \
 turns the nose to the left.

@@ -7,8 +7,9 @@ use crate::parameter::Range::Any;
 crate::parameters! {
     /// Further terms of the force coefficients and of the centre of pressure.
     pub struct HarmonicParameters {
-        /// Coefficient d_0 of the drag coefficient, which contains sin(2a)^2 (d_0 + d_1 cos(2a)) at the attack angle a. The
-        /// term is zero at 0 and at 90 deg, and d_0 at 45 deg. The paper of the model does not use this parameter.
+        /// Coefficient d_0 of the drag coefficient, which contains sin(2a)^2 (d_0 + d_1 cos(2a)) at the attack angle a.
+        /// The term is zero at 0 and at 90 deg, and equals d_0 at 45 deg. The paper of the model does not use this
+        /// parameter.
         drag_term_0: f64 = ("", "d_0", Number(Any), default: 0.0),
         /// Coefficient d_1 of the drag coefficient, which contains sin(2a)^2 (d_0 + d_1 cos(2a)) at the attack angle a. The
         /// paper of the model does not use this parameter.

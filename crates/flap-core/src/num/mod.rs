@@ -10,9 +10,9 @@
 //! [`Real`] contains all operations of the equations. [`Lanes`] adds the access to single lanes that the integrator
 //! needs. [`PerLane`] is a group of numbers. A [`Backend`] chooses the instructions.
 //!
-//! `mul_add` rounds once on processors with a fused multiply-add (AVX2, AVX-512, NEON), otherwise twice. Results of
-//! the two [arithmetic classes](Arithmetic) differ by about the integration tolerance. Within a class they are equal
-//! to the last bit.
+//! `mul_add` rounds once on processors with a fused multiply-add (AVX2, AVX-512, NEON), and twice on other processors.
+//! Results of the two [arithmetic classes](Arithmetic) differ by about the integration tolerance. Results of the same
+//! class are equal to the last bit.
 
 #[cfg(target_arch = "x86_64")]
 mod avx512;

@@ -19,7 +19,7 @@ pub struct SolverSettings {
     pub max_steps: u32,
     /// Largest [`error_estimate`](super::Row::error_estimate) and energy audit of a row.
     ///
-    /// A point whose row exceeds it is integrated again with tighter tolerances, up to a limit.
+    /// A point whose row exceeds the accuracy is integrated again with tighter tolerances, up to a limit.
     pub accuracy: f64,
     /// True to use Newton's iteration on the period map to find the orbit that a motion approaches.
     ///
@@ -86,8 +86,8 @@ impl SolverSettings {
         Setting::new(
             "accuracy",
             number(f64::INFINITY, |s| s.accuracy, |s, accuracy| s.accuracy = accuracy),
-            "largest error_estimate and energy audit of a row; a point whose row exceeds it is integrated again with \
-             tighter tolerances",
+            "largest error_estimate and energy audit of a row; a point whose row exceeds the accuracy is integrated \
+            again with tighter tolerances",
         )
         .following("1000 rtol, but at least 1e-3"),
         Setting::new(

@@ -1,13 +1,14 @@
 """Simulation of insect-scale piezoelectric flapping-wing actuators.
 
-`presets` lists published designs, and `params` lists their parameters. `run` simulates one design, `trajectory` returns
-its motion, and `resonance` returns its resonances. `sweep` runs a whole grid, and `evaluate` runs a batch of points.
-`respond` follows designs up and down along the drive frequency or another parameter. `chirp` simulates a drive with a
-changing frequency, and `impulse` a free motion. `track_wing` and `forces_along` process the motion of a filmed wing.
-`fit` fits parameters to readings, `compare` compares fits, and `select` chooses free parameters. `fit_coefficients`
-fits the laws of lift, drag and centre of pressure to a table. `optimise` finds the best design within the axes of a
-grid. `wrench_map` fits a quadratic map of the forces and torques of a vehicle, and `fly` simulates its flight. `live`
-opens a page in the browser, with sliders for the parameters and curves that change with the sliders.
+`presets` lists published designs, and `params` lists the parameters of a design. `run` simulates one design,
+`trajectory` returns the motion of a design, and `resonance` returns the resonances. `sweep` runs a whole grid, and
+`evaluate` runs a batch of points. `respond` follows designs up and down along the drive frequency or any other
+parameter. `chirp` simulates a drive with a changing frequency, and `impulse` a free motion. `track_wing` and
+`forces_along` process the motion of a filmed wing. `fit` fits parameters to readings, `compare` compares fits, and
+`select` chooses free parameters. `fit_coefficients` fits the laws of lift, drag and centre of pressure to a table.
+`optimise` finds the best design within the axes of a grid. `wrench_map` fits a quadratic map of the forces and torques
+of a vehicle, and `fly` simulates the flight of a vehicle. `live` opens a page in the browser, with sliders for the
+parameters and curves that change with the sliders.
 
 Functions for many points return a `Table`, whose columns are NumPy arrays. You can convert a `Table` to pandas, polars,
 Arrow and xarray. Functions for one point return a `Row`. Unknown numbers in results are nan.

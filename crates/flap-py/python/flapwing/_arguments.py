@@ -1,4 +1,4 @@
-"""Conversion of arguments to the types that the native part takes."""
+"""Conversion of arguments to the types that the compiled module takes."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ def columns_of(name: str, given: Any) -> dict[str, Any]:
 
 
 def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """Return a column of numbers as float64. If `unknown` is true, nulls and masked values become nan; if not, nulls
-    and masked values raise ValueError.
+    """Return a column of numbers as float64. If `unknown` is true, nulls and masked values become nan. If `unknown` is
+    false, nulls and masked values raise ValueError.
     """
     if isinstance(values, np.ma.MaskedArray) or not unknown:
         refuse_missing(name, values)
@@ -81,8 +81,8 @@ def refuse_missing(name: str, values: Any) -> None:
 
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
-    """Return a record over time as a path, or as columns with arrays. If the record is a pair of arrays, the second
-    array gets the name `heading`.
+    """Return a waveform or a motion over time as a path, or as columns with arrays. If `given` is a pair of arrays, the
+    second array gets the name `heading`.
     """
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
@@ -101,7 +101,7 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
 
 
 def _is_table(name: str, given: Any, allowed: str) -> bool:
-    """Return True if the argument is a table of columns, also for a lazy frame of polars."""
+    """Return True if the argument is a table of columns, including a lazy frame of polars."""
     with reading(name, given, allowed):
         return any(hasattr(given, attribute) for attribute in ("collect", "columns", "column_names"))
 
@@ -111,7 +111,7 @@ def _is_known(values: Any) -> bool:
 
 
 def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
-    """Return the waveform and the stroke of a call in the form that the native part takes."""
+    """Return the waveform and the stroke of a call in the form that the compiled module takes."""
     return {
         "waveform": None if waveform is None else record("waveform", waveform, "wave"),
         "stroke": None if stroke is None else record("stroke", stroke, "stroke_rad"),
@@ -119,8 +119,8 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
-    """Return the components of a state. If a row with more columns is given, return only its columns with states of the
-    design's model.
+    """Return the components of a state. If `initial_state` is a row with further columns, return only the columns with
+    states of the design's model.
     """
     if initial_state is None:
         return None
@@ -209,14 +209,14 @@ def _names(argument: str, names: Any, example: str) -> list[str] | None:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return the value of a flag, True or False; raise TypeError for a value of another type."""
+    """Return the value of a flag, True or False. Raise TypeError if the value is not a flag."""
     if not isinstance(value, (bool, np.bool_)):
         raise refused(name, value, "it must be True or False")
     return bool(value)
 
 
 def executor(client: Any) -> Executor:
-    """Return an executor, such as the client of a Dask cluster; raise TypeError for another type."""
+    """Return an executor, such as the client of a Dask cluster. Raise TypeError if `client` is not an executor."""
     if not callable(getattr(client, "submit", None)) or isinstance(client, type):
         raise refused(
             "client",
@@ -228,7 +228,8 @@ def executor(client: Any) -> Executor:
 
 
 def count(name: str, value: Any, least: int = 1) -> int:
-    """Return a whole number; raise TypeError for another type, and ValueError for a number less than `least`."""
+    """Return a whole number. Raise TypeError if the value is not a whole number, and ValueError if the number is less
+    than `least`."""
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"`{name}` must be a whole number, not {type(value).__name__}")
     number = operator.index(value)

@@ -27,14 +27,15 @@ _DETERMINED = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class CoefficientFit:
-    """Parameters of a model that reproduce a table of coefficients; see `fit_coefficients`.
+    """Parameters of a model that reproduce a table of coefficients (see `fit_coefficients`).
 
     `print` shows the parameters as the section `[params]` of a grid file or a device.
 
     Attributes
     ----------
     params : dict of str to float
-        Values of the parameters, in the units of the model. You can pass them as keywords to `run` and other functions.
+        Values of the parameters, in the units of the model. You can pass `params` as keywords to `run` and similar
+        functions.
     attack : array of shape (n,)
         Attack angles of the table (rad).
     fitted : dict of str to array of shape (n,)
@@ -64,19 +65,19 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
         C_D = b_max sin² α + b_min cos² α + sin² 2α (d_0 + d_1 cos 2α)
         centre of pressure = constant + slope α + sin 2α (p_c0 + p_c1 cos 2α)
 
-    The lift is zero at 0 and 90°, so a table with a lift at 90° has an error there. b_L, b_max and b_min are at least
-    zero.
+    The lift of these laws is zero at 0 and 90°, so the fit has an error if the table contains a lift at 90°. b_L, b_max
+    and b_min are at least zero.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset, a device, a grid, or the name of a model. The design determines the names of the parameters.
+        A preset, a device, a grid, or the name of a model. The design determines the names of the fitted parameters.
     table : str, path, Table, data frame or mapping of columns
         The column `attack_deg` or `attack_rad` contains attack angles from 0 to 90°, at least four different ones. At
-        least one other column is required: `lift_coefficient`, `drag_coefficient`, or `pressure`, the centre of
-        pressure. In `bimorph`, the centre of pressure is the distance behind the hinge's axis in mean wing widths, as
-        `pressure_min`. In the other models, the centre of pressure is the distance behind the leading edge in chords,
-        as `pressure_offset`. Other columns are ignored.
+        least one of three columns is required: `lift_coefficient`, `drag_coefficient`, or `pressure`, the centre of
+        pressure. In `bimorph`, the centre of pressure is the distance behind the hinge's axis in mean wing widths, like
+        the parameter `pressure_min`. In `direct-drive` and `four-bar`, the centre of pressure is the distance behind
+        the leading edge in chords, like the parameter `pressure_offset`. Columns with other names are ignored.
 
     Returns
     -------
@@ -86,11 +87,11 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     Raises
     ------
     ValueError
-        The design is unknown, or its model does not have these laws. A column is missing, an angle is not between 0 and
+        The design is unknown, or the model of the design has other laws of lift and drag. A column is missing, an angle is not between 0 and
         90°, a number is not finite, or columns differ in length. The table has too few angles, or the angles do not
         determine a law: the lift requires three different angles between 0 and 90°, without the ends.
     TypeError
-        The table has another type.
+        The table is neither text, nor a path, nor a set of columns.
 
     Examples
     --------
@@ -159,12 +160,13 @@ def _solve(columns: Array, values: Array, least: int) -> Array:
         free[negative] = False
 
 
-#: Functions of the attack angle, the number of unknowns that must not be negative, and the parameters of the unknowns.
+#: Functions of the attack angle, the number of unknowns that must not be negative, and the names of the parameters that
+#: the unknowns determine.
 _Law = tuple[Callable[[Array], list[Array]], int, Callable[..., dict[str, float]]]
 
 
 def _laws(known: set[str]) -> dict[str, _Law]:
-    """Return the laws of a model with these parameters."""
+    """Return the laws of the model whose parameters have the names `known`."""
     if not {"lift_term_1", "drag_term_0", "pressure_term_0"} <= known:
         raise ValueError("the model of the design does not have these laws\nuse bimorph, direct-drive or four-bar")
     sine = "lift_amplitude" in known

@@ -1,4 +1,4 @@
-"""The columns of a table, and the conversion of tables to other libraries."""
+"""The columns of a table, and the conversion of tables to the types of pandas, Arrow and xarray."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Column(NamedTuple):
-    """A column from the native part."""
+    """A column that the compiled module returns."""
 
     unit: str
     doc: str
@@ -46,8 +46,8 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """Return a column of flags as True and False. Unknown flags are False. The function `known` returns a mask of
-        known flags."""
+        """Return a column of flags as True and False. An unknown flag is returned as False. The function `known`
+        returns a mask of known flags."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
@@ -59,7 +59,7 @@ class Column(NamedTuple):
         return np.ones(len(self.cells), dtype=np.bool_)
 
 
-#: The columns of a table by name, the axes of its grid with their values, and the origin of its rows.
+#: The columns of a table by name, the axes of the grid with values, and the origin of the rows.
 Columns = dict[str, Column]
 Axes = list[dict[str, np.ndarray[Any, Any]]]
 Meta = dict[str, Any]
@@ -102,7 +102,7 @@ def to_arrow(columns: Columns, meta: Meta) -> pyarrow.Table:
 
 
 def _origin(meta: Meta) -> dict[str, str]:
-    """Return the entries of `meta` as text, because every file format can store text. Entries of another type become
+    """Return the entries of `meta` as text, because every file format can store text. Entries that are not text become
     JSON.
     """
     return {
@@ -111,7 +111,7 @@ def _origin(meta: Meta) -> dict[str, str]:
 
 
 def _plain(value: Any) -> Any:
-    """Return a value that JSON can express, for a value that JSON cannot express, such as a NumPy number."""
+    """Convert a value that JSON cannot express, such as a NumPy number, to a value that JSON can express."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
     return dataclasses.asdict(value) if isinstance(value, Verdict) else str(value)
@@ -156,7 +156,7 @@ def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
 
 
 def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
-    """Return the dimensions of a Dataset, their lengths, and the index of the cell of each row."""
+    """Return the dimensions of a Dataset, the length of each dimension, and the index of the cell of each row."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
     if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())
@@ -170,7 +170,7 @@ def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndar
 
 
 def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
-    """Return the index of each row along an axis, which is found by the values of the axis's parameters."""
+    """Return the index of each row along an axis. The index is found from the values of the axis's parameters."""
     length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)

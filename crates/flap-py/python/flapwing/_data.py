@@ -1,4 +1,4 @@
-"""Columns of results and selections of their rows, for pictures and analysis."""
+"""Columns of results, and selections of rows of results, for pictures and analysis."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _NOT_PARAMETERS = ("point", "curve")
 
 
 class Data:
-    """Columns of equal length with their units and the axes of their grid."""
+    """Columns of equal length, with the units of the columns and the axes of the grid."""
 
     def __init__(
         self,
@@ -39,7 +39,7 @@ class Data:
         #: The names of the parameters along each axis of the grid; empty for rows without a grid.
         self.grid_axes = grid_axes
         self.meta = meta
-        #: The values of each parameter along an axis of the grid. A refined grid has rows at other values too.
+        #: The values of each parameter along an axis of the grid. A refined grid also has rows between these values.
         self.axis_values = axis_values or {}
 
     @classmethod
@@ -80,7 +80,7 @@ class Data:
         return self.columns[name]
 
     def numbers(self, name: str) -> np.ndarray:
-        """Return a column as floats. A row without measures has NaN."""
+        """Return a column as floats. A row without measures contains NaN."""
         column = self[name]
         if is_text(column):
             raise ValueError(f"`{name}` is text, but a column of numbers is required")
@@ -124,8 +124,8 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """Return the default measure for a role: "response", "benefit", "cost" or "motion". `flap plot` has the same
-        default measures.
+        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The default measures are
+        the default measures of `flap plot`.
         """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
@@ -133,7 +133,8 @@ class Data:
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a sample. If a crossed axis is not in `shown`, only its middle value is kept."""
+        """Return the designs of a sample. If a crossed axis is not in `shown`, only the rows at the middle value of
+        this axis are kept."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if not left or len(left) == len(self.axes()):
             return self
@@ -194,7 +195,8 @@ class Data:
         return str(self.meta.get("parameter") or names[names.index("branch") + 1])
 
     def axis(self, name: str) -> str:
-        """Return the name of the axis of a parameter. The name is the first of the parameters that vary together."""
+        """Return the name of the axis of a parameter. The name of an axis is the first of the parameters that vary
+        together along the axis."""
         for axis in self.grid_axes:
             if name in axis:
                 return next(member for member in axis if member in self.columns)
@@ -211,8 +213,8 @@ class Data:
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def on_axis(self, name: str) -> np.ndarray:
-        """Return a mask, True for rows at a value of the parameter's axis. A refined grid also has rows between the
-        values of the axis.
+        """Return a mask, which is True for rows at a value of the axis of the parameter `name`. A refined grid also has
+        rows between the values of the axis.
         """
         values = np.asarray(self.axis_values.get(name, ()))
         if len(values) < 2 or is_text(values) or is_text(self[name]):
@@ -254,8 +256,8 @@ class Data:
         return data
 
     def one_row_for(self, names: Sequence[str]) -> None:
-        """Raise ValueError if several rows have the same values in all columns `names`, which means that another axis
-        varies.
+        """Raise ValueError if several rows have the same values in all columns `names`, which means that an axis
+        outside `names` varies.
         """
         if len(np.unique(self.groups(names))) == len(self):
             return
@@ -276,12 +278,12 @@ class Data:
         )
 
     def described(self, name: str) -> str:
-        """Return a column's name with its unit."""
+        """Return the name of a column with the unit of the column."""
         unit = self.unit(name)
         return f"{name} ({unit})" if unit else name
 
     def shown(self, name: str) -> Shown:
-        """Return a column in a readable unit, with its label."""
+        """Return a column in a readable unit, with a label."""
         return Shown(self, name)
 
 
@@ -311,12 +313,12 @@ def several(table: Any, label: str | Sequence[str] | None) -> dict[str, Data] | 
 
 
 def _is_table(value: Any) -> bool:
-    """Return True for results of any kind, False for a column."""
+    """Return True for a table of results of any kind, and False for a column."""
     return isinstance(value, (Data, Table, Mapping, str, os.PathLike)) or hasattr(value, "columns")
 
 
 def joined(runs: Mapping[str, Data]) -> Data:
-    """Return the rows of several results as one result. The first column has the names of the results, and the other
+    """Return the rows of several results as one result. The first column has the names of the results. The remaining
     columns are the columns that all results have.
     """
     first = next(iter(runs.values()))
@@ -337,7 +339,7 @@ def _plain(column: np.ndarray) -> np.ndarray:
 
 
 class Shown:
-    """A column as a picture shows it: the factor to a readable unit, and the label."""
+    """Data of a column for a picture: the factor to a readable unit, and the label of the column."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name
@@ -390,9 +392,8 @@ def is_text(column: np.ndarray) -> bool:
 
 
 def distinct(column: np.ndarray) -> np.ndarray:
-    """Return the distinct values of a column: numbers in rising order without NaN, or words in their order in the
-    column.
-    """
+    """Return the distinct values of a column: numbers in rising order without NaN, or words in the order of the
+    column."""
     if is_text(column):
         words = column.astype(str)
         _, first = np.unique(words, return_index=True)
@@ -402,8 +403,8 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """Return the edges of cells around rising values. An edge is halfway between two neighbouring values. The first and
-    the last value are in the middle of their cells.
+    """Return the edges of the cells of a picture around rising values. An edge is halfway between two neighbouring
+    values. The first value is in the middle of the first cell, and the last value is in the middle of the last cell.
     """
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:

@@ -37,66 +37,70 @@ def evaluate(
 ) -> Table:
     """Run a batch of design points, given as columns of parameters.
 
-    Use this function in optimisers, samplers and fits. You give the parameters of all points as arrays. The function
-    returns the measures of the points as arrays in the same order. All points run at the same time, on all cores. The
-    row of a point does not depend on other points of the batch.
+    Use `evaluate` in optimisers, samplers and fits. You give the parameters of all points as arrays. `evaluate` returns
+    the measures of the points as arrays, in the order of the points. All points run at the same time, on all cores. The
+    row of a point does not depend on the other points of the batch.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         The base of all points: a preset, a model, or a grid (see `Grid`). For a model, give all parameters of the
         model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of a grid apply to
-        every point. A grid with axes is run for each row of `columns`, for example all frequencies for each design.
+        every point. If the grid has axes, all points of the axes are run for each row of `columns`, for example all
+        frequencies for each design.
     columns : dict, Table or DataFrame
         The parameters of n points, by name. The values of a parameter are an array, a Series or a range of n numbers in
-        SI units. A list of n texts with units, or of n options, is accepted too. A single value applies to all points.
-        A masked array must have no masked values. If `columns` is a `Table`, only its parameters are used, not its
-        measures.
+        SI units. A list of texts with units, or a list of options, is accepted too. A single value of a parameter
+        applies to all points. A masked array must have no masked values. If `columns` is a `Table`, only the columns of
+        parameters are used, not the measures.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
-        with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
+        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
-        that are done, and all points.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
+        of finished points, and the number of all points.
     client : executor, optional
-        Run the points on the workers of an executor, as for `sweep`. The rows are the same as without `client`.
+        Run the points on the workers of an executor, as for `sweep`. With and without `client`, the rows are the same.
     points_per_task : int, optional
         Number of points in a task of `client`, as for `sweep`.
     measures : list of str, optional
-        The measures of the rows. Default: the measures that ``[output]`` of the grid chooses, or all measures if the
-        grid has no ``[output]``.
+        The measures that the rows contain. Default: the measures that ``[output]`` of the grid chooses, or all measures
+        if the grid has no ``[output]``.
     gradient : list of str, optional
         Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
-        derivatives, with the shape n x measures x parameters. The unit of a derivative is the unit of the measure's
-        column per SI unit of the parameter. The derivatives with respect to `gradient` replace the derivatives of
-        ``[gradient]`` in a grid. The derivatives with respect to one parameter take about as long as three drive
-        periods of the simulation.
+        derivatives, with the shape points × measures × parameters. The unit of a derivative is the unit of the
+        measure's column per SI unit of the parameter. The derivatives with respect to `gradient` replace the
+        derivatives of ``[gradient]`` in a grid. The derivatives with respect to one parameter take about as long as
+        three drive periods of the simulation.
     initial_state : Table, dict or DataFrame, optional
-        The state in which each motion begins, at the start of a drive period. The columns are the components of the
-        state (see `states`), with one row per point. The end of a column's name is its unit. A row with nan begins at
-        rest. If a design has several orbits, the state determines the orbit that is found. Default: rest.
+        The state in which each motion begins, at the start of a drive period. The columns of `initial_state` are the
+        components of the state (see `states`), with one row per point. Each column's name ends in the unit of the
+        column. If a row of `initial_state` contains nan, the motion of the row's point begins at rest. If a design has
+        several orbits, the state determines the orbit that is found. Default: rest.
     return_states : bool, optional
-        Add columns of the state of the motion at the beginning of a drive period, for `initial_state`.
+        If True, the table also has columns with the state of the motion at the beginning of a drive period. You can
+        pass the table as `initial_state` of the next call.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. A parameter must not be both a keyword and a column
+        Parameters of all points and solver settings, as for `run`. A parameter must not be a keyword and also a column
         of `columns`.
 
     Returns
     -------
     Table
-        n rows in the order of `columns`. A grid with axes gives n times as many rows as the axes have points. In the
-        order of the rows, the axes vary faster than the rows of `columns`. `Table.axes` then begins with the axis
-        `row`. Points that ``[where]`` excludes have no row, but count in the column `point`. A row has the status
-        ``"invalid"`` if a value is out of range, infinite or not a number. A row is also invalid if the combination of
-        parameter values is impossible. ``table.meta["invalid"]`` has the reasons for the first few points. With
-        `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the reason.
+        One row for each row of `columns`, in the order of `columns`. With a grid that has axes, each row of `columns`
+        gives one row for each point of the axes. In the table, all points of the axes for one row of `columns` come
+        before the points of the next row. With a grid that has axes, `Table.axes` begins with the axis `row`. Points
+        that ``[where]`` excludes have no row, but count in the column `point`. A row has the status ``"invalid"`` if a
+        value is out of range, infinite or not a number. A row is also invalid if the combination of parameter values is
+        impossible. ``table.meta["invalid"]`` has the reasons why the first few points are invalid. With `gradient`, a
+        missing derivative is nan, and the column ``gradient_gap`` has the reason.
 
     Raises
     ------
     ValueError
-        Unknown preset, parameter, option or unit; columns of different lengths, or with masked values; a parameter that
-        is both a column and a keyword; a missing parameter of a model; derivatives with respect to a choice, a whole
-        number or a derived parameter. A grid with mistakes raises GridError.
+        A preset, parameter, option or unit is unknown. Columns have different lengths or masked values. A parameter is
+        a column and also a keyword. A parameter of a model is missing. Derivatives are requested with respect to a
+        choice, a whole number or a derived parameter. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 
@@ -139,8 +143,8 @@ def evaluate(
 
 
 def _given(design: Design, columns: Any) -> dict[str, Any]:
-    """Return the parameters of the points by name: arrays of float64 or lists of other values, all with the same
-    length.
+    """Return the parameters of the points by name: arrays of float64, or lists of values that are not numbers. All
+    arrays and lists have the same length.
     """
     given: dict[str, Any] = {}
     constants: dict[str, Any] = {}
@@ -160,8 +164,8 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
 
 
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
-    """Return the columns of a table that are parameters of the table's model, of any model, or of the table's
-    vehicle."""
+    """Return the columns of a table that are parameters of the design or of the table's model. If the model of the
+    table is unknown, the parameters of all models are returned."""
     models = [table.meta["model"]] if table.meta.get("model") else _flapwing.presets()
     known = {parameter["name"] for model in [*models, design] for parameter in _flapwing.params(model)}
     found = {name: table[name] for name in table if name in known}
@@ -182,7 +186,7 @@ def _dimensions(name: str, values: Any) -> int:
 
 
 def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
-    """Return an array of float64, or a list of other values."""
+    """Return a column as an array of float64, or as a list if the values are not numbers."""
     if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
         # NumPy would convert the numbers among them to text.
         return list(values)

@@ -27,17 +27,18 @@ def chirp(
     Parameters
     ----------
     design, point
-        As for `run`.
+        The design, and the index of the point in a grid, as for `run`.
     start : float or str, optional
-        Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. Default 1.
+        Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. Default: 1 Hz.
     stop : float or str, optional
         Drive frequency at the end of the chirp (Hz, or text with a unit): more than 0. The chirp ends after a whole
         number of cycles. Default: twice the design's drive frequency.
     rate : float or str, optional
         Rate of change of the drive frequency (Hz/s, or text with a unit). With a negative rate, the drive frequency
-        falls. Default 15.
+        falls. Default: 15 Hz/s.
     samples : int, optional
-        Return the motion with this number of samples per cycle, instead of the measures of each cycle.
+        Number of samples per cycle. If `samples` is given, the table contains the motion instead of the measures of
+        each cycle.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -50,8 +51,8 @@ def chirp(
     Raises
     ------
     ValueError
-        The same errors as for `run`. The drive frequency cannot reach `stop` from `start` at this `rate`, or the motion
-        diverges.
+        An argument is invalid (see `run`). With the given sign of `rate`, the drive frequency cannot reach `stop` from
+        `start`, or the motion diverges.
     TypeError
         An argument has the wrong type.
 
@@ -83,14 +84,15 @@ def impulse(
     Parameters
     ----------
     design, point
-        As for `run`.
+        The design, and the index of the point in a grid, as for `run`.
     amplitude : float or str, optional
-        Size of the impulse (rad, or text with a unit). The size is the stroke amplitude that the impulse causes in the
-        first mode alone, without damping. The size is not zero and at most half a turn. Default ``"20 deg"``.
+        Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
+        causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
+        most half a turn. Default: ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
     samples : int, optional
-        Smallest number of samples that the table has per period of the first mode. Default 200.
+        Smallest number of samples that the table has per period of the first mode. Default: 200 samples per period.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -98,13 +100,13 @@ def impulse(
     -------
     Table
         The motion with the columns of `trajectory`. ``meta["mode_hz"]`` is the natural frequency of the first mode, and
-        ``meta["stroke_rate_rad_s"]`` is the rate of the stroke right after the impulse.
+        ``meta["stroke_rate_rad_s"]`` is the rate of the stroke immediately after the impulse.
 
     Raises
     ------
     ValueError
-        The same errors as for `run`. The impulse is zero, or the impulse is more than half a turn, or the duration is
-        zero.
+        An argument is invalid (see `run`). The impulse is zero, or the impulse is more than half a turn, or the
+        duration is zero.
     TypeError
         An argument has the wrong type.
 
@@ -138,31 +140,31 @@ def forces_along(
     Parameters
     ----------
     design, point
-        As for `run`.
+        The design, and the index of the point in a grid, as for `run`.
     motion : path or columns
-        Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame), with `time_s` (or
-        `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of `track_wing` and
-        `trajectory` have these columns. The motion has at least four samples at rising times.
+        Stroke and pitch over time: a CSV file, or columns (a dictionary, Table or DataFrame). The columns of `motion`
+        are `time_s` (or `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of
+        `track_wing` and `trajectory` have the required columns. The motion has at least four samples at rising times.
     periodic : bool, optional
-        True if the given motion is one period. The last sample of the given motion is then also the first sample of the
-        next period.
+        True if the given motion is one period. If `periodic` is true, the last sample of the given motion is also the
+        first sample of the next period.
     samples : int, optional
         Number of equal time intervals into which the given motion is divided. Forces are computed at the ends of the
-        intervals. Default 2000.
+        intervals. Default: 2000 intervals.
     **keywords : float or str
         Parameters of the model, as for `run`.
 
     Returns
     -------
     Table
-        ``samples + 1`` rows: `time_s`, stroke and pitch, and lift, drag and their parts. The table has no columns of
-        the actuator, because the given motion does not determine the actuator.
+        ``samples + 1`` rows: `time_s`, stroke and pitch, lift and drag, and the parts of lift and drag. The table has
+        no columns of the actuator, because the given motion does not determine the actuator.
 
     Raises
     ------
     ValueError
-        The same errors as for `run`. A column is missing or has values that are not finite numbers, or the times do not
-        increase.
+        An argument is invalid (see `run`). A column is missing or has values that are not finite numbers, or the times
+        do not increase.
     OSError
         The file cannot be read.
     TypeError
@@ -196,23 +198,24 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     Parameters
     ----------
     points : path or columns
-        The tracked points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns are
-        `root_x`, `root_y`, `tip_x` and `tip_y`, two points of the leading edge in one unit, and `time_s` (or
-        `time_ms`). The pitch also requires `edge_x` and `edge_y`, a point on the lower edge.
+        The tracked points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns of
+        `points` are `root_x`, `root_y`, `tip_x` and `tip_y`, which are the coordinates of two points of the leading
+        edge. The column of the time is `time_s` (or `time_ms`). The pitch also requires `edge_x` and `edge_y`, the
+        coordinates of a point on the lower edge.
     chord : float, optional
-        Length of the chord from the leading edge to the point on the lower edge, in the unit of the points: more than
-        0. The table has the column `pitch_deg` only if `chord` is given.
+        Length of the chord from the leading edge to the point on the lower edge: more than 0. The unit of `chord` is
+        the unit of the coordinates. The table has the column `pitch_deg` only if `chord` is given.
 
     Returns
     -------
     Table
-        One row per image: `time_s`, `stroke_deg` and, with `chord`, `pitch_deg`. ``meta["centre"]`` is the centre of
-        rotation (x, y) in the unit of the points.
+        One row per image: `time_s`, `stroke_deg` and, if `chord` is given, `pitch_deg`. ``meta["centre"]`` is the
+        centre of rotation (x, y) in the unit of the points.
 
     Raises
     ------
     ValueError
-        A column is missing or has values that are not finite numbers; all leading edges are parallel; in an image, the
+        A column is missing or has values that are not finite numbers. All leading edges are parallel. In an image, the
         distance between lower edge and leading edge is larger than the chord.
     OSError
         The file cannot be read.

@@ -1,4 +1,4 @@
-"""Native part of flapwing."""
+"""The compiled module of flapwing."""
 
 from collections.abc import Callable
 from os import PathLike
@@ -96,7 +96,8 @@ class Diagnostic:
     line, column : int
         The place of the mistake: line and column, counted from 1. Columns are in characters.
     start, end : int
-        The place of the mistake as byte offsets in the UTF-8 text: its first byte, and the byte after its last byte.
+        The place of the mistake as byte offsets in the UTF-8 text. `start` is the first byte of the mistake, and `end`
+        is the byte after the last byte.
     message : str
         The message about the mistake.
     notes, help : list of str
@@ -134,7 +135,7 @@ class Diagnostic:
 
 @final
 class Grid:
-    """A design space: a checked grid file.
+    """A grid file that was read and checked.
 
     A grid is a sequence of design points. The parameters of a point are computed on access::
 
@@ -152,7 +153,8 @@ class Grid:
     Raises
     ------
     GridError
-        The grid has mistakes. The message lists each mistake with its line, the allowed values and the nearest name.
+        The grid has mistakes. The message lists each mistake with the line of the mistake, the allowed values and the
+        most similar known name.
     ValueError
         `source` is not the name of a preset.
     OSError
@@ -174,7 +176,7 @@ class Grid:
     def __reduce__(self) -> tuple[Any, tuple[str, str]]: ...
     @property
     def name(self) -> str:
-        """The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of this file."""
+        """The path of the grid file, or ``"<grid>"``. Paths in the grid are relative to the folder of the grid file."""
 
     @property
     def text(self) -> str:
@@ -182,7 +184,7 @@ class Grid:
 
     @property
     def preset(self) -> str:
-        """The name of the preset. Parameters that the grid does not set have the values of this preset."""
+        """The name of the preset. Parameters that the grid does not set have the values of the preset."""
 
     @property
     def model(self) -> str:
@@ -190,8 +192,8 @@ class Grid:
 
     @property
     def axes(self) -> list[dict[str, Any]]:
-        """The axes of the grid; the last axis varies fastest. Each dictionary has the parameters that vary together along an axis,
-        with their values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+        """The axes of the grid. The last axis varies fastest. Each dictionary has the parameters that vary together along
+        an axis, with values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
         """
 
     @property
@@ -219,7 +221,7 @@ class Exclusions:
     excluded : int
         Number of evaluated points that do not satisfy all conditions.
     unsatisfied : dict of str to int
-        Conditions, each with the number of points that do not satisfy this condition.
+        Conditions, each with the number of points that do not satisfy the condition.
     """
 
     @property
@@ -438,8 +440,9 @@ def evaluate(
 ) -> NativeTable:
     """Run a batch of points; see `flapwing.evaluate`.
 
-    `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same length.
-    `initial_state` has one row of state components per point; a row of nan is a point at rest.
+    `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same
+    length. `initial_state` has one row of state components per point; a row of nan stands for a point that begins at
+    rest.
     """
 
 def respond(
@@ -494,7 +497,9 @@ def sweep(
     """
 
 def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
-    """Run the points from `begin` to before `end`. Return the rows as bytes, which the function `chunks` of `sweep` may return."""
+    """Run the points from `begin` up to, but not including, `end`. Return the rows as bytes, which the function `chunks`
+    of `sweep` may return.
+    """
 
 def identity() -> NativeIdentity:
     """Return the identity of this process: `build` (a hash of the sources) and `arithmetic`, which determine the bits of rows."""
@@ -512,17 +517,19 @@ def printed(unit: str, /) -> str:
     """Return a unit for printing: `uN*m/rad` gives "µN·m/rad", `mm^2` gives "mm²", `deg` gives "°"."""
 
 def scale(unit: str, largest: float, /) -> tuple[float, str]:
-    """Return the factor to a readable unit, and this unit for printing. `largest` is the largest of the values in `unit`."""
+    """Return the factor to a readable unit, and the readable unit for printing. `largest` is the largest of the values in
+    `unit`.
+    """
 
 def unit_of(name: str, /) -> str:
     """Return the unit of a column, or empty text if the unit is unknown.
 
-    If `name` is a parameter, a measure or a derivative of a model, the unit of this quantity is returned. For all other names,
-    the unit at the end of the name is returned.
+    If `name` is a parameter, a measure or a derivative of a model, the unit of the quantity is returned. For all other
+    names, the unit at the end of the name is returned.
     """
 
 def split_unit(name: str, /) -> tuple[str, str]:
-    """Return the name of a column without the unit at the end, and this unit, which may be empty."""
+    """Return the name of a column without the unit at the end, and the unit, which may be empty."""
 
 def better(name: str, /) -> int:
     """Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
@@ -538,10 +545,13 @@ def line_shades(count: int, /) -> list[float] | None:
     """Return the positions of `count` ordered lines in the sequential colour map; None for a single line."""
 
 def is_signed(low: float, high: float, /) -> bool:
-    """Return True if numbers from `low` to `high` have both signs. Such numbers require a diverging map with zero in its middle."""
+    """Return True if numbers from `low` to `high` have both signs. Numbers of both signs require a diverging map with zero
+    in the middle.
+    """
 
 def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None:
-    """Return the default measure among `columns` that is not in `taken`; None if there is no such measure.
+    """Return the default measure among `columns` that is not in `taken`. Return None if no
+    default measure remains.
 
     `role` is "response", "benefit", "cost" or "motion".
     """

@@ -33,18 +33,18 @@ def fly(
     client: Executor | None = None,
     **keywords: Value,
 ) -> Table:
-    """Simulate the flight of a vehicle: the coupled motion of its wings and its body, with or without a controller.
+    """Simulate the flight of a vehicle: the coupled motion of wings and body, with or without a controller.
 
-    The flight begins with settled wings. The wings respond to velocity and rates of the body, but not to the
-    acceleration of the body. The inertial forces of the wings do not act on the body, because the wings are light. The
-    argument `about` of `Vehicle` must be the centre of mass. The flight requires `total_mass` and the parameters
-    `body_inertia_roll`, `body_inertia_pitch` and `body_inertia_yaw`.
+    At the beginning of the flight, the motion of the wings has settled. The wings respond to velocity and rates of the
+    body, but not to the acceleration of the body. The inertial forces of the wings do not act on the body, because the
+    wings are light. The argument `about` of `Vehicle` must be the centre of mass. The flight requires `total_mass` and
+    the parameters `body_inertia_roll`, `body_inertia_pitch` and `body_inertia_yaw`.
 
     A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The vector x has nine states:
-    the means of velocities, rates and angles over the last wing beat.
+    the means of the body's velocities, rates and angles over the last wing beat.
 
-    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. For example, an input
-    may leave its range.
+    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. An example is an input
+    that leaves its range.
 
     Parameters
     ----------
@@ -55,39 +55,40 @@ def fly(
     disturbance : dict of str to float or str, optional
         States of the body at the beginning, such as ``{"rate_pitch": 2.0}``, by the names of `LinearModel.states`.
         Values are numbers in SI units, or text with units. The states do not contain the vibration of the body within
-        each wing beat. Default: rest.
+        each wing beat. Default: the body begins at rest.
     gains : array_like of shape (inputs, 9), optional
         Gains of the controller in SI units, such as the result K of ``control.lqr``. Default: no controller.
     inputs : sequence of str, optional
-        Names of the inputs: parameters, or words as for `Vehicle.linear`. With `gains`, `inputs` are required. The
-        table has a column with the values of each input.
+        Names of the inputs: parameters, or words as for `Vehicle.linear`. If `gains` is given, `inputs` is required.
+        The table has a column with the values of each input.
     averaged : bool, optional
-        True to simulate the linear model about hover, with exact steps. By default, the coupled motion of wings and
-        body is simulated.
+        If True, the linear model about hover is simulated, without an integration error. By default, the coupled motion
+        of wings and body is simulated.
     samples : int, optional
-        Number of samples in each wing beat. By default, each row contains the means over a beat.
+        Number of samples in each wing beat. By default, each row contains the means over one wing beat.
     point : int, optional
         The index of a point, if the vehicle is a grid with several points.
     progress : bool or function, optional
-        Progress, as for `sweep`. A flight is one step of the progress.
+        If True, a progress bar is shown, as for `sweep`. A flight is one step of the progress.
     client : executor, optional
-        An executor, such as a process pool, on whose worker the flight is simulated (see `sweep`).
+        An executor, such as a process pool (see `sweep`). The flight is simulated on one of the workers of the
+        executor.
     **keywords : float or str
         Parameters of the vehicle and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        One row for each wing beat, with the time at the middle of the wing beat. The columns are `time_s`, the states
-        with the position, the inputs in SI units, and force and torque of the air. Velocities and rates are in body
-        axes, and the position is in fixed axes. The attitude results from rotations by the yaw angle, then by the pitch
-        angle, then by the roll angle. The attribute `meta` of the table also has the `disturbance`.
+        One row for each wing beat, with the time at the middle of the wing beat. The columns of the table are `time_s`,
+        the states including the position, the inputs in SI units, and the force and torque of the air. Velocities and
+        rates are in body axes, and the position is in fixed axes. The attitude results from rotations by the yaw angle,
+        then by the pitch angle, then by the roll angle. The attribute `meta` of the table also has the `disturbance`.
 
     Raises
     ------
     ValueError
-        The design is no vehicle, or a mass property is missing or impossible. A state or an input is unknown, or
-        `gains` have another shape. The motion of the wings is not periodic.
+        The design is no vehicle, or a mass property is missing or impossible. A state or an input is unknown, or the
+        shape of `gains` is wrong. The motion of the wings is not periodic.
     TypeError
         An argument has the wrong type.
 

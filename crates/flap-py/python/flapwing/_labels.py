@@ -80,7 +80,7 @@ def number(value: float) -> str:
 
 
 def wrapped(title: str) -> Iterator[str]:
-    """Yield a title with the line breaks that the title has, then the title broken into one more line, and so on."""
+    """Yield versions of a title with more and more line breaks. The first version of the title is unchanged."""
     told = [title]
     yield title
     for width in range(max(map(len, title.split("\n"))) - 1, 7, -1):

@@ -40,7 +40,8 @@ class LinearModel:
     modes : list of str
         The motion that belongs to each eigenvalue, such as ``"pitch and forward velocity (longitudinal oscillation)"``.
     states, state_units : list of str
-        Names and units of the states: velocities, rates and angles, and with ``positions=True`` the position.
+        Names and units of the states: velocities, rates and angles. With ``positions=True``, the states include the
+        position.
     inputs, input_units : list of str
         Names and units of the inputs.
     input_values : array
@@ -50,9 +51,9 @@ class LinearModel:
     drive_frequency : float
         The drive frequency (Hz).
     floquet_max : float
-        The largest magnitude of the Floquet multipliers of the motions of the wings.
+        The largest magnitude of the Floquet multipliers of all wings.
     warnings : list of str
-        Reasons to doubt the model.
+        Reasons why the linear model may be inaccurate.
     """
 
     A: Floats

@@ -16,18 +16,19 @@ def params(design: Design, /) -> dict[str, Parameter]:
     ----------
     design : str, path, dict, Grid or Vehicle
         A preset, such as ``"ozaki2018-large"``, a device, a grid, a `Vehicle`, or a model, such as ``"direct-drive"``.
-        For a grid, each parameter has its value at the first point of the grid.
+        For a grid, the values of the parameters are the values at the first point of the grid.
 
     Returns
     -------
     dict of str to Parameter
-        Parameters by name, in the order of the parameter table of the model. For a `Vehicle`, parameters of the vehicle
-        follow the model's parameters.
+        Parameters by name, in the order of the parameter table of the model. For a `Vehicle`, the parameters of the
+        vehicle come after the parameters of the model.
 
     Raises
     ------
     ValueError
-        `design` is not the name of a preset or a model. A device or a grid with mistakes raises GridError.
+        `design` is neither the name of a preset or a model, nor a readable file. A device or a grid with mistakes
+        raises GridError.
 
     Examples
     --------
@@ -49,7 +50,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        As for `params`.
+        The same designs and models as for `params`.
 
     Returns
     -------
@@ -59,7 +60,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Raises
     ------
     ValueError
-        As for `params`.
+        The design or model is invalid, as for `params`.
 
     Examples
     --------
@@ -76,8 +77,8 @@ def states(design: Design, /) -> dict[str, State]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        The same designs and models as for `params`. A vehicle has the states of each wing; the name of the wing is a
-        prefix of the state.
+        The same designs and models as for `params`. A vehicle has the states of each wing, with the wing's name as a
+        prefix.
 
     Returns
     -------
@@ -87,7 +88,7 @@ def states(design: Design, /) -> dict[str, State]:
     Raises
     ------
     ValueError
-        As for `params`.
+        The design or model is invalid, as for `params`.
 
     Examples
     --------

@@ -32,7 +32,7 @@ export default { render };
 
 
 def _whole(name: str, value: Any) -> int:
-    """Return a whole number; raise TypeError for another type."""
+    """Return a whole number. Raise TypeError if the value is not a whole number."""
     allowed = "it must be a whole number"
     if not hasattr(type(value), "__index__"):
         raise _mistakes.refused(name, value, allowed)
@@ -41,8 +41,8 @@ def _whole(name: str, value: Any) -> int:
 
 
 class Live:
-    """A running server of the live page, which `live` starts. The server stops at a call of `stop`, at the end of a
-    `with` block, and at the end of Python.
+    """A running server for the live page. `live` starts the server. The server stops at a call of `stop`, at the end of
+    a `with` block, and at the end of Python.
 
     The server runs in the process that called `live`. In a forked child process, `stop` and the end of a `with` block
     have no effect on the server.
@@ -76,14 +76,15 @@ class Live:
         )
 
     def widget(self, height: SupportsIndex = 800) -> Any:
-        """Return the live page as a widget of a notebook. You can use the widget alone or within other widgets.
+        """Return the live page as a widget of a notebook. You can display the widget, or use the widget as a part of
+        larger widgets.
 
         The widget works in Jupyter, Visual Studio Code and marimo.
 
         Parameters
         ----------
         height : int, optional
-            Height in pixels: more than 0. Default 800.
+            Height of the widget in pixels: more than 0. Default: 800 pixels.
 
         Returns
         -------
@@ -96,7 +97,7 @@ class Live:
         ImportError
             anywidget is not installed: ``pip install anywidget``.
         ValueError
-            A height of 0 or less.
+            The height is 0 or less.
         """
         try:
             import anywidget
@@ -115,7 +116,7 @@ class Live:
         return Page(address=self.address, height=pixels)
 
     def stop(self) -> None:
-        """Stop the server of the live page. A live page that is still open then shows that the server does not
+        """Stop the server of the live page. A live page that stays open in the browser shows that the server does not
         answer."""
         self._server.stop()
 
@@ -132,8 +133,8 @@ def live(
     """Start the live page of a design. On the live page you move sliders for the parameters, and the curves of the page
     change with the sliders.
 
-    The command ``flap live`` opens the same page. In a notebook, the returned object shows the page in the cell. The
-    server answers only requests from this machine, and neither reads nor writes files.
+    The command ``flap live`` also opens the live page of a design. In a notebook, the returned object shows the page in
+    the cell. The server answers only requests from this machine, and neither reads nor writes files.
 
     Parameters
     ----------
@@ -141,9 +142,9 @@ def live(
         A preset, a device or a grid. For a grid with several points, the page begins with the first point and shows the
         axes.
     port : int, optional
-        Port of the server, from 1 to 65535. Default 0: a free port.
+        Port of the server, from 1 to 65535. Default: 0, which selects a free port.
     open_browser : bool, optional
-        Open the page in a browser. Default False.
+        If True, the page is opened in a browser. Default: False.
     threads : int, optional
         Number of worker threads: at least 1. Default: one thread per core.
     **keywords : float or str
@@ -152,12 +153,12 @@ def live(
     Returns
     -------
     Live
-        The running server, with the `address` of its page.
+        The running server. The attribute `address` is the address of the live page.
 
     Raises
     ------
     ValueError, GridError, TypeError
-        The same errors as for `run`, and for an invalid port.
+        An argument is invalid (see `run`), or the port is not from 1 to 65535.
     OSError
         The port is in use.
 

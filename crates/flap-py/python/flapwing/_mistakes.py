@@ -1,4 +1,4 @@
-"""Errors of arguments: values of a wrong type, objects that raise an exception when they are read, and unknown
+"""Errors of arguments: values of a wrong type, objects that raise an exception when flap reads the object, and unknown
 names."""
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """The error for an unknown name. The error is both a KeyError, as for a dictionary, and a ValueError, as for other
-    arguments.
+    """The error for an unknown name. The error is a KeyError, like the error of a dictionary, and also a ValueError,
+    like the error of a wrong argument.
     """
 
     def __str__(self) -> str:
@@ -22,8 +22,8 @@ class UnknownName(KeyError, ValueError):
 
 
 def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
-    """Return the error for a `name` that is not in `known`. The message of this error has the nearest known name and
-    the first few known names.
+    """Return the error for a `name` that is not in `known`. The error message has the most similar known name and the
+    first few known names.
     """
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)
@@ -41,14 +41,14 @@ def listed(names: Iterable[str]) -> str:
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
-    """Return the error for a value of the wrong type; its message has two lines."""
+    """Return the error for a value of the wrong type, with a message of two lines."""
     return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
 
 
 @contextmanager
 def reading(name: str, value: object, allowed: str) -> Iterator[None]:
-    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions are not
-    replaced.
+    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions are raised
+    unchanged.
     """
     try:
         yield

@@ -1,4 +1,4 @@
-"""The dictionaries that the native part returns."""
+"""The dictionaries that the compiled module returns."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ class NativeColumn(TypedDict):
 
 
 class NativeSummary(TypedDict, total=False):
-    """Counts of the rows and points of a run. The dictionary is empty if all rows already existed."""
+    """Counts of the rows and points of a run. The dictionary is empty if all rows of the run already existed in the
+    file."""
 
     rows: int
     counts: dict[str, int]
@@ -49,7 +50,7 @@ class NativeTable(TypedDict, total=False):
 
 
 class NativeRow(TypedDict):
-    """The row of a point; see `flapwing.Row`."""
+    """The row of a point (see `flapwing.Row`)."""
 
     status: str
     measures: dict[str, float]
@@ -64,7 +65,7 @@ class NativeRow(TypedDict):
 
 
 class NativeParameter(TypedDict):
-    """A parameter; see `flapwing.Parameter`."""
+    """A parameter of a model (see `flapwing.Parameter`)."""
 
     name: str
     value: float | str
@@ -76,7 +77,7 @@ class NativeParameter(TypedDict):
 
 
 class NativeMeasure(TypedDict):
-    """A measure; see `flapwing.Measure`."""
+    """A measure of a model (see `flapwing.Measure`)."""
 
     name: str
     unit: str
@@ -220,7 +221,7 @@ class NativeColours(TypedDict):
 
 
 class NativeWays(TypedDict):
-    """Bands in which the branches up and down differ, and the rows after which one branch jumps to the other branch."""
+    """Bands in which the branches up and down differ, and the rows after which a branch jumps."""
 
     bands: list[tuple[float, float]]
     up: list[int]

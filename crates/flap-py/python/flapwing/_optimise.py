@@ -30,33 +30,34 @@ def optimise(
 ) -> Optimum:
     """Find the best design within the axes of a grid, under conditions on measures and parameters.
 
-    The search first computes the points of the grid. The search then improves the best points step by step, with the
-    derivatives of the measures. The search may choose any value between the smallest and the largest value of an axis.
-    Options, whole numbers and parameters that change together can have only the values of the grid. Every motion begins
-    at rest, as in a sweep.
+    The search first computes the points of the grid. In a second stage, the search improves the best points step by
+    step, with the derivatives of the measures. The search can choose any value between the smallest and the largest
+    value of an axis. Options and whole numbers can have only the values of the grid. Parameters that change together
+    can also have only the values of the grid. Every motion begins at rest, as in a sweep.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A grid (see `Grid`). The ends of the axes of the grid are the bounds of the search.
+        The grid to search (see `Grid`). The ends of the axes of the grid are the bounds of the search.
     maximise, minimise : str, optional
         The quantity that the search makes as large (`maximise`) or as small (`minimise`) as possible: a measure, or an
-        expression of measures and parameters. Give one of the two arguments.
+        expression of measures and parameters. Give either `maximise` or `minimise`.
     where : str or sequence of str, optional
         Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
-        ``>=``. You can join comparisons with ``and``. A number may have a unit: ``"stroke_pp_deg < 100 deg"``.
+        ``>=``. You can join comparisons with ``and``. A number can have a unit: ``"stroke_pp_deg < 100 deg"``.
     starts : int, optional
-        Largest number of searches. Each search begins at one of the best points of the grid. Default 8.
+        Largest number of searches. Each search begins at one of the best points of the grid. Default: 8 searches.
     sample : int, optional
-        Largest number of grid points to compute. If the grid has more points, the search computes only this number of
-        points, spread over the grid. Default 4096.
+        Largest number of grid points to compute. If the grid has more than `sample` points, the search computes only
+        `sample` points, which are spread over the grid. Default: 4096 points.
     threads : int, optional
         Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the result.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
-        and starts that are done, and all points and starts. With `client`, the whole search is one step.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
+        of finished points and starts, and the number of all points and starts. With `client`, the whole search is one
+        step of the progress.
     client : executor, optional
-        An executor, such as a process pool, on whose worker the search runs (see `sweep`).
+        An executor, such as a process pool (see `sweep`). The search runs on one of the workers of the executor.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -69,7 +70,7 @@ def optimise(
     Raises
     ------
     ValueError
-        An expression or a condition has a mistake; no parameter varies in the grid; no point of the grid has a periodic
+        An expression or a condition has a mistake. No parameter varies in the grid. No point of the grid has a periodic
         motion. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.

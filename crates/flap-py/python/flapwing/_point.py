@@ -42,8 +42,8 @@ def run(
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
 
-    The same call always returns the same numbers, equal to the last bit. Other Python threads continue to run during
-    the call.
+    The same call always returns the same numbers, equal to the last bit. The remaining Python threads continue to run
+    during the call.
 
     Parameters
     ----------
@@ -55,9 +55,9 @@ def run(
     initial_state : dict, Table or DataFrame, optional
         The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
         ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
-        also give a row that has the states among its columns, such as ``trajectory(…)[-1:]``. Such a row is a Table, a
-        DataFrame, a dictionary or a row of a DataFrame. If a state in such a row is nan, the motion begins at rest. If
-        the design has several orbits, the state determines the orbit that is found. Default: rest.
+        also give a row that has columns of the states, such as ``trajectory(…)[-1:]``. A row with states is a Table, a
+        DataFrame, a dictionary or a row of a DataFrame. If a state in the given row is nan, the motion begins at rest.
+        If the design has several orbits, the state determines the orbit that is found. Default: rest.
     waveform : path, tuple or columns, optional
         One period of the drive waveform, which replaces the parameter `drive_shape`. A CSV file or columns (a
         dictionary, Table or DataFrame) have `time_s` (or `time_ms`) and `wave`. You can also give a pair of arrays: the
@@ -68,39 +68,38 @@ def run(
         can also give a pair of arrays: the times in s, and the stroke in rad. The model must have the parameter
         `stroke_mode`.
     progress : bool or function, optional
-        Progress, as for `sweep`. A single point is one step of the progress.
+        If True, a progress bar is shown, as for `sweep`. A single point is one step of the progress.
     client : executor, optional
-        An executor, such as a process pool, on whose worker the point runs (see `sweep`). The result is the same as
-        without `client`.
+        An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. With
+        and without `client`, the result is the same.
     rtol : float, optional
-        Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1.
-        Default 1e-6.
+        Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1. Default: ``rtol=1e-6``.
     atol : float, optional
-        Absolute tolerance of the integrator, as a multiple of the typical size of each state: more than 0. Default rtol
-        / 100.
+        Absolute tolerance of the integrator, as a multiple of the typical size of each state: more than 0. The default
+        of `atol` is `rtol` divided by 100.
     settle_tol : float, optional
         A motion has settled when the state changes by less than `settle_tol` from one drive period to the next. The
-        change is relative to the typical size of each state, or to the size of the motion if the motion is smaller.
-        More than 0. Default 1e-6.
+        change of a state is divided by the typical size of the state. If the motion is smaller than the typical size,
+        the size of the motion is the divisor. `settle_tol` is more than 0. Default: ``settle_tol=1e-6``.
     max_cycles : int, optional
         Largest number of drive periods before the motion settles: 1 or more. A motion that needs more periods has the
-        status ``"unsettled"``. Default 1000.
+        status ``"unsettled"``. Default: 1000 drive periods.
     max_steps : int, optional
-        Largest number of integration steps in one drive period: 1 or more.
-        Default 20000.
+        Largest number of integration steps in one drive period: 1 or more. Default: 20000 steps.
     accuracy : float, optional
         Largest value of `error_estimate` and of the energy audit of a row: more than 0. If a row exceeds `accuracy`,
-        the point is integrated again with tighter tolerances, up to a limit. Default 1e-3, or 1000 rtol if 1000 rtol is
-        larger.
+        the point is integrated again with tighter tolerances, up to a limit. Default: the larger of 1e-3 and 1000
+        `rtol`.
     newton : bool, optional
         If True, Newton's iteration finds the orbit that the motion approaches. If False, the motion is integrated until
-        the motion settles on the same orbit, which takes more periods. Default True.
+        the motion settles. Newton's iteration takes fewer drive periods, and finds the orbit on which the motion
+        settles. Default: True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol: the search then finds the same orbit with about twice the work. Default True.
+        rtol, which takes about twice the work. The orbit does not depend on `progressive`. Default: True.
     symmetry : bool, optional
         If True, and if the second half of an orbit mirrors the first half, only half of each period is integrated. If
-        False, whole periods are integrated: the orbit is the same, with more work. Default True.
+        False, whole periods are always integrated. The orbit does not depend on `symmetry`. Default: True.
     **parameters : float or str
         Parameters of the model by name. A value is a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option of a choice.
@@ -108,13 +107,15 @@ def run(
     Returns
     -------
     Row
-        The results of the point. For example, `row["lift_mean_mn"]` is a measure. Unknown numbers are nan.
+        The measures and attributes of the point. For example, `row["lift_mean_mn"]` is a measure. Unknown numbers are
+        nan.
 
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown; a value is out of range, infinite or not a number; a grid has
-        several points, but `point` is not given. The error message has the nearest name and the allowed values.
+        A preset, parameter, option or unit is unknown. A value is out of range, infinite or not a number. A grid has
+        several points, but `point` is not given. The error message has the most similar known name and the allowed
+        values.
     TypeError
         An argument has the wrong type, such as text for a tolerance or a number for an option.
     IndexError
@@ -163,37 +164,39 @@ def trajectory(
     Parameters
     ----------
     design, point
-        As for `run`.
+        The design, and the index of the point in a grid, as for `run`.
     cycles : int, optional
-        Number of drive periods. Default 2.
+        Number of drive periods in the table. Default: 2 drive periods.
     samples : int, optional
-        Number of samples of the motion per drive period. The table has one more sample at the end of the last period.
-        Default 200. `cycles` times `samples` is at most 5,000,000.
+        Number of samples of the motion per drive period. The table has one additional sample at the end of the last
+        period. Default: 200 samples per drive period. `cycles` times `samples` is at most 5,000,000.
     from_rest : bool, optional
         If True, the table begins with the motion from rest. By default, the table begins after the motion has settled.
     initial_state : dict, Table or DataFrame, optional
-        The state in which the motion begins, at the start of a drive period; see `run`.
+        The state in which the motion begins, at the start of a drive period (see `run`).
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke (see `run`).
     once : bool, optional
         If True, the motion contains the waveform or the prescribed stroke only once, and begins at rest or in
-        `initial_state`. The first and the last value of the record may differ, and `cycles` has no effect.
+        `initial_state`. The first and the last value of the waveform or the stroke may differ, and `cycles` has no
+        effect.
     progress, client
-        As for `run`.
+        The progress report and the executor, as for `run`.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: `time_s` (s), then the states and
-        signals of the model, named with their units. The attribute `docs` has the meanings of the columns, and `meta`
-        has the origin of the motion.
+        ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: first `time_s` (s), then the states
+        and signals of the model. Each name ends in the unit of the column. The attribute `docs` has the meanings of the
+        columns, and `meta` has the origin of the motion.
 
     Raises
     ------
     ValueError
-        The same errors as for `run`. The combination of parameter values is impossible, or the motion does not settle.
+        An argument is invalid (see `run`). The combination of parameter values is impossible, or the motion does not
+        settle.
     TypeError
         An argument has the wrong type.
 
@@ -242,21 +245,22 @@ def resonance(
     Parameters
     ----------
     design, point
-        As for `run`.
+        The design, and the index of the point in a grid, as for `run`.
     start, stop : float or str, optional
         Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke.
         Default: from half of the lower natural frequency to one and a half times the upper natural frequency.
     tolerance : float or str, optional
-        Largest error of the frequencies of the peaks (Hz, or text with a unit). Default 0.05.
+        Largest error of the frequencies of the peaks (Hz, or text with a unit). Default: 0.05 Hz.
     impulse : float or str, optional
-        Size of the impulse (rad, or text with a unit). The size is the stroke amplitude that the impulse causes in the
-        first mode alone, without damping. The size is not zero and at most half a turn. Default ``"20 deg"``.
+        Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
+        causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
+        most half a turn. Default: ``"20 deg"``.
     fit_cycles : int, optional
-        Length of the free motion to which a damped sine is fitted, in periods of the first mode. Default 4.
+        Length of the free motion to which a damped sine is fitted, in periods of the first mode. Default: 4 periods.
     spectrum_window : float or str, optional
-        Duration (s, or text with a unit) of the free motion from which the spectrum is computed. Default 1.
+        Duration (s, or text with a unit) of the free motion from which the spectrum is computed. Default: 1 s.
     progress, client
-        As for `run`.
+        The progress report and the executor, as for `run`.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -268,7 +272,7 @@ def resonance(
     Raises
     ------
     ValueError
-        The same errors as for `run`. The combination of parameter values is impossible.
+        An argument is invalid (see `run`). The combination of parameter values is impossible.
     TypeError
         An argument has the wrong type.
 

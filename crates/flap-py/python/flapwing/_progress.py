@@ -11,7 +11,7 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield the function that reports progress. The arguments of the function are the number of points done and the
+    """Yield the function that reports progress. The arguments of the function are the number of finished points and the
     number of all points. Yield None if no progress is shown.
     """
     if callable(progress):
@@ -40,7 +40,7 @@ def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
 
 @contextmanager
 def one_step(progress: Progress) -> Iterator[None]:
-    """Report the progress of a single point, which is one step at the end of the point."""
+    """Report one step of progress at the end of the computation of a single point."""
     with shown(progress) as show:
         yield
         if show is not None:

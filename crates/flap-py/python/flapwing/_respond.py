@@ -1,4 +1,4 @@
-"""Responses of designs to a parameter that rises and falls, and the edges of their bistable bands."""
+"""Responses of designs to a parameter that rises and falls, and the edges of bistable bands."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ def respond(
     """Follow the motions of designs while a parameter rises and falls, and find hysteresis.
 
     The first point of each branch (rising or falling parameter) starts at rest. Each later point starts from the
-    settled motion of the point before. If the motions of the rising and of the falling branch differ, the design is
-    bistable. A step is halved if a bistable band ends in this step. A step in which the motion changes by more than a
-    tenth is also halved, because such a step may hide a narrow bistable band.
+    settled motion of the previous point. If the motions of the rising and of the falling branch differ, the design is
+    bistable. A step of the parameter is halved if a bistable band ends within the step. A step in which the motion
+    changes by more than a tenth is also halved, because the step could contain a narrow bistable band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). The grid may have an axis for the followed parameter. Each combination of the
-        values of all other axes is a design with its own curve.
+        A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter. Each combination of the
+        values of the remaining axes is one design with one curve.
     parameter : str, optional
-        The parameter that rises and falls. Default ``"drive_frequency"``.
+        The parameter that rises and falls. Default: ``"drive_frequency"``.
     start, stop, step : float or str, optional
         First value, last value and step of the followed parameter: numbers in SI units, or text with units. Default:
-        the values of the axis in the grid.
+        the values of the parameter's axis in the grid.
     tolerance : float or str, optional
         Longest step of the followed parameter at the ends of bistable bands and where the response is steep. Default: a
         sixteenth of the shortest step.
@@ -53,33 +53,34 @@ def respond(
         If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.
     return_states : bool, optional
-        Add columns of the state of each motion at the beginning of a drive period, for `initial_state` of `evaluate`.
+        If True, the table also has columns with the state of each motion at the beginning of a drive period. You can
+        pass the table as `initial_state` of `evaluate`.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
-        with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
+        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the designs
-        that are done, and all designs.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
+        of finished designs, and the number of all designs.
     client : executor, optional
-        An executor, such as a process pool, on whose workers the designs are followed (see `sweep`). A task is one
-        design. The rows are the same as without `client`.
+        An executor, such as a process pool (see `sweep`). Each task of the workers follows one design. With and without
+        `client`, the rows are the same.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
     Returns
     -------
     Table
-        One row per motion. The columns are `curve` (number of the design), the parameters of the design, `branch`
-        (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. The next columns are `bistable`
-        (true if the rising and the falling branch have different motions) and the other columns of a sweep.
+        One row per motion. The columns of the table are `curve` (number of the design), the parameters of the design,
+        `branch` (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. After `status` come the
+        column `bistable` (true if the rising and the falling branch have different motions) and the measures.
         `Table.verdicts` has the verdict on each design, and ``meta["parameter"]`` is the name of the followed
         parameter.
 
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown; the range from `start` to `stop` has no steps; the followed
-        parameter is a choice, or varies together with other parameters. A grid with mistakes raises GridError.
+        A preset, parameter, option or unit is unknown. The range from `start` to `stop` has no steps. The followed
+        parameter is a choice, or varies together with a second parameter. A grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 
@@ -135,24 +136,27 @@ def edges(
 ) -> Table:
     """Follow the ends of bistable bands in the plane of two parameters.
 
-    The response of each design along the first parameter is followed as by `respond`. Each end of a bistable band is
-    then continued through the plane of both parameters. A cusp is a point at which hysteresis begins.
+    The response of each design along the first parameter is followed as by `respond`. Each end of a bistable band in
+    the response is continued through the plane of the parameters `first` and `second`. A cusp is a point at which
+    hysteresis begins.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). Each point of the grid, without the followed axis, is a design with its own
-        edges. The value of the second parameter in each design must be between `edge_start` and `edge_stop`.
+        A preset or a grid (see `Grid`). If the grid has an axis for the first parameter, each combination of the values
+        of the remaining axes is one design. The value of the second parameter in each design must be
+        between `edge_start` and `edge_stop`.
     first, second : str, optional
-        The two parameters. Defaults ``"drive_frequency"`` and ``"drive_voltage_pp"``.
+        The two parameters of the plane. Default: ``"drive_frequency"`` for `first` and ``"drive_voltage_pp"`` for
+        `second`.
     edge_start, edge_stop : float or str
         Smallest and largest value of the second parameter: numbers in SI units, or text with units.
     edge_step : float or str, optional
-        Step of the second parameter. The table then has only cusps, turns, ends of edges, and points at multiples of
-        this step from `edge_start`. By default, the table has all computed points.
+        Step of the second parameter. With `edge_step`, the table has only cusps, turns, ends of edges, and points at
+        multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed points.
     start, stop, step : float or str, optional
-        First value, last value and step of the first parameter, as for `respond`. Default: the values of the grid's
-        axis.
+        First value, last value and step of the first parameter, as for `respond`. Default: the values of the first
+        parameter's axis in the grid.
     tolerance : float or str, optional
         Longest step of the response at the ends of bistable bands, as for `respond`.
     threads : int, optional
@@ -164,18 +168,19 @@ def edges(
     Returns
     -------
     Table
-        One row per point, in the order of the edge. The columns are the parameters of the design, `edge` (number of the
-        edge), `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``), `mark` (``"cusp"``, ``"turn"`` or empty), the
-        two followed parameters, `floquet_max`, and the measures. ``meta["edges"]`` has a summary of each edge in one
-        line. A design without hysteresis has no rows.
+        One row per point, in order along the edge. The first columns of the table are the parameters of the design,
+        `edge` (number of the edge), and `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``). The remaining
+        columns of the table are `mark` (``"cusp"``, ``"turn"`` or empty), the two followed parameters, `floquet_max`,
+        and the measures. ``meta["edges"]`` has a summary of each edge in one line. A design without hysteresis has no
+        rows.
 
     Raises
     ------
     ValueError
         A preset, parameter, option or unit is unknown. The range has no steps, or the design's value of the second
-        parameter is outside of the range. A grid with mistakes raises GridError.
+        parameter is not between `edge_start` and `edge_stop`. A grid with mistakes raises GridError.
     TypeError
-        A value of the wrong type.
+        A value has the wrong type.
 
     Examples
     --------

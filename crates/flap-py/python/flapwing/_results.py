@@ -29,13 +29,13 @@ __all__ = [
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Return True if two values are equal or both unknown."""
+    """Return True if two values are equal, or if both values are nan."""
     return bool(one == other or (one != one and other != other))
 
 
 class _Result:
-    """The base class of results. Two results are equal if all attributes of both results are equal. Two unknown values
-    count as equal.
+    """The base class of results. Two results are equal if all attributes of the two results are equal. Two values of
+    nan count as equal.
     """
 
     def __eq__(self, other: object) -> bool:
@@ -60,30 +60,31 @@ class Row(Mapping[str, Any]):
         is impossible).
     measures : dict of str to float
         The measures by name. A name consists of quantity, kind of measure and unit, such as ``stroke_pp_deg`` or
-        ``lift_mean_mn``. The measures that ``[measure]`` of the grid defines follow the measures of the model. A
-        condition has the type bool. If the status is not ``"periodic"``, all measures are nan. A ratio of zero to zero,
-        such as the efficiency at zero power, is nan.
+        ``lift_mean_mn``. The measures that ``[measure]`` of the grid defines come after the measures of the model. A
+        measure that is a condition has the type bool. If the status is not ``"periodic"``, all measures are nan. A
+        ratio of zero to zero, such as the efficiency at zero power, is nan.
     cycles : int
         Number of drive periods that were integrated, including the periods of the measurement.
     residual : float
-        Change of the state over the last period of the motion, relative to the typical size of each state. The residual
+        Change of the state over the last period of the motion, relative to the typical size of each state. `residual`
         is nan if no period was completed.
     period : int
         Number of drive periods after which the motion repeats: 1 for a periodic motion, 2 to 8 for a subharmonic
         motion, otherwise 0.
     floquet_max : float
         Largest magnitude of a Floquet multiplier. After many periods, a small disturbance of the motion grows or decays
-        by this factor in each period of the orbit. The multiplier is nan if no orbit was found, and for a wing at rest.
+        by the factor `floquet_max` in each period of the orbit. `floquet_max` is nan if no orbit was found, and for a
+        wing at rest.
     stable : bool or float
-        True if `floquet_max` is below 1. After a small disturbance, the motion then returns to the orbit. A wing at
-        rest is stable. The value is nan if no orbit was found.
+        True if `floquet_max` is below 1. After a small disturbance, a stable motion returns to the orbit. A wing at
+        rest is stable. `stable` is nan if no orbit was found.
     error_estimate : float
         Estimate of the relative error of the integration: the largest error of stroke, pitch, mean lift and mean power.
-        Without a periodic motion, the value is nan. If no estimate is possible, the value is infinite.
+        Without a periodic motion, `error_estimate` is nan. If no estimate is possible, `error_estimate` is infinite.
     rhs_evals : int
         Number of evaluations of the equations of motion.
     reason : str
-        The reason why the point is invalid; ``""`` for other points.
+        The reason why the point is invalid. The reason is ``""`` if the point is valid.
     """
 
     status: str
@@ -155,18 +156,19 @@ class Parameter(_Result):
     name : str
         Name of the parameter in grids, on the command line and as a keyword.
     value : float or str
-        Value of the parameter in the design, in SI units, or the name of an option. The value is nan if the grid varies
-        the parameter, or if the parameter is not set and is computed from other parameters.
+        Value of the parameter in the design, in SI units, or the name of the chosen option. `value` is nan if the grid
+        varies the parameter, or if the parameter is not set and is computed by the model.
     unit : str
-        SI unit of the parameter; ``""`` for pure numbers and options.
+        SI unit of the parameter, or ``""`` for pure numbers and options.
     symbol : str
-        Symbol of the parameter in the paper; ``""`` if the paper has no symbol.
+        Symbol of the parameter in the paper, or ``""`` if the paper has no symbol.
     doc : str
-        Meaning of the parameter in one line, with its source.
+        Meaning and source of the parameter in one line.
     allowed : str
         The allowed values of the parameter, as text.
     options : tuple of str
-        Names of the options of a parameter with a choice of options. The list is empty for other parameters.
+        Names of the options of a parameter with a choice of options. `options` is empty for a parameter without
+        options.
     """
 
     name: str
@@ -192,7 +194,7 @@ class Measure:
     name : str
         Name of the measure's column.
     unit : str
-        Unit of the measure's column; ``""`` for a pure number.
+        Unit of the measure's column, or ``""`` for a pure number.
     doc : str
         Meaning of the measure in one line.
     """
@@ -259,7 +261,8 @@ class DrivenPeak:
 
 @dataclass(frozen=True)
 class FrequencyGap:
-    """A range of drive frequencies without a periodic motion. The search may have missed a peak in such a range.
+    """A range of drive frequencies without a periodic motion. In a range without a periodic motion, the search may have
+    missed a peak.
 
     Attributes
     ----------
@@ -289,8 +292,8 @@ class Resonances(_Result):
     driven : list of DrivenPeak
         Peaks of the settled stroke as a function of the drive frequency, with the highest peak first.
     larger_at_hz : float
-        The end of the frequency range (Hz), if the stroke at this end is larger than at all peaks. The value is nan if
-        the stroke is largest at a peak.
+        The end of the frequency range (Hz), if the stroke at this end is larger than the stroke at all peaks.
+        `larger_at_hz` is nan if the stroke is largest at a peak.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """
@@ -311,9 +314,9 @@ class ActiveBound(_Result):
     Attributes
     ----------
     kind : str
-        ``"limit"`` for a condition; ``"smallest"`` or ``"largest"`` for an end of an axis.
+        The kind of the bound: ``"limit"`` for a condition, or ``"smallest"`` or ``"largest"`` for an end of an axis.
     name : str
-        The condition that limits the optimum, or the parameter of the limiting axis.
+        The condition that limits the optimum, or the parameter of the axis that limits the optimum.
     limit : float
         The number in the condition, or the value at the end of the axis in SI units.
     multiplier : float
@@ -344,10 +347,10 @@ class ConditionValue(_Result):
     text : str
         The comparison of the condition, or the name of a condition in the grid.
     smaller, larger : float
-        The values of both sides of the comparison: first the side that must be smaller, then the side that must be
+        The values of the two sides of the comparison: first the side that must be smaller, then the side that must be
         larger.
     excess : float
-        Violation of the condition, as a fraction of the limit. The violation is 0 if the condition holds.
+        Violation of the condition, as a fraction of the limit. `excess` is 0 if the condition holds.
     """
 
     text: str
@@ -363,13 +366,13 @@ class LocalOptimum(_Result):
     Attributes
     ----------
     value : float
-        Value of the goal at this optimum.
+        Value of the goal at the optimum.
     values : dict of str to float or str
         The values of the varied parameters: numbers in SI units, or names of options.
     is_feasible : bool
-        True if all conditions hold at this optimum.
+        True if all conditions hold at the optimum.
     starts : int
-        Number of searches that end at this optimum. Each search begins at a different point.
+        Number of searches that end at the optimum. Each search begins at a different point.
     """
 
     value: float
@@ -385,9 +388,10 @@ class Optimum(_Result):
     Attributes
     ----------
     status : str
-        ``"optimal"`` if the derivatives confirm that no small change of the design is better; ``"approximate"`` if the
-        derivatives do not confirm the design or are missing; ``"infeasible"`` if no design satisfies all conditions. An
-        infeasible design is the design with the smallest violation of the conditions.
+        `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. `status` is
+        ``"approximate"`` if the derivatives do not confirm the design or are missing. `status` is ``"infeasible"`` if
+        no design satisfies all conditions. An infeasible design is the design with the smallest violation of the
+        conditions.
     goal : str
         The expression that was maximised or minimised.
     value : float
@@ -399,12 +403,12 @@ class Optimum(_Result):
     active : list of ActiveBound
         The bounds and conditions that limit the best design, each with its Lagrange multiplier.
     conditions : list of ConditionValue
-        All conditions, with the values of both sides for the best design.
+        All conditions, with the values of both sides of each comparison for the best design.
     optima : list of LocalOptimum
         The distinct optima that were found, with the best optimum first.
     at_end : dict of str to tuple of float
         Parameters whose best value is at an end of the axis, with the smallest and the largest value of the axis. A
-        grid with a wider axis may contain a better design.
+        grid with a wider axis could contain a better design.
     starts : int
         Number of points at which searches started.
     points, points_computed : int
@@ -415,8 +419,8 @@ class Optimum(_Result):
         True if a pattern search followed the search with derivatives, because derivatives were missing or misled the
         search.
     device : str
-        The best design as the text of a device file, which you can write to a file or give to `run`; ``""`` for
-        vehicles.
+        The best design as the text of a device file, which you can write to a file or give to `run`. For a vehicle,
+        `device` is ``""``.
     """
 
     status: str
@@ -446,8 +450,8 @@ class BistableBand(_Result):
     start, stop : float
         The smallest and the largest value of the parameter in the band, in SI units.
     stroke_difference_deg : float
-        Largest difference between the peak-to-peak strokes of the rising and the falling branch (deg). The difference
-        is nan if no point of the band has a periodic motion on both branches.
+        Largest difference between the peak-to-peak strokes of the rising and the falling branch (deg).
+        `stroke_difference_deg` is nan if no point of the band has periodic motions on the two branches.
     """
 
     start: float
@@ -464,7 +468,7 @@ class Verdict:
     text : str
         The text of the verdict in one line.
     bands : list of BistableBand
-        The bands with hysteresis, in rising order of the parameter. The list is empty if the design has no hysteresis.
+        The bands with hysteresis, in rising order of the parameter. `bands` is empty if the design has no hysteresis.
     """
 
     text: str

@@ -1,4 +1,4 @@
-"""Eigenvalues of hover for the rows of a sweep."""
+"""Eigenvalues of linear models about hover, for the rows of a sweep."""
 
 from __future__ import annotations
 
@@ -31,18 +31,19 @@ def hover_eigenvalues(
     body_inertia_product: Array | float = 0.0,
     gravity: float = 9.80665,
 ) -> np.ndarray[Any, np.dtype[np.complex128]]:
-    """Return the eigenvalues of hover for each row of a sweep of vehicles with ``damping = true``.
+    """Return the eigenvalues of the linear model about hover, for each row of a sweep of vehicles with ``damping =
+    true``.
 
     The states are velocities, rates, roll angle and pitch angle. The reference point of the torques must be the centre
     of mass. This function does not trim the rows: the eigenvalues are correct for rows that hover, such as rows with
-    ``trim = "hover"``, and an estimate for rows near hover. `Vehicle.linear` trims one design and describes its modes.
+    ``trim = "hover"``, and an estimate for rows near hover. `Vehicle.linear` trims one design and describes the modes.
 
     Parameters
     ----------
     rows : Table or mapping
         The rows of the sweep, which must have the columns of the damping matrix.
     total_mass : float or array
-        The mass of the vehicle (kg), for all rows or for each row.
+        The mass of the vehicle (kg): one value for all rows, or one value for each row.
     body_inertia : three floats or arrays
         The moments of inertia for roll, pitch and yaw (kg m^2).
     body_inertia_product : float or array

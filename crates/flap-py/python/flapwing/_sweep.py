@@ -35,60 +35,62 @@ def sweep(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The design space (see `Grid`). A preset is a design space with one point. The table ``[output]`` of the grid
-        chooses the columns, but the entry `path` of ``[output]`` is not used.
+        The grid whose points are run (see `Grid`). A preset counts as a grid with one point. The table ``[output]`` of
+        the grid chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
         File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row as soon as possible. The
-        file has the same bytes as a file of ``flap sweep --out``. A second file in the same folder, the sidecar,
-        records the origin of the rows. If `out` has unfinished rows of the same grid, the sweep continues after these
-        rows. If `out` has all rows, no point is run. If `out` has other contents, the sweep raises an error. By
-        default, rows are kept in memory, with about half a kilobyte for each row.
+        command ``flap sweep --out`` writes a file with the same bytes. The sidecar, which is a file in the folder of
+        `out`, records the origin of the rows. If `out` has unfinished results of the grid, the sweep continues
+        after the last row. If `out` has all rows, no point is run. If `out` has anything except results of the grid,
+        the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte for each row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, the number applies to each task. Default: one thread per core, or
-        with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
+        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the points
-        that are done, and all points.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
+        of finished points, and the number of all points.
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
         with the method `result`. Examples are the executors of `concurrent.futures`, submitit and mpi4py, and the
-        client of a Dask cluster. The workers must have the same build of flapwing. The rows have the same order and the
-        same bytes as without `client`. If a worker of a Dask cluster dies, other workers run the points of the lost
-        worker again. With other executors, an error is raised. A worker is also an error if its processor rounds
-        numbers differently, because its rows could differ in the last bits. The process of the caller runs the points
-        of ``[refine]``.
+        client of a Dask cluster. The workers must have the same build of flapwing. With and without `client`, the rows
+        have the same order and the same bytes. If a worker of a Dask cluster dies, other workers run the points of the
+        lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker whose
+        processor rounds numbers differently also raises an error, because the last bits of the rows could differ. The
+        process of the caller runs the points of ``[refine]``.
     points_per_task : int, optional
-        Number of points in a task of `client`, 1 or more. Default: at most 2,048 points for each thread of a task,
-        which take some seconds. If each task is a job of a queue, set a larger number.
+        Number of points in a task of `client`, 1 or more. Default: at most 2,048 points for each thread of a task. A
+        task of the default size takes a few seconds. If each task is a job of a queue, set a number that is larger than
+        the default.
     measures : list of str, optional
-        The measures of the rows. Default: the columns of the grid's ``[output]``.
+        The measures that the rows contain. Default: the columns of the grid's ``[output]``.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`. Keywords have the same effect as entries of
-        ``[params]`` and ``[solver]`` in the grid, and results record the keywords as such entries.
+        ``[params]`` and ``[solver]`` in the grid. The results record keywords as entries of ``[params]`` and
+        ``[solver]``.
 
     Returns
     -------
     Table
         One row per point in the order of the grid, without points that ``[where]`` excludes. Columns: `point`, the
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
-        `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. ``columns`` in ``[output]`` chooses among the columns
-        after `status`. A point without a periodic motion has a row with its status and without measures. If `out` is
-        given, the table reads a column from the file when the column is used for the first time.
+        `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among the
+        columns after `status`. A point without a periodic motion has a row with a status and without measures. If `out`
+        is given, the table reads a column from the file when the column is used for the first time.
 
     Raises
     ------
     GridError
-        The grid has mistakes. The error message lists each mistake with its line, the allowed values and the nearest
-        name. GridError is a ValueError.
+        The grid has mistakes. The error message lists each mistake with the line of the mistake, the allowed values and
+        the most similar known name. GridError is a ValueError.
     FileExistsError
-        `restart` is not given, and `out` has complete rows of another grid or is not a result file.
+        `restart` is not given, and `out` has complete rows of a different grid or is not a result file.
     OSError
         A file cannot be read or written.
     ValueError
-        `out` cannot be continued, because the unfinished rows in `out` belong to another grid or were changed. A
-        preset, parameter, option, unit or measure is unknown; a keyword is a parameter that the grid varies or derives.
+        `out` cannot be continued, because the unfinished rows in `out` belong to a different grid or were changed. A
+        preset, parameter, option, unit or measure is unknown. A keyword is a parameter that the grid varies or derives.
     TypeError
         An argument has the wrong type.
     KeyboardInterrupt
@@ -118,8 +120,8 @@ def sweep(
 
 
 def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequence[str] | None) -> Grid:
-    """Return the grid of a design with the parameters and solver settings in `keywords`, and only with the measures in
-    `measures`.
+    """Return the grid of a design with the parameters and solver settings in `keywords`. Rows of the grid have only the
+    measures in `measures`.
     """
     grid = design if isinstance(design, Grid) else Grid(design)
     if not keywords and measures is None:
@@ -150,21 +152,21 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Parameters
     ----------
     path : path
-        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of another command, such
-        as ``flap run --trajectory``. Parquet tables of other programs (Zstandard, Snappy or no compression) can be read
-        too. Units, meanings and axes are read from the sidecar of the results, or from the metadata of flap's Parquet
-        files. Without a sidecar or metadata, units are taken from the names of the columns. If results are unfinished,
-        flap reads the rows up to the last checkpoint and gives a warning.
+        Results of a sweep or a response (``.csv``, ``.csv.zst``, ``.parquet``), or a CSV table of a command such as
+        ``flap run --trajectory``. You can also read Parquet tables that are not from flap (Zstandard, Snappy or no
+        compression). Units, meanings and axes are read from the sidecar of the results, or from the metadata of flap's
+        Parquet files. Without a sidecar or metadata, units are taken from the names of the columns. If results are
+        unfinished, flap reads the rows up to the last checkpoint and gives a warning.
     ignore_damage : bool, optional
         If True, damaged results raise a warning instead of an error, and only readable rows are returned. By default,
-        damage is an error.
+        damaged results raise an error.
 
     Returns
     -------
     Table
         The rows of the file. Numbers are equal, to the last bit, to the numbers that were written. ``meta["verified"]``
-        is True if the checksums agree. ``meta["verified"]`` is False for unfinished or damaged results, and for results
-        without checksums.
+        is True if the checksums agree with the rows. ``meta["verified"]`` is False for unfinished or damaged results,
+        and for results without checksums.
 
     Raises
     ------

@@ -44,7 +44,7 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
 
 
 def _fixed(values: Any) -> np.ndarray[Any, Any]:
-    """Return values as a read-only array. A table shares the read-only array with all tables that have some of its
+    """Return values as a read-only array. A table shares the read-only array with all tables that contain a part of the
     rows."""
     array = np.asarray(values).view()
     array.flags.writeable = False
@@ -68,14 +68,14 @@ class Table:
     ----------
     axes : list of dict
         The axes of the grid. Along the rows, the last axis varies fastest. The dictionary of an axis has the parameters
-        that vary together along the axis, with the values of these parameters. The values are read-only. The list is
-        empty if the rows have no grid with axes.
+        that vary together along the axis, with the values of all these parameters. The arrays of values are read-only.
+        `axes` is empty if the rows do not come from a grid with axes.
     meta : dict
-        The origin of the rows: `flap` (version), `build` (a hash of the sources, which differs between builds of a
-        version), `model`, `preset`, `solver`, `arithmetic` and `grid` (the text of the grid file). Further entries are
-        `counts` (number of rows by status), `excluded` (number of points without a row) and `invalid` (the first few
-        invalid points with their reasons). `keywords` has the keywords of the call, which replace values of the grid. A
-        table with some of the rows or columns has copies of all entries, but new values of `rows` and `counts`.
+        The origin of the rows. The entries are `flap` (version), `build` (a hash of the sources), `model`, `preset`,
+        `solver`, `arithmetic` and `grid` (the text of the grid file). Further entries are `counts` (number of rows by
+        status), `excluded` (number of points without a row) and `invalid` (the first few invalid points, with reasons).
+        `keywords` has the keywords of the call, which replace values of the grid. If you select some of the rows or
+        columns, the new table has the same entries, except new values of `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -88,8 +88,8 @@ class Table:
 
     @classmethod
     def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
-        """Return a table of the native results of a call with the keywords `keywords`. If `path` is given, columns are
-        read from the file `path` at their first use.
+        """Return a table of the native results of a call with the keywords `keywords`. If `path` is given, a column is
+        read from the file `path` when the column is first used.
         """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:
@@ -192,7 +192,7 @@ class Table:
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of each column; ``""`` for a column without a unit."""
+        """The unit of each column, or ``""`` for a column without a unit."""
         return {name: column.unit for name, column in self._columns.items()}
 
     @property
@@ -225,8 +225,8 @@ class Table:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """The verdicts on the responses in a table of `respond`: one verdict for each design. The list is empty for
-        tables of other calls.
+        """The verdicts on the responses in a table of `respond`: one verdict for each design. `verdicts` is empty for a
+        table that `respond` did not return.
         """
         return list(self.meta.get("verdicts", []))
 
@@ -266,17 +266,18 @@ class Table:
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the table as an xarray Dataset. The dimensions of the Dataset are the axes of the grid, in the same
-        order.
+        """Return the table as an xarray Dataset. The dimensions of the Dataset are the axes of the grid, in the order
+        of the grid.
 
-        A dimension has the name of the first parameter of its axis. Other parameters of the axis are coordinates along
-        this dimension. A table with a motion over time has the dimension ``time_s``. Every other table without axes
-        has the dimension ``row``. For a response, the columns that locate a row on its curve are coordinates along
-        ``row``: `curve`, the design's parameters, `branch`, and the followed parameter. Columns are variables with the
+        Each dimension is named after the first parameter of an axis. The remaining parameters of an axis are
+        coordinates along the dimension of the axis. A table with a motion over time has the dimension ``time_s``. A
+        table with neither axes nor times has the dimension ``row``. For a response, the coordinates along ``row`` are
+        `curve`, the design's parameters, `branch`, and the followed parameter. Columns are variables with the
         attributes `units`, `long_name` and `description`. Points that the grid excludes have no row. The cells of an
         excluded point are nan, 0 or empty text, and columns of flags become float64. The column `point`, or the
-        parameters of the axes, locate the rows. If a table has neither `point` nor the parameters of the axes,
-        ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is not text.
+        parameters of the axes, determine the cell of each row. If a table has neither `point` nor the parameters of the
+        axes, ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON if an entry is not
+        text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

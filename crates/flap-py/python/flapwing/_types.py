@@ -13,13 +13,13 @@ from ._flapwing import Grid
 if TYPE_CHECKING:
     from ._table import Table
 
-#: A design: the name of a preset, the path of a grid file, its text, its entries as a dictionary, or a Grid.
+#: A design: the name of a preset, the path or the text of a grid file, a dictionary of entries, or a Grid.
 Design = str | os.PathLike[str] | Mapping[str, Any] | Grid
 
 #: A parameter or a solver setting: a number in SI units, text with a unit, or the name of an option.
 Value = SupportsFloat | str
 
-#: A record over time: the path of a CSV file, columns by name, or a pair of times (s) and values.
+#: A waveform or a motion over time: the path of a CSV file, columns by name, or a pair of times (s) and values.
 Record = Union[str, os.PathLike[str], Mapping[str, Any], "Table", "tuple[Any, Any]"]
 
 
@@ -31,7 +31,7 @@ class Frame(Protocol):
 
 
 class FrameRow(Protocol):
-    """A row of a pandas DataFrame."""
+    """The type of a row of a pandas DataFrame."""
 
     def to_dict(self) -> Any: ...
 
@@ -43,7 +43,7 @@ class Executor(Protocol):
         """Return a future, whose method `result` returns the result of the function."""
 
 
-#: A state at the start of a drive period: components by name, or a row with them, also as a table of one row.
+#: A state at the start of a drive period: components by name, a row with the components, or a table of one row.
 InitialState = Union[Mapping[str, Any], "Table", Frame, FrameRow]
 
 #: A type for names of measures.

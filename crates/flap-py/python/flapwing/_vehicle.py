@@ -39,26 +39,26 @@ class Wing(_Entries):
     Parameters
     ----------
     name : str
-        The name of the wing, which is the prefix of its parameters and columns, as in ``left_drive_voltage_pp`` and
-        ``left_stroke_pp_deg``.
+        The name of the wing, which is the prefix of the wing's parameters and columns, as in ``left_drive_voltage_pp``
+        and ``left_stroke_pp_deg``.
     position : sequence of three numbers or texts, optional
-        The position of the wing's shoulder along x (forward), y (to the left) and z (up): numbers in metres, or text
-        with units such as ``"4 mm"``. Default: zero.
+        The position of the wing's shoulder along x (forward), y (to the left) and z (up). The coordinates are numbers
+        in metres, or text with units such as ``"4 mm"``. Default: zero.
     plane : dict, optional
         The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
     mirrored : bool, optional
-        True for a wing on the right. The wing is then the mirror image of a wing at `position`, and the mirror is the
-        plane of x and z.
+        True for a wing on the right side of the vehicle. A mirrored wing is the mirror image of a wing at `position`,
+        with the plane of x and z as the mirror.
     preset, device : str, path, optional
-        The design of the wing, if it differs from the vehicle's design: the name of a preset, or the path of a device
-        file.
+        The design of the wing, if this design differs from the vehicle's design: the name of a preset, or the path of a
+        device file.
     params : dict, optional
-        Parameters that apply only to this wing.
+        Parameters that apply only to the wing `name`.
 
     Raises
     ------
     TypeError
-        An argument has the wrong type. `Vehicle` reports other mistakes in the entries of a wing, with the place of
+        An argument has the wrong type. All mistakes except wrong types are reported by `Vehicle`, with the place of
         each mistake.
 
     Examples
@@ -117,12 +117,12 @@ class Vehicle(_Entries):
         evaluate(vehicle, {"difference_drive_voltage_pp": [-20.0, 0.0, 20.0]})
         sweep({**vehicle, "axes": {"left_drive_voltage_pp": ["180 V", "200 V"]}})
 
-    A vehicle is a mapping with the entries of a grid file that has the table ``[vehicle]``. If you add other tables,
-    such as ``axes``, the mapping is a grid. A parameter NAME of the model applies to all wings. The parameter
+    A vehicle is a mapping with the entries of a grid file that has the table ``[vehicle]``. If you add tables such as
+    ``axes`` to the mapping, the mapping is a grid. A parameter NAME of the model applies to all wings. The parameter
     ``left_NAME`` applies only to the wing with the name `left`. ``difference_NAME`` is the value for left wings minus
-    the value for right wings. Half of the difference is added to NAME for wings that are not mirrored. For mirrored
-    wings, half of the difference is subtracted. The model leaves out aerodynamic interaction between wings. The body
-    axes are x forward, y to the left, and z up.
+    the value for right wings. For wings that are not mirrored, half of ``difference_NAME`` is added to NAME. For
+    mirrored wings, half of ``difference_NAME`` is subtracted from NAME. The model leaves out aerodynamic interaction
+    between wings. The body axes are x forward, y to the left, and z up.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class Vehicle(_Entries):
         The design of the wings: the name of a preset, the path of a device file, or entries of a grid, such as
         ``{"preset": "jafferis2016", "params": {"drive_voltage_pp": "180 V"}}``.
     wings : sequence of Wing or dict
-        A list of one or more wings. Each wing is a `Wing`, or a dictionary with the same entries.
+        A list of one or more wings. Each wing is a `Wing`, or a dictionary with the entries of a `Wing`.
     about : sequence of three numbers or texts, optional
         The point about which torques are computed, such as the centre of mass: numbers in metres, or text with units.
         Default: the origin.
@@ -138,17 +138,19 @@ class Vehicle(_Entries):
         The mass of the whole vehicle, which determines the column `lift_to_weight`: a number in kilograms, or text such
         as ``"85 mg"``.
     trim : str, optional
-        ``"hover"`` to compute each design at hover: flap searches the inputs with which the lift is the weight and all
-        torques are zero. Rows then also have the growth rate and the period of the mode of hover that grows fastest,
-        and the inputs. Requires `total_mass`.
+        If `trim` is ``"hover"``, each design is computed at hover: flap searches the inputs at which the lift equals
+        the weight and all torques are zero. The rows of a trimmed vehicle also have the inputs. Two further columns
+        describe the mode of motion about hover that grows fastest: the growth rate and the period. `trim` requires
+        `total_mass`.
     damping : bool
-        True for rows with the 36 derivatives of mean force and torque with respect to velocity and rates of the body.
+        If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the rates
+        of the body.
 
     Raises
     ------
     GridError
-        The entries of the vehicle have mistakes. The error message lists each mistake with its place, the allowed
-        values and the nearest name.
+        The entries of the vehicle have mistakes. The error message lists each mistake with the place of the mistake,
+        the allowed values and the most similar known name.
     ValueError
         `design` already has a vehicle.
     TypeError
@@ -202,7 +204,7 @@ class Vehicle(_Entries):
         positions: bool = False,
         **params: Value,
     ) -> LinearModel:
-        """Compute the linear model of small motions about hover, with its eigenvalues.
+        """Compute the linear model of small motions about hover, and the eigenvalues of the model.
 
         The wings respond to the motion of the body, unless you give ``body_response="frozen"``. The argument `about` of
         `Vehicle` must be the centre of mass. The model requires `total_mass` and the parameters `body_inertia_roll`,
@@ -216,10 +218,10 @@ class Vehicle(_Entries):
         point : int, optional
             The index of a point, if the vehicle is a grid with several points.
         trim : bool
-            True to trim the vehicle first: the inputs are changed until the lift equals the weight and all torques are
-            zero.
+            If True, the vehicle is trimmed first: the inputs are changed until the lift equals the weight and all
+            torques are zero.
         positions : bool
-            True to add the position to the states.
+            If True, the states include the position.
         **params
             Values of parameters: numbers in SI units, or text with units.
 
@@ -231,7 +233,7 @@ class Vehicle(_Entries):
         ------
         ValueError
             A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
-            With `trim`, the vehicle does not hover at any values of the inputs near the point.
+            `trim` is true, but the vehicle hovers at no values of the inputs near the point.
 
         Examples
         --------
@@ -304,7 +306,7 @@ def _vector(name: str, given: Any) -> list[Any]:
 
 
 def _table(name: str, given: Any, example: str, keys: Sequence[str] | None = None) -> dict[str, Any]:
-    """Return a dictionary. Raise ValueError if the dictionary has keys that are not in `keys`."""
+    """Return `given` as a dictionary. Raise ValueError if a key of the dictionary is not in `keys`."""
     if not isinstance(given, Mapping):
         raise refused(name, given, f"it must be a dictionary of {example}")
     for key in given:

@@ -16,14 +16,14 @@ from ._flapwing import Grid
 from ._native import NativeColumn, NativeIdentity, NativeSummary, NativeTable
 from ._types import Executor
 
-#: Points of a task per thread: some seconds of work. A lost worker loses little, and sending rows takes a small share
-#: of the time.
+#: Number of points of a task for each thread, which take a few seconds. If a worker is lost, little work is lost.
+#: Sending rows takes a small share of the time.
 _TASK_POINTS = 2048
-#: Running and waiting tasks per worker: no worker is idle, and memory stays bounded.
+#: Number of running and waiting tasks per worker, so that no worker is idle and the memory is limited.
 _TASKS_PER_WORKER = 4
 #: Number of workers of an executor that does not report the number, such as submitit's.
 _UNKNOWN_WORKERS = 16
-#: Number of times that Dask repeats a task on other workers after its worker died.
+#: Number of times that Dask repeats a task on other workers after a worker died.
 _RETRIES = 5
 #: Number of invalid points whose reasons are kept, as for a batch on one machine.
 _MOST_REASONS = 5
@@ -44,7 +44,7 @@ def _results(
     """Yield the results of a function for several tasks, in the order of the tasks. A task is a set of arguments of the
     function.
 
-    The number of tasks that are submitted before their results are needed is bounded. If the iterator is closed or an
+    The number of tasks that are submitted at the same time is limited. If the iterator is closed or an
     exception is raised, tasks that have not started are cancelled.
     """
     ahead = _TASKS_PER_WORKER * _number_of_workers(client)
@@ -77,7 +77,7 @@ def _results(
 
 
 def call(client: Executor | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
-    """Return the result of a native function for a design, called here or, with a client, by a worker."""
+    """Return the result of a native function for a design. If a client is given, a worker calls the function."""
     if client is None:
         return function(design, *arguments, **keywords)
     keywords = {name: _found(value) if name in ("waveform", "stroke") else value for name, value in keywords.items()}
@@ -97,7 +97,7 @@ def _call_task(
 
 
 def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
-    """Return columns whose arrays are aligned, as the native part requires. An array that Dask has transferred may
+    """Return columns whose arrays are aligned, as the compiled module requires. An array that Dask has transferred can
     begin at any byte.
     """
     return {
@@ -107,7 +107,7 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _found(record: Any) -> Any:
-    """Return a record over time for workers. If the record is a path, the path is made absolute."""
+    """Return a waveform or a motion for workers. A path to a file is made absolute."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
@@ -124,7 +124,7 @@ def _sent(design: Any) -> Any:
 
 
 def _check(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
-    """Raise RuntimeError if the rows of a worker may differ in their bits from the rows of this process."""
+    """Raise RuntimeError if rows of a worker could differ in the last bits from rows of the present process."""
     for name in ("build", "arithmetic"):
         if ours[name] != theirs[name]:
             raise RuntimeError(
@@ -161,7 +161,8 @@ class Chunks:
             self._results.close()
 
     def next(self, done: int) -> bytes | None:
-        """Return the next chunk of rows. The first chunk begins after the points that are already done."""
+        """Return the next chunk of rows. The first chunk begins after the first `done` points, which are already
+        computed."""
         if self._results is None:
             begins = range(done, self._points, self._size)
             tasks = ((*self._grid, begin, min(self._points, begin + self._size), self._threads) for begin in begins)
@@ -170,8 +171,8 @@ class Chunks:
 
 
 def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
-    """Return the number of points of a task. The default is so small that every worker gets points, even if there are
-    few points.
+    """Return the number of points of a task. By default, a task is so small that every worker gets points, even if the
+    number of points is small.
     """
     if points_per_task is not None:
         return _arguments.count("points_per_task", points_per_task)
@@ -182,12 +183,13 @@ def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per
 def _evaluate_task(
     design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
 ) -> NativeTable:
-    """Run the task of a worker: return the rows for a range of points, given by their columns."""
+    """Run the task of a worker: return the rows for a range of points. The points are given as columns of
+    parameters."""
     return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
 
 
 def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
-    """Return the options of a batch for the points from `begin` to before `end`."""
+    """Return the options of a batch for the points from `begin` up to, but not including, `end`."""
     states = options["initial_state"]
     return options if states is None else {**options, "initial_state": states[begin:end]}
 
@@ -201,7 +203,7 @@ def evaluate(
     points_per_task: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the rows of the columns `given`, computed by workers."""
+    """Return the rows of the points in the columns `given`. Workers compute the rows."""
     # This call reports mistakes. An empty selection has the same columns and axes as all rows.
     nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
@@ -234,8 +236,8 @@ def evaluate(
 
 
 def _moved(part: NativeTable, offset: int) -> NativeTable:
-    """Return the rows of a part of a batch, numbered as points of the whole batch. The first point of the part has the
-    number `offset`.
+    """Return the rows of a part of a batch, with the point numbers of the whole batch. The first point of the part has
+    the number `offset`.
     """
     columns: list[NativeColumn] = [
         {**one, "cells": one["cells"] + np.uint64(offset)} if one["name"] == "point" else one for one in part["columns"]
@@ -261,7 +263,7 @@ def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """Join the same column of all parts of a batch. Each part has its own list of words."""
+    """Join one column of all parts of a batch. The parts can have different lists of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}
@@ -273,7 +275,7 @@ def _column(parts: list[NativeColumn]) -> NativeColumn:
 
 
 def _summed(summaries: list[NativeSummary]) -> NativeSummary:
-    """Return the summary of the whole batch, summed over its parts."""
+    """Return the summary of the whole batch: the sum of the summaries of all parts."""
 
     def total(counts: list[dict[str, int]]) -> dict[str, int]:
         summed: Counter[str] = Counter()
@@ -307,7 +309,7 @@ def responses(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> NativeTable:
-    """Return the responses of designs, each computed by a worker."""
+    """Return the responses of designs. Workers compute the responses."""
     # This call reports mistakes. It returns no rows.
     nothing = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
     designs = nothing["designs"]

@@ -1,4 +1,5 @@
-"""Quadratic maps from the inputs of a vehicle to its mean force and mean torque, for model-predictive controllers."""
+"""Quadratic maps from the inputs of a vehicle to the vehicle's mean force and mean torque, for model-predictive
+controllers."""
 
 from __future__ import annotations
 
@@ -19,11 +20,12 @@ __all__ = ["WrenchMap", "wrench_map"]
 
 @dataclass(frozen=True, eq=False)
 class WrenchMap:
-    """A quadratic map from the inputs of a vehicle to its mean force and mean torque. `wrench_map` returns a
+    """A quadratic map from the inputs of a vehicle to the vehicle's mean force and mean torque. `wrench_map` returns a
     `WrenchMap`.
 
-    With m inputs, each component has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. Terms of two inputs
-    have the order ``1, s1, s2, s1*s1, s1*s2, s2*s2``, where s is an input scaled from -1 to 1 over its range.
+    With m inputs, each component has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. With two inputs, the
+    order of the terms is ``1, s1, s2, s1*s1, s1*s2, s2*s2``, where s1 and s2 are inputs scaled from -1 to 1 over the
+    range.
 
     Attributes
     ----------
@@ -45,13 +47,13 @@ class WrenchMap:
     physical : array of shape (6, terms)
         Coefficients of the map for inputs in SI units.
     r_squared : array of shape (6,)
-        Coefficient of determination (R²) of each component on the rows that were left out of the fit. The coefficient
-        is nan if the component is constant.
+        Coefficient of determination (R²) of each component on the rows that were left out of the fit. R² is nan if a
+        component is constant.
     largest_error : array of shape (6,)
         Largest error of each component on the rows that were left out of the fit, in mN and µN·m.
     rows : dict of str to int
-        Number of rows in the fit (``"fitted"``), number of rows left out of the fit (``"left_out"``), and numbers of
-        rows without a periodic motion by status.
+        Number of rows in the fit (``"fitted"``), and number of rows that were left out of the fit (``"left_out"``). For
+        each further status, the number of rows without a periodic motion.
     floquet_max : float
         Largest Floquet multiplier of all rows. If the multiplier is more than 0.7, the ranges of the inputs are near a
         steep part of the response.
@@ -90,7 +92,7 @@ class WrenchMap:
         ValueError
             The last dimension is not the number of inputs.
         TypeError
-            `inputs` are not numbers.
+            `inputs` contains values that are not numbers.
         """
         with _mistakes.reading("inputs", inputs, "it must be numbers in SI units, one for each input"):
             values = np.asarray(inputs, dtype=np.float64)
@@ -119,10 +121,11 @@ def wrench_map(
     client: Executor | None = None,
     **keywords: Value,
 ) -> WrenchMap:
-    """Fit a quadratic map from the inputs of a vehicle to its mean force and mean torque, over ranges of the inputs.
+    """Fit a quadratic map from the inputs of a vehicle to the vehicle's mean force and mean torque.
 
-    Model-predictive controllers use such maps. The map is a least-squares fit to rows of the vehicle. The rows are
-    spread over the ranges of the inputs. Every fifth row is left out of the fit and tests the map.
+    Model-predictive controllers can use the map. The map is a least-squares fit to rows of the vehicle. The rows are
+    spread over the ranges of the inputs. Every fifth row is left out of the fit, and these left-out rows test the
+    accuracy of the map.
 
     A UserWarning reports a map with large errors, rows without a periodic motion, a steep response, or an input without
     effect.
@@ -134,34 +137,34 @@ def wrench_map(
     ranges : dict of str to pair of float or str
         Smallest and largest value of each input: numbers in SI units, or text with units. The inputs are parameters of
         the vehicle, or the words ``"amplitude"``, ``"bias"``, ``"frequency"``, ``"second_harmonic"``,
-        ``"second_phase"`` and ``"third_harmonic"``. A word alone, such as ``"bias"``, changes all wings.
+        ``"second_phase"`` and ``"third_harmonic"``. A word without a prefix, such as ``"bias"``, changes all wings.
         ``"bias_difference"`` is the bias of left wings minus the bias of right wings. ``"left_bias"`` changes only the
         wing with the name `left`.
     samples : int, optional
-        Number of rows. Default 400.
+        Number of rows to compute. Default: 400 rows.
     point : int, optional
         The index of a point, counted from 0, if the grid has several points.
     threads : int, optional
         Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the map.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the rows
-        that are done, and all rows. With `client`, the whole map is one step.
+        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
+        of finished rows, and the number of all rows. With `client`, the whole map is one step of the progress.
     client : executor, optional
-        An executor, such as a process pool, on whose worker the map is computed (see `sweep`).
+        An executor, such as a process pool (see `sweep`). The map is computed on one of the workers of the executor.
     **keywords : float or str
         Parameters of the vehicle and solver settings, as for `run`.
 
     Returns
     -------
     WrenchMap
-        The coefficients of the map, and its error on the rows that were left out of the fit.
+        The coefficients of the map, and the error of the map on the rows that were left out of the fit.
 
     Raises
     ------
     ValueError
-        The design is no vehicle; an input or a unit is unknown; a range is empty, or its smallest value is above its
-        largest value; the number of samples or of periodic rows is too small for the number of coefficients. A grid
-        with mistakes raises GridError.
+        The design is no vehicle. An input or a unit is unknown. The smallest value of a range is not below the largest
+        value of the range. The number of samples or of periodic rows is too small for the number of coefficients. A
+        grid with mistakes raises GridError.
     TypeError
         An argument has the wrong type.
 
@@ -218,7 +221,7 @@ _RANGES = 'it must be a dictionary of pairs, such as {"bias": ("-20 V", "20 V")}
 
 
 def _range(name: Any, ends: Any) -> tuple[str, Any, Any]:
-    """Return the name of an input, with its smallest and its largest value."""
+    """Return the name, the smallest value and the largest value of an input."""
     if not isinstance(name, str):
         raise _mistakes.refused("ranges", name, _RANGES)
     if isinstance(ends, (str, bytes, Mapping)):

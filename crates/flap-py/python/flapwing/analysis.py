@@ -1,5 +1,5 @@
-"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of such
-statistics.
+"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of
+distributions, sensitivities and Pareto fronts.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
@@ -73,8 +73,8 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger absolute change of the measure, of the changes at the lower and at the upper value of the
-        parameter. The result is infinite if both changes are unknown.
+        """The larger of two absolute changes of the measure: at the lower value and at the upper value of the
+        parameter. `swing` is infinite if both changes are unknown.
         """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
@@ -88,10 +88,10 @@ def sensitivities(
     change: float = 0.05,
     **fixed: Any,
 ) -> list[Sensitivity]:
-    """Decrease and increase each parameter of a design slightly, and compute the changes of a measure.
+    """Compute the change of a measure when each parameter of a design is slightly decreased and slightly increased.
 
-    Two points are run for each parameter, and one point for the unchanged design. All other parameters keep their
-    values, except parameters that are computed from the changed parameter. For example, the bias of a preset may depend
+    Two points are run for each parameter, and one point for the unchanged design. The remaining parameters do not
+    change, except parameters that are computed from the changed parameter. For example, the bias of a preset can depend
     on the drive voltage.
 
     Parameters
@@ -101,10 +101,10 @@ def sensitivities(
     measure : str
         A measure of the preset's model.
     parameters : mapping or iterable of str, optional
-        The parameters to change. In a mapping, each parameter has a relative change, or the two values to compute (in
-        SI units). Default: all parameters with a number that is not zero. Parameters that are computed from other
-        parameters are left out. Parameters that cannot have the changed values, such as whole numbers, are left out
-        too.
+        The parameters to change. In a mapping, each parameter has a relative change, or two values in SI units at which
+        the measure is computed. Default: all parameters whose value is a number other than zero. Parameters that are
+        computed by the model are left out. Parameters that cannot have the changed values, such as whole numbers, are
+        left out too.
     change : float
         The relative change of parameters for which `parameters` gives no change.
     **fixed
@@ -119,7 +119,7 @@ def sensitivities(
     Raises
     ------
     ValueError
-        The design, the measure or a parameter is unknown; a change is zero; the motion of the design is not periodic.
+        The design, the measure or a parameter is unknown. A change is zero. The motion of the design is not periodic.
 
     Examples
     --------
@@ -221,17 +221,17 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values get the mean of their ranks. A parameter is left out if all designs have the same value. A parameter is
-    also left out if an earlier parameter sorts the designs in the same or in the reverse order.
+    Equal values get the mean of the ranks. A parameter is left out if all designs have the same value of the parameter.
+    A parameter is also left out if an earlier parameter sorts the designs in the same or in the reverse order.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sample, or of a grid.
     measure : str, optional
-        A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
+        A column of numbers. Default: the mean lift, or a different measure if the table has no mean lift.
     parameters : iterable of str, optional
-        The parameters to correlate, or other columns of numbers. Default: all parameters of the table.
+        The parameters to correlate, or any columns of numbers. Default: all parameters of the table.
     where, **slices
         The selection of rows, as for `flapwing.plot.histogram`.
 
@@ -243,7 +243,7 @@ def rank_correlations(
     Raises
     ------
     ValueError
-        A column or value is unknown; no design has a value of the measure; no parameter varies.
+        A column or value is unknown. No design has a value of the measure. No parameter varies.
 
     Examples
     --------
@@ -285,21 +285,21 @@ class Statistics:
     measure : str
         The measure's name.
     unit : str
-        The unit of all values; ``""`` for a pure number.
+        The unit of all values, or ``""`` for a pure number.
     designs : int
         The number of designs that have the measure.
     mean : float
         The mean of the measure.
     standard_deviation : float
-        The sample standard deviation (divisor ``designs - 1``). The value is nan for one design.
+        The sample standard deviation (divisor ``designs - 1``). The standard deviation is nan for a single design.
     standard_error : float
         The standard error of the mean, for independently drawn designs: the standard deviation divided by the square
-        root of `designs`. For a Latin hypercube or a Sobol' sequence, this standard error is an upper estimate. For a
-        grid, the standard error has no meaning.
+        root of `designs`. For a Latin hypercube or a Sobol' sequence, `standard_error` is an upper estimate. For a
+        grid, `standard_error` has no meaning.
     smallest, largest : float
         The smallest and the largest value of the measure.
     percentiles : dict of float to float
-        The chosen percentiles of the measure, by percentage.
+        The chosen percentiles of the measure. The keys of `percentiles` are percentages.
     """
 
     measure: str
@@ -330,7 +330,8 @@ def percentages(given: Any) -> list[float]:
 
 
 def statistics(measure: str, unit: str, values: Array, percentiles: Sequence[float]) -> Statistics:
-    """Return the statistics of the values of a measure. The values are finite, and there is at least one value."""
+    """Return the statistics of the values of a measure. The array `values` contains only finite numbers, and at least
+    one number."""
     deviation = float(values.std(ddof=1)) if len(values) > 1 else math.nan
     return Statistics(
         measure=measure,
@@ -364,21 +365,21 @@ def describe(
     measures : str or iterable of str, optional
         Columns of numbers. Default: all measures of the table.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, as in ``flap
-        describe``.
+        Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
+        percentile of ``flap describe``.
     where, **slices
         The selection of rows, as for `flapwing.plot.histogram`.
 
     Returns
     -------
     dict of str to Statistics
-        The statistics of each measure, in the order of `measures`. A measure without a finite value is left out if
-        `measures` is not given.
+        The statistics of each measure, in the order of `measures`. If `measures` is not given, measures without a
+        finite value are left out.
 
     Raises
     ------
     ValueError
-        A column or value is unknown; no design has a value of one of the measures; a percentage is not from 0 to 100.
+        A column or value is unknown. No design has a value of one of the measures. A percentage is not from 0 to 100.
 
     Examples
     --------
@@ -404,10 +405,10 @@ def describe(
 
 
 def non_dominated(costs: Any) -> Mask:
-    """Return a mask of the points that no other point dominates (the Pareto front). Smaller costs are better in every
+    """Return a mask of the Pareto front: the points that no other point dominates. Smaller costs are better in every
     column.
 
-    One point dominates another point if none of its costs is larger and at least one of its costs is smaller. Equal
+    Point A dominates point B if no cost is larger for A than for B, and at least one cost is smaller for A. Equal
     points do not dominate each other.
 
     Parameters

@@ -35,16 +35,19 @@ pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
 fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
     let of = of.name();
     let margin = &*format!(
-        "distance of resonance_hz from the nearer end of the searched range; zero if the {of} is largest at that end"
+        "distance of resonance_hz from the nearer end of the searched range; zero if the {of} is largest at an end of \
+        the range"
     );
-    let gaps = "number of points without a periodic motion in the search for the resonance; a larger peak may lie at such a point";
+    let gaps = "number of points without a periodic motion in the search for the resonance; a larger peak could lie at \
+    one of these points";
     let added = [
         (RESONANCE_HZ, "Hz", &*format!("drive frequency at which the {of} is largest")),
         (
             "resonance_second_hz",
             "Hz",
             &*format!(
-                "drive frequency of another peak of the {of}, if its height is within 5 % of the largest peak"
+                "drive frequency of a second peak of the {of}, if the height of the second peak is within 5 % of the \
+                largest peak"
             ),
         ),
         (RESONANCE_MARGIN_HZ, "Hz", margin),

@@ -113,7 +113,7 @@ crate::parameters! {
         actuator_length: f64 = ("m", "l_pzt", Number(Positive)) 9e-3,
         /// Mean width of the actuator.
         actuator_width: f64 = ("m", "w_n", Number(Positive)) 1.125e-3,
-        /// Width of the actuator at its base, divided by its mean width. The ratio lies between 0 and 2.
+        /// Width of the actuator at the base, divided by the mean width. The ratio lies between 0 and 2.
         actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
         /// Length of the actuator's rigid extension, divided by actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
@@ -174,7 +174,7 @@ crate::parameters! {
         /// Total capacitance of the two actuators of a vehicle, which have four plates.
         vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)) 10.1e-9,
         /// Mass of the vehicle with its two actuators and two wings, Table II. To compute the column payload_mg, flap
-        /// subtracts this mass from the usable lift.
+        /// subtracts vehicle_mass from the usable lift.
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]

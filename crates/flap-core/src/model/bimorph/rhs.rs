@@ -72,7 +72,7 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
 /// ```
 ///
-/// As printed, A contains 2 f_min.
+/// The equation of A in the paper contains 2 f_min instead of f_min.
 #[inline(always)]
 fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;

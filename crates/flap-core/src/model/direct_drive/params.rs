@@ -26,7 +26,7 @@ crate::parameters! {
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
 
         ["wing"]
-        /// Wing length, from the root of the wing to its tip.
+        /// Wing length, from the root of the wing to the tip.
         wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
         /// Mean chord of the wing.
         mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
@@ -67,8 +67,8 @@ crate::parameters! {
         /// given for these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
-        /// mean_chord. The constant term of this series is 1. Ozaki and Hamaguchi (2018) give no chord shape: the
-        /// coefficients were fitted to their shape moments.
+        /// mean_chord. The constant term of the series is 1. Ozaki and Hamaguchi (2018) give no chord shape: the
+        /// coefficients were fitted to the published shape moments.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_2(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).

@@ -113,7 +113,7 @@ crate::parameters! {
         ["wing"]
         /// Distance from the stroke axis to the root of the wing. The value is assumed.
         wing_offset: f64 = ("m", "r_0", Number(NonNegative)) 4e-3,
-        /// Wing length, from the root of the wing to its tip. The value is assumed.
+        /// Wing length, from the root of the wing to the tip. The value is assumed.
         wing_length: f64 = ("m", "L_w", Number(Positive)) 24e-3,
         /// Chord of the wing at its root. The value is assumed. The chord is root_chord times a polynomial in x, where
         /// x is 0 at the root and 1 at the tip.

@@ -1,23 +1,24 @@
 """Fits of parameters to readings, with the uncertainty of the parameters.
 
-`fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. All other classes are parts of a `Fit`.
+`fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. Most other classes are parts of a `Fit`, or
+results of `compare` and `select`.
 
 - `_names`, `_cells`, `_noise`: names, cells and standard errors in columns of readings
-- `_data`, `_held`: readings in the units of the model; readings that are not fitted
-- `_typical`, `_parameters`: typical sizes of terms; free parameters, and the coordinates of the search
-- `_model`, `_branches`: readings of the model at many sets of parameters, in batches; branches of hysteresis
+- `_data`, `_held`: readings in the units of the model, and readings that are not fitted
+- `_typical`, `_parameters`: typical sizes of terms, free parameters, and the coordinates of the search
+- `_model`, `_branches`: readings of the model at many sets of parameters, in batches, and branches of hysteresis
 - `_search`: least squares from several starts at the same time
 - `_intervals`: intervals by the profile likelihood, and combinations of parameters
-- `_structure`, `_discrepancy`, `_drift`: patterns in residuals; discrepancy of the model; disagreement of data sets
+- `_structure`, `_discrepancy`, `_drift`: patterns in residuals, discrepancy of the model, and disagreement of data sets
 - `_spread`: scatter of a parameter between robots
-- `_assess`: errors of an estimate, from these tests
-- `_solution`, `_result`: the estimates and the quality of the fit; predictions of the fit
-- `_points`, `_plan`: operating points of predictions; the next readings
+- `_assess`: errors of an estimate, from the tests of `_structure`, `_discrepancy` and `_drift`
+- `_solution`, `_result`: the estimates, the quality of the fit, and the predictions of the fit
+- `_points`, `_plan`: operating points of predictions, and the next readings
 - `_report`, `_device`: the result as text, and as a device
 - `_fit`: the function `fit`
 - `_criteria`: likelihood of readings, and information criteria
-- `_compare`, `_deciding`: comparison of fits of the same readings; readings that decide between two fits
-- `_select`, `_subsets`: forward selection of free parameters, and its fits of subsets of the parameters
+- `_compare`, `_deciding`: comparison of fits of the same readings, and readings that decide between two fits
+- `_select`, `_subsets`: forward selection of free parameters, and fits of subsets of the parameters
 """
 
 from __future__ import annotations

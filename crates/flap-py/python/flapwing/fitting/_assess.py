@@ -90,8 +90,9 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
 def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
     """Return a mask of the outliers.
 
-    If the residuals of a measure are larger than their standard errors, the limit is larger by a typical residual. The
-    typical residual is the median, or the root mean square if the model lacks an effect.
+    If a typical residual of a measure is larger than the standard error, the limit for outliers is multiplied by
+    (typical residual / standard error). The typical residual is computed from the median of the absolute residuals. If
+    the model lacks an effect, the typical residual is the root mean square.
     """
     limit = _OUTLYING if loss == "linear" else _OUTLYING_ROBUST
     far = np.zeros(len(scaled), np.bool_)
@@ -114,7 +115,7 @@ def _listed(sets: list[DataSet], scaled: Array, is_far: Mask) -> list[Outlier]:
 
 
 def _branches(sets: list[DataSet]) -> Places:
-    """Return the number of the branch of each reading."""
+    """Return the branch of each reading as a number."""
     known = [None, "up", "down"]
     return np.concatenate([np.full(len(one) * len(one.measured), known.index(one.branch), np.intp) for one in sets])
 

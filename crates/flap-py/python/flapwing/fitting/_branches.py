@@ -18,7 +18,7 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class Branch:
-    """The points of a branch, which are run one after the other while a parameter rises or falls."""
+    """The points of a branch, which are run in order while a parameter rises or falls."""
 
     parameter: str
     falls: bool
@@ -33,10 +33,11 @@ def states_along(
     names: Sequence[str],
     run: Callable[..., Table],
 ) -> dict[str, Array] | None:
-    """Return the states in which motions on the branches begin. Return None if there are no branches.
+    """Return the states in which motions on the branches begin. Return None if the data have no branches.
 
-    Each of `columns` repeats all points `times` times, once for each set of parameters. States have the components
-    `names`. All branches are followed at the same time: a batch has one point of each branch.
+    Each column in `columns` contains all points `times` times: one copy of the points for each set of parameters. The
+    components of a state have the names `names`. All branches are followed at the same time: a batch has one point of
+    each branch.
     """
     if not branches:
         return None
@@ -64,8 +65,8 @@ def states_along(
 
 
 def _curves(branch: Branch, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
-    """Return the points along a branch: for each group of points with equal other parameters, the row, the followed
-    parameter and its value.
+    """Return the curves of a branch. A curve contains all points that differ only in the followed parameter. For each
+    point, the curve has the row, the name of the followed parameter, and the value of the followed parameter.
     """
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row in branch.rows + offset:
@@ -89,5 +90,5 @@ def _curves(branch: Branch, columns: Mapping[str, Any], offset: int) -> list[lis
 
 
 def taken(values: Any, places: list[int]) -> Any:
-    """Return some cells of a column."""
+    """Return the cells of a column at the indices `places`."""
     return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]

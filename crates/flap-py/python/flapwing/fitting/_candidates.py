@@ -35,9 +35,9 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
-    design's value. The parameters in the next list have other bounds. In the list, ω is the angular drive frequency, J
-    the wing's inertia about the stroke axis, κ the `hinge_stiffness`, and T the `transmission_ratio`. E is half of the
-    drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
+    design's value. The parameters in the list below have special bounds. In the list, ω is the angular drive frequency,
+    J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T is `transmission_ratio`. In the list, E
+    is half of the drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
 
     - `drag_coefficient_min`: 0.05 to 2
     - `stroke_damping`: 0 to J ω
@@ -59,7 +59,7 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     Returns
     -------
     dict of str to FreeParameter
-        The candidates with their bounds in SI units. Remove or add entries before you call `select`.
+        The candidates, with bounds in SI units. Remove or add entries before you call `select`.
 
     Raises
     ------
@@ -84,5 +84,5 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
 
 def is_number(value: Any) -> TypeGuard[float]:
-    """Return True for numbers, without True and False."""
+    """Return True for a number that is not a truth value."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -33,11 +33,11 @@ class ComparedFit:
     parameters : int
         Number of free parameters. Each standard error that was estimated from the residuals counts as one parameter.
     chi_square : float
-        Chi-square: the sum of the squared residuals in standard errors, with the residuals of priors. If standard
-        errors were estimated, chi-square contains no information about the fit.
+        Chi-square: the sum of the squares of (residual / standard error) over all readings. The sum includes the
+        residuals of priors. If standard errors were estimated, chi-square contains no information about the fit.
     deviance : float
-        Minus two times the log likelihood of the compared readings, with the residuals of priors. Unknown standard
-        errors have their most likely value (concentrated likelihood).
+        Minus two times the log likelihood of the compared readings, including the residuals of priors. Each unknown
+        standard error has the most likely value (concentrated likelihood).
     aicc, bic : float
         Akaike's information criterion with the correction for few readings, and the Bayesian information criterion.
     delta_aicc, delta_bic : float
@@ -45,10 +45,11 @@ class ComparedFit:
     weight : float
         Akaike weight: the probability of the fit among the compared fits.
     held_out_rms : dict of str to float
-        Root mean square of the prediction errors of each measure, in the unit of the measure; empty without `hold_out`.
+        Root mean square of the prediction errors of each measure, in the unit of the measure. `held_out_rms` is empty
+        if the fits have no `hold_out`.
     held_out_score : float
-        Mean logarithm of the predicted probability density of a reading that was not fitted. Higher values are better.
-        The value is nan without `hold_out`.
+        Mean logarithm of the predicted probability density of a reading that was not fitted. A higher `held_out_score`
+        is better. `held_out_score` is nan if the fits have no `hold_out`.
     """
 
     name: str
@@ -70,7 +71,7 @@ class Comparison:
     Attributes
     ----------
     fits : list of ComparedFit
-        The fits with their criteria, with the lowest AICc first.
+        The criteria of the fits, with the lowest AICc first.
     readings : int
         Number of compared readings: the readings that all fits use.
     left_out : int
@@ -80,7 +81,7 @@ class Comparison:
     is_decided : bool
         True if the AICc of the second best fit is more than 2 above the lowest AICc.
     verdict : str
-        The result in words.
+        The result of the comparison in words.
     """
 
     def __init__(self, sides: Sequence[Side], left_out: int) -> None:
@@ -138,7 +139,8 @@ class Comparison:
         return lines
 
     def deciding_readings(self, count: int = 5) -> list[DecidingReading]:
-        """Return the readings whose log likelihoods in the two best fits differ most, in falling order.
+        """Return the readings whose log likelihoods in the two best fits differ most, in falling order of the
+        difference.
 
         Parameters
         ----------
@@ -164,30 +166,31 @@ class Comparison:
     ) -> DecidingMeasurements:
         """Return the operating points at which new readings would decide best between the two best fits.
 
-        A reading decides if the predictions of both fits differ by many standard errors. The standard error contains
-        the noise of the reading and the errors of the fitted parameters. The choice ignores differences that new
-        estimates of the parameters could remove. Each reading is chosen after both fits are updated with the readings
-        before. The updates of the fits use derivatives at the estimates.
+        A reading decides between two fits if the predictions of the fits differ by many standard errors. The standard
+        error contains the noise of the reading and the errors of the fitted parameters. The choice ignores differences
+        that new estimates of the parameters could remove. Before each choice, the two fits are updated with the
+        readings that were chosen earlier. The updates of the fits use derivatives at the estimates.
 
         Parameters
         ----------
         candidates : dict, DataFrame or Grid
             Operating points that could be measured, as columns of parameters.
         count : int
-            Number of readings to choose. A point may occur twice.
+            Number of readings to choose. A point can be chosen more than once.
         measures : list of str, optional
-            Measures that can be read. Default: the measures of the data.
+            The allowed measures of the new readings. Default: the measures of the data.
 
         Returns
         -------
         DecidingMeasurements
-            Operating points and measures, with the best first, and the expected difference of chi-square. A difference
-            of 10 clearly supports one fit.
+            Operating points and measures, with the best reading first, and the expected difference of chi-square. A
+            difference of 10 in chi-square clearly supports one of the two fits.
 
         Raises
         ------
         ValueError
-            A name is unknown, the data have no readings of a measure, or both fits settle at no point.
+            A name is unknown, the data have no readings of a measure, or no operating point has settled motions in the
+            two fits.
         """
         return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)
 
@@ -213,9 +216,9 @@ class Comparison:
 def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Comparison:
     """Compare fits of the same readings, to decide which model or which set of free parameters describes a robot.
 
-    The fits can differ in their design, model, keywords and free parameters. The comparison uses AICc (Hurvich and Tsai
+    The fits can differ in design, model, keywords and free parameters. The comparison uses AICc (Hurvich and Tsai
     1989) and BIC (Schwarz 1978). A fit with more parameters is better only if the likelihood rises by more than noise
-    can explain. If standard errors are unknown, each fit uses the standard errors that are most likely for this fit.
+    can explain. If standard errors are unknown, each fit uses the standard errors that are most likely for the fit.
 
     Parameters
     ----------
@@ -228,16 +231,16 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     Returns
     -------
     Comparison
-        The criteria of all fits, the verdict, the readings that decide between the fits, and next measurements that
-        would decide.
+        The criteria of all fits, the verdict, the readings that decide between the fits, and the next measurements that
+        would decide between the fits.
 
     Raises
     ------
     ValueError
-        Fewer than two fits; fits of different readings; a robust loss; parameters with a `spread`; too few readings in
-        common.
+        `fits` has fewer than two entries. The fits have different readings, a robust loss, parameters with a `spread`,
+        or too few readings in common.
     TypeError
-        `fits` contains something other than a `Fit`.
+        An entry of `fits` is not a `Fit`.
 
     Examples
     --------
@@ -277,7 +280,8 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
 
 
 def _check_same(first_name: str, first: Fit, name: str, other: Fit) -> None:
-    """Raise ValueError if two fits have different readings, standard errors, or readings that are not fitted."""
+    """Raise ValueError if two fits have different readings, different standard errors, or different held-out
+    readings."""
     told = f"{first_name} and {name} have different"
     remedy = "compare fits of the same data, sigma and hold_out"
     if len(first._sets) != len(other._sets):
@@ -305,7 +309,8 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def _held_out_score(side: Side) -> float:
-    """Return the mean log density of the readings that were not fitted; nan if there are none with a settled motion."""
+    """Return the mean log density of the readings that were not fitted. Return nan if none of the readings that were
+    not fitted has a settled motion."""
     held = side.fit._held & np.isfinite(side.values)
     if not held.any():
         return float("nan")

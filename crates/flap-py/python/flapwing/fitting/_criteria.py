@@ -15,11 +15,11 @@ from ._search import sigmas
 
 @dataclass(frozen=True)
 class Criteria:
-    """The likelihood of readings in a fit, and the criteria that follow from it."""
+    """The likelihood of the readings in a fit, and the information criteria of the fit."""
 
     #: The log likelihood of each reading; nan for readings that are not counted.
     log: Array
-    #: The standard error of each reading, with its most likely value if it is unknown.
+    #: The standard error of each reading. An unknown standard error has the most likely value.
     sigma: Array
     #: Number of free parameters and of estimated standard errors.
     parameters: int
@@ -47,10 +47,11 @@ def criteria(sets: Sequence[DataSet], space: Space, x: Array, values: Array, cou
 
 
 def _log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tuple[Array, Array, int]:
-    """Return the log likelihood of each reading, its standard error, and the number of estimated standard errors.
+    """Return the log likelihood and the standard error of each reading, and the number of estimated standard errors.
 
-    The log likelihood is nan for readings that are not counted. An unknown standard error is the root mean square of
-    the residuals of its measure. The value of a motion that does not settle is zero, as for a wing at rest.
+    The log likelihood is nan for readings that are not counted. An unknown standard error is estimated as the root mean
+    square of the residuals of the measure. If a motion does not settle, the model's value of a reading is zero, as for
+    a wing at rest.
     """
     measured, places = all_readings(sets), places_of(sets)
     error = np.where(np.isfinite(values), values, 0.0) - measured

@@ -27,11 +27,12 @@ class Readings:
     Parameters
     ----------
     columns : dict, Table, DataFrame or path
-        Columns of operating points and measures, or a CSV file with such columns. The name of a column is the name of a
-        parameter or a measure. Parameters are in SI units, and measures are in the unit at the end of the measure's
-        name. The name of a column (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or each cell (``"0.12
-        kHz"``) may have another unit. The name ``frequency_hz`` means ``drive_frequency``. A measure's name with the
-        suffix ``_sigma`` is a column of standard errors, in the measure's unit or as ``"3 %"``.
+        Columns of operating points and measures, or the path of a CSV file with these columns. The name of a column is
+        the name of a parameter or a measure. Parameters are in SI units, and measures are in the unit at the end of the
+        measure's name. If a column has a different unit, write the unit in the name (``drive_frequency_khz``,
+        ``hinge_stiffness (uN*m/rad)``) or in each cell (``"0.12 kHz"``). The name ``frequency_hz`` means
+        ``drive_frequency``. A column with a measure's name and the suffix ``_sigma`` contains standard errors, in the
+        measure's unit or as ``"3 %"``.
     name : str, optional
         The name of the data set in reports. Default: the name of the file, or the number of the data set.
     sigma : float, str or dict, optional
@@ -42,7 +43,7 @@ class Readings:
         For a design with hysteresis, the branch of the readings: ``"up"`` if `parameter` rose during the experiment,
         ``"down"`` if `parameter` fell.
     parameter : str, optional
-        The parameter that rose or fell during the experiment. Default ``"drive_frequency"``.
+        The parameter that rose or fell during the experiment. Default: ``"drive_frequency"``.
     **params : float or str
         Parameters of all operating points, such as ``drive_voltage_pp="160 V"``.
 

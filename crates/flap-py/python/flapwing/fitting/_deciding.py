@@ -18,7 +18,7 @@ from ._result import Fit
 
 @dataclass(frozen=True)
 class Side:
-    """One of the compared fits, with the values of its model at all readings."""
+    """One of the compared fits, with the values of the model at all readings."""
 
     name: str
     fit: Fit
@@ -30,7 +30,7 @@ class Side:
 
 @dataclass(frozen=True)
 class DecidingReading:
-    """A reading that one of two fits predicts better.
+    """A reading that the best fit and the second best fit predict differently.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class DecidingReading:
     reading : float
         The reading, in the unit of the measure.
     values : tuple of float
-        The values of the best fit and of the second best fit, in the unit of the measure.
+        The values that the best fit and the second best fit compute for the reading, in the unit of the measure.
     difference : float
         Log likelihood of the reading in the best fit minus log likelihood in the second best fit. A positive difference
         supports the best fit.
@@ -70,14 +70,16 @@ class DecidingMeasurements:
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
-        The measure to read at each point.
+        The measure of the new reading at each point.
     values : list of tuple of float
         The predictions of the two fits at each point, in the unit of the measure.
     errors : list of float
-        The standard error of the difference at each point: the noise of a reading and the errors of the parameters.
+        The standard error of the difference of the two predictions at each point. The standard error contains the noise
+        of a reading and the errors of the parameters.
     expected : list of float
-        The expected difference of the two fits in chi-square, if one of the two laws is right. The difference is from
-        the readings at a point and at all points before this point. Both laws are fitted again after each reading.
+        The expected difference of the two fits in chi-square, if the model of one of the two fits is correct. The
+        expected difference counts the readings at a point and at all earlier points in the list. Both fits are updated
+        after each reading.
     """
 
     names: tuple[str, str]
@@ -99,7 +101,7 @@ class DecidingMeasurements:
 
 
 def deciding_readings(sides: Sequence[Side], count: int) -> list[DecidingReading]:
-    """Return the readings whose log likelihoods in two fits differ most, in falling order."""
+    """Return the readings whose log likelihoods in two fits differ most, in falling order of the difference."""
     first, second = sides
     difference = first.criteria.log - second.criteria.log
     order = np.argsort(-np.abs(np.nan_to_num(difference)), kind="stable")[: min(count, np.isfinite(difference).sum())]
@@ -164,7 +166,7 @@ def deciding_measurements(
 
 
 def _sigma(side: Side, measure: str, values: Array) -> Array:
-    """Return the standard errors of new readings. An unknown standard error has its most likely value."""
+    """Return the standard errors of new readings. Each unknown standard error has the most likely value."""
     likely = float(np.median(side.criteria.sigma[np.array(side.fit._model.asked.measure) == measure]))
     return side.fit._noise(measure, {}).of(values, np.nan_to_num(values), likely)
 
@@ -172,13 +174,15 @@ def _sigma(side: Side, measure: str, values: Array) -> Array:
 def _decide(
     values: Sequence[Array], slopes: Sequence[Array], variance: Array, fits: Sequence[Fit], count: int
 ) -> tuple[list[int], list[float], list[float]]:
-    """Return the candidates that decide best between two fits, their standard errors, and the expected differences.
+    """Return the candidates that decide best between two fits. For each candidate, return the standard error and the
+    expected difference of chi-square.
 
-    If the first law is right, a reading raises the chi-square of the second fit. The rise is the square of the
-    difference of both predictions, divided by the variance of the reading and of the second prediction. A new fit
-    of the second law to the reading makes the rise smaller. The reason is that this fit moves the predictions of
-    the second law towards the predictions of the first law. The expected difference is the mean of this smaller
-    rise and of the rise with exchanged fits.
+    If the first law is correct, a reading raises the chi-square of the second fit. The rise of chi-square is the
+    squared difference of the two predictions, divided by the sum of two variances. The first variance belongs to the
+    reading, and the second variance to the prediction of the second fit. If the second law is fitted to the reading,
+    the rise becomes smaller, because the predictions of the second law move towards the first law. The expected
+    difference of chi-square is the mean of two rises. For one rise, the first law is correct, and for the second rise,
+    the second law is correct.
     """
     # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
     covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]

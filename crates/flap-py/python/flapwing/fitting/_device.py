@@ -87,7 +87,7 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """Return the label of each fitted parameter. If a parameter differs between data sets, return its label for the
+    """Return the label of each fitted parameter. If a parameter differs between data sets, return the label for the
     chosen data set.
     """
     known = [one.name for one in fit._sets]
@@ -103,7 +103,7 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
 
 
 def _set(fit: Solution, labels: dict[str, str]) -> dict[str, Any]:
-    """Return the parameters of the design and its derived parameters, and the parameters that were keywords of the call
+    """Return the parameters and the derived parameters of the design, and the parameters that were keywords of the call
     of `fit`.
     """
     model = fit._model

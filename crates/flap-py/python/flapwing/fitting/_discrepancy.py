@@ -17,8 +17,8 @@ _MOST = 0.95
 #: Smallest discrepancy that counts, in standard errors of the readings.
 _LEAST = 0.1
 
-#: Smallest share of the discrepancy's squares that remains in the residuals. A fit that follows more of the discrepancy
-#: has too few readings for an estimate of its size.
+#: Smallest share of the discrepancy's squares that remains in the residuals. If the share is smaller, the fit has too
+#: few readings for an estimate of the discrepancy.
 _REST = 0.2
 
 #: Number of rows of the correlation matrix that are computed together.
@@ -38,7 +38,8 @@ class Discrepancy:
         The standard deviation of the discrepancy at a random operating point of the data.
     readings : float
         The number of readings with independent discrepancies that contain as much information as the readings of the
-        data. Neighbouring points have similar discrepancies, so the number is less than the number of readings.
+        data. Neighbouring points have similar discrepancies, so `readings` is less than the number of readings in the
+        data.
     """
 
     measure: str
@@ -75,15 +76,15 @@ def of_residuals(
     """Return the discrepancy that explains the squares of the residuals.
 
     The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij. In this formula, s is the model's value
-    for standard errors in per cent, otherwise 1. The correlation ρ falls with the distance of two points, in ranks
-    along each parameter. The decline of ρ is computed from the products of neighbouring residuals. The expected sum of
-    squares accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
-    likelihood.
+    if standard errors are in per cent, and 1 if not. The correlation ρ of two points falls with the distance between
+    the points. The distance is counted in ranks along each parameter. The decline of ρ is computed from the products of
+    neighbouring residuals. The expected sum of squares accounts for the part of noise and discrepancy that the fitted
+    parameters follow, as in a restricted maximum likelihood.
 
     `measures` has the fitted readings of each measure, and `structured` the measures whose residuals have a pattern.
     The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain the
-    discrepancy. If the residuals of such a measure have a pattern, all of the standard error is discrepancy. `inverse`
-    is the covariance of the coordinates without discrepancy.
+    discrepancy. If the residuals of a measure of this kind have a pattern, the whole standard error counts as
+    discrepancy. `inverse` is the covariance of the coordinates without discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)
@@ -128,7 +129,8 @@ def of_residuals(
 
 
 def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:
-    """Return the mean product of neighbouring residuals along each parameter, per square of `shape`."""
+    """Return the mean product of neighbouring residuals along each parameter, divided by the product of the neighbours'
+    values in `shape`."""
     whole = np.zeros(len(scaled))
     whole[chosen] = shape
     found = {}
@@ -142,8 +144,8 @@ def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> di
 def _correlated(
     layout: Layout, chosen: Places, declines: Mapping[str, float], shape: Array, slopes: Array
 ) -> tuple[Array, float]:
-    """Return the products of `slopes` with the correlation matrix of the discrepancy, and the sum of its elements, both
-    weighted by `shape`.
+    """Return two results from the correlation matrix of the discrepancy, which is weighted by `shape`. The first result
+    is the matrix, multiplied by `slopes` from both sides. The second result is the sum of all elements of the matrix.
     """
     weighted = shape[:, np.newaxis] * slopes
     ranks = {name: layout.ranks[name][chosen] for name in layout.varied}

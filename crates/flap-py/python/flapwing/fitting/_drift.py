@@ -7,7 +7,8 @@ import numpy as np
 from .._types import Array, Places
 from ._parameters import Space
 
-#: Limit of the probability below which data sets disagree. All tests of a fit share this limit.
+#: Limit of the probability below which data sets disagree. The limit is divided by the number of tests of a fit
+#: (Bonferroni).
 _SIGNIFICANT = 1e-3
 
 
@@ -15,9 +16,10 @@ def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -
     """Return the shared parameter that explains a disagreement between data sets best. Return an empty text if the data
     sets agree.
 
-    A parameter explains the disagreement if a value for each data set reduces the sum of squares of the residuals
-    (F test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled` has the
-    residuals in standard errors, `jacobian` their derivatives, and `of_set` the data set of each reading.
+    A parameter explains the disagreement if separate values for the data sets significantly reduce the sum of squares
+    of the residuals (F test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled`
+    has the residuals in standard errors, `jacobian` has the derivatives of `scaled`, and `of_set` has the data set of
+    each reading.
     """
     from scipy.stats import f
 

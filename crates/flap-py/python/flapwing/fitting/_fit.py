@@ -57,41 +57,42 @@ def fit(
         One or several data sets with parameters of the operating points and with measures (see `Readings`).
     free : list of str, or dict
         The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
-        Bounds are numbers in SI units or text with units; None is the default bound. Default bounds: a third of the
-        design's value, and three times the design's value; see `FreeParameter` for values of zero.
+        Bounds are numbers in SI units or text with units; None stands for the default bounds. The default bounds are a
+        third of the design's value and three times the design's value. If the design's value is zero, see
+        `FreeParameter`.
     sigma : float, str or dict, optional
-        The standard error of readings without a column of standard errors: a number in the measure's unit, text such as
-        ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for each measure. Default:
-        the standard error is estimated from the residuals.
+        The standard error of readings that have no column of standard errors. `sigma` is a number in the measure's
+        unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
+        each measure. Default: the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
         The loss function. All loss functions except ``"linear"`` reduce the weight of outliers.
     starts : int
-        Number of searches. The first search starts at the design's values, and the other searches start at the best
+        Number of searches. The first search starts at the design's values, and the remaining searches start at the best
         points of a Sobol' sequence.
     seed : int
         Seed of the Sobol' sequence and of a random `hold_out`.
     hold_out : float, str, dict, or list of str and dict, optional
         Readings that are predicted instead of fitted: a fraction of all readings, names of data sets, or ranges of
-        parameters. A range such as ``{"drive_frequency": (110, 120)}`` has SI units, or is text with units; An end of
+        parameters. A range such as ``{"drive_frequency": (110, 120)}`` is in SI units, or is text with units. An end of
         None means that the range is open at this end. The model computes the held-out readings only once, after the
         search.
     profile : bool
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
-        computed from the derivatives at the estimate, which is faster.
+        computed from the derivatives at the estimate, which is faster than the profile likelihood.
     threads : int, optional
         Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the results.
     progress : bool or function, optional
         If True, the number of computed points is shown. A function is called with two arguments, which are both the
         number of computed points.
     **keywords : float or str
-        Parameters of all data and solver settings.
+        Parameters that apply to all data, and solver settings.
 
     Returns
     -------
     Fit
-        Estimates of the parameters, their errors and confidence intervals, and the quality of the fit. Print the result
-        to read the report. If the model disagrees with the data, errors and intervals contain the discrepancy of the
-        model (`Fit.discrepancy`).
+        Estimates, standard errors and confidence intervals of the parameters, and the quality of the fit. Print the
+        `Fit` to read the report. If the model disagrees with the data, errors and intervals contain the discrepancy of
+        the model (`Fit.discrepancy`).
 
     Raises
     ------
@@ -138,8 +139,8 @@ def finish(
     seed: int,
     begun: float,
 ) -> Fit:
-    """Return the result of a fit from the ends of its searches, with the best end first. The fit began at the time
-    `begun`.
+    """Return the result of a fit. `ends` are the points at which the searches ended, with the best point first. The fit
+    began at the time `begun`.
     """
     target, found, answer = _settle(model, sets, target, ends[0], guesses)
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
@@ -193,8 +194,8 @@ def finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search, with the standard errors and spreads at the end of this search. Readings without a settled
-    motion at the end are left out.
+    """Run the last search of a fit. The search is repeated until the standard errors and spreads before and after the
+    search agree. Readings without a settled motion are left out.
     """
     found = best
     for _ in range(_ROUNDS):
@@ -282,7 +283,8 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
 
 
 def check_options(loss: Any, starts: Any, seed: Any) -> None:
-    """Raise an error for an unknown loss, an impossible number of starts or seed, or without SciPy."""
+    """Raise an error if the loss is unknown, if the number of starts or the seed is impossible, or if SciPy is
+    missing."""
     try:
         import scipy.optimize  # noqa: F401
     except ImportError:

@@ -21,8 +21,8 @@ _TRIES = 6
 #: Further values of a profile, as shares of the distance from the estimate to the end of the interval.
 _BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
 
-#: Largest difference between the required height of a profile and the height at its end. The height is the square root
-#: of the rise of the cost, in standard errors.
+#: Largest difference between the required height of a profile and the height at the end of the profile. The height is
+#: the square root of the rise of the cost, in standard errors.
 _NEAR = 0.03
 
 
@@ -36,13 +36,13 @@ class Profile:
         Values of the parameter in SI units, in rising order.
     rise : array
         The signed square root of the increase of the cost at each value, in standard errors that contain the
-        discrepancy of the model. This height is 0 at the estimate, and nearly a straight line if the data determine the
-        parameter well.
+        discrepancy of the model. `rise` is 0 at the estimate, and nearly a linear function of the parameter if the data
+        determine the parameter well.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. The data then give no limit for the
-        parameter on this side.
+        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
+        the data give no limit for the parameter on the side of the bound.
     """
 
     value: Array
@@ -60,7 +60,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile: coordinates, heights, and the flag `is_open`. The flag is True if the profile reached the
+    """One side of a profile: coordinates, heights, and the flag `is_open`. `is_open` is True if the profile reached the
     bound of the parameter before the required height.
     """
 
@@ -73,8 +73,9 @@ class _Side:
 
 @dataclass(frozen=True)
 class _ProfileSearch:
-    """The fit from which profiles begin: its readings, its estimate, and the covariance without discrepancy of the
-    model. The discrepancy increases the error of each coordinate by a factor. Profiles end at `quantile` such errors.
+    """The fit from which profiles begin: readings, estimate, and the covariance without the discrepancy of the model. A
+    profile ends at a distance of `quantile` standard errors from the estimate. The standard errors contain the
+    discrepancy.
     """
 
     space: Space
@@ -137,7 +138,7 @@ class _ProfileSearch:
         return _Side(side.x, side.height, float(reached), is_open, best)
 
     def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
-        """Add a value to one side of a profile, between the estimate and the last value of this side."""
+        """Add a value to one side of a profile, between the estimate and the last value of the side."""
         x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
         tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
         side.x.append(float(x[held]))
@@ -195,10 +196,10 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
     parameters. `at_estimate` has the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
-    space at each set of parameters, no data of this kind can distinguish the parameters. If only a product of
-    parameters matters, the null space in logarithms of the parameters is the same at all sets. If only a sum of
-    parameters matters, the null space in the parameters is the same at all sets. In both cases, the stacked derivatives
-    of all sets have the same null space.
+    space at each set, no readings of the same measures at the same points can distinguish the parameters. If only a
+    product of parameters affects the readings, the null space in logarithms of the parameters is the same at all sets.
+    If only a sum of parameters affects the readings, the null space in the parameters is the same at all sets. For
+    products and for sums, the stacked derivatives of all sets of parameters have the same null space.
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.
@@ -235,7 +236,8 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
 
 
 def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
-    """Return the labels of the parameters without an effect on any reading, and the places of the other parameters."""
+    """Return the labels of the parameters without an effect on any reading, and the places of the parameters with an
+    effect."""
     is_idle = np.linalg.norm(jacobian, axis=0) * (space.high - space.low) < _EFFECT
     return [label for label, none in zip(space.labels, is_idle) if none], np.flatnonzero(~is_idle)
 

@@ -24,8 +24,8 @@ FINE = 1e-6
 #: The tolerances of integration and settling for initial states, which need only be close to the motion.
 _NEARBY, _SETTLED = 1e-4, 1e-4
 
-#: A coordinate that is not logarithmic has no derivative by relative changes near zero. If the parameter is nearer to
-#: zero than this share of its range, its derivative is the difference over a step of this share.
+#: Limit for values near zero, as a share of the parameter's range. If a parameter is nearer to zero than the limit,
+#: relative changes give no derivative. The derivative is then computed from a step of the size of the limit.
 _NEAR_ZERO = 1e-3
 
 #: Number of results of the model that are kept, because a search repeats the point at which an earlier search ended.
@@ -59,9 +59,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """The operating points of the readings that a search runs: all points with a fitted reading, and all points on
-    branches.
-    """
+    """The operating points that a search runs: all points with a fitted reading, and all points on branches."""
 
     points: dict[str, Any]
     branches: list[Branch]
@@ -93,7 +91,7 @@ class Model:
         self.points, self.branches = _points(names, sets)
         self.asked = _asked(sets)
         self.part = _part(self.points, self.branches, self.asked, held)
-        #: Number of points run so far, and number of evaluations of the right-hand side.
+        #: Number of points that were run, and number of evaluations of the right-hand side.
         self.ran = 0
         self.rhs_evals = 0
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
@@ -122,7 +120,7 @@ class Model:
         slopes: bool = True,
         rtol: float | None = None,
     ) -> list[Answer]:
-        """Return the values of the model at other operating points, for several sets of coordinates."""
+        """Return the values of the model at operating points outside the data, for several sets of coordinates."""
         rows = _length(points)
         columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
         columns.update(self._free(asked, rows, xs))
@@ -152,11 +150,11 @@ class Model:
         return answers
 
     def everything(self, x: Array) -> Answer:
-        """Return all readings of the model at coordinates, also the readings that are not fitted."""
+        """Return all readings of the model at coordinates, including the readings that are not fitted."""
         return self.answers(self.points, self.asked, self.branches, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
-        """Return results for all readings, from the results for the readings that a search runs."""
+        """Return results for all readings, from the results for the readings that a search computes."""
         count, places = len(self.asked.row), self.part.places
         if len(places) == count:
             return answer
@@ -171,9 +169,7 @@ class Model:
         return Answer(values, slopes, status, gaps)
 
     def _near_zero(self, x: Array) -> list[int]:
-        """Return the coordinates without a derivative by relative changes, because the value of the parameter is near
-        zero.
-        """
+        """Return the coordinates whose parameter has a value near zero, where relative changes give no derivative."""
         coordinates = self.space.coordinates
         return [
             column

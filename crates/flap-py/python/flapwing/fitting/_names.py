@@ -50,13 +50,13 @@ class Meaning:
 
 
 def _hint(name: str, known: list[str]) -> str:
-    """Return the nearest known name as part of an error message; empty if no known name is near."""
+    """Return the most similar known name as part of an error message. Return empty text if no known name is similar."""
     near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
     return f", did you mean `{near[0]}`?" if near else ""
 
 
 class Names:
-    """The names of the parameters and measures of a design, with their units."""
+    """The names and units of the parameters and measures of a design."""
 
     def __init__(self, design: Design) -> None:
         self.grid = Grid(design)
@@ -130,7 +130,7 @@ class Names:
         return self._found(place, header, name, unit)
 
     def check_measure(self, name: str) -> None:
-        """Raise ValueError with the nearest name if `name` is not a measure."""
+        """Raise ValueError with the most similar name if `name` is not a measure."""
         if not self.is_measure(name):
             raise ValueError(
                 f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"

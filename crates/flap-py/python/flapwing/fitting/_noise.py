@@ -21,7 +21,7 @@ class Noise:
     size: Array | float = 1.0
 
     def of(self, values: Array, measured: Array, guess: float) -> Array:
-        """Return the standard errors of readings, given the model's values of these readings. `guess` replaces unknown
+        """Return the standard errors of readings, from the model's values of the readings. `guess` replaces unknown
         standard errors.
         """
         if self.kind == "unknown":

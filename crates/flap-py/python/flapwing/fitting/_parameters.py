@@ -25,22 +25,22 @@ class FreeParameter:
     Attributes
     ----------
     low, high : float or str, optional
-        Bounds of the parameter, in SI units or as text with units. Default: a third of the design's value, and three
-        times the design's value. If the design's value is zero, the defaults are the bounds of `flapwing.candidates`;
-        a parameter without such bounds requires `low` and `high`. The first search begins at the design's value, or at
-        the middle of the bounds if the design's value is outside of the bounds.
-        Bounds of zero are allowed if the parameter may be zero.
+        Bounds of the parameter, in SI units or as text with units. Default bounds: a third of the design's value, and
+        three times the design's value. If the design's value is zero, the default bounds are the bounds of
+        `flapwing.candidates`. If `flapwing.candidates` has no bounds for the parameter, `low` and `high` are required.
+        The first search begins at the design's value, or at the middle of the bounds if the design's value is outside
+        of the bounds. A bound of zero is allowed if zero is an allowed value of the parameter.
     prior : (value, error), optional
         A value that is known before the fit, and the standard error of this value: numbers in SI units, or text with
-        units. The standard error can also be a text such as ``"5 %"``.
+        units. The standard error of a prior can also be text such as ``"5 %"``.
     per_set : bool
-        True if each data set has its own value of the parameter, for example if the wing was changed between
+        True if each data set has a separate value of the parameter, for example if the wing was changed between
         experiments.
     spread : float, str or True, optional
-        For data sets of several robots of the same build. Each data set has its own value of the parameter, and these
-        values scatter about a common mean (normal distribution). The spread is the standard deviation of the scatter: a
-        number in SI units, text with a unit, or text such as ``"5 %"`` of the mean. With True, the spread is estimated
-        from the data. A parameter with `spread` cannot have a `prior`.
+        The scatter of the parameter between several robots of the same design. Each data set has a separate value of
+        the parameter, and the values of all data sets scatter about a common mean (normal distribution). The spread is
+        the standard deviation of the scatter: a number in SI units, text with a unit, or text such as ``"5 %"`` of the
+        mean. If True, the spread is estimated from the data. A parameter with `spread` cannot have a `prior`.
     """
 
     low: Value | None = None
@@ -67,8 +67,8 @@ class Coordinate:
     prior: tuple[float, float] | None
 
     def value(self, x: Any) -> Any:
-        """Return the value of a parameter in SI units at a coordinate of the search. Coordinate 0 is the value of the
-        design."""
+        """Return the value of a parameter in SI units at a coordinate of the search. The coordinate 0 belongs to the
+        value in the design."""
         # Rounding must not lead out of the bounds: a parameter may have no values below its bound.
         value = self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
         return np.clip(value, self.low, self.high)
@@ -78,7 +78,7 @@ class Coordinate:
         return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
 
     def slope(self, x: float) -> float:
-        """Return the derivative of the parameter's value with respect to its coordinate."""
+        """Return the derivative of the parameter's value with respect to the coordinate."""
         return float(self.value(x) if self.log else self.width)
 
     @property
@@ -118,12 +118,12 @@ class Space:
         return np.array([one.value(place) for one, place in zip(self.coordinates, x)])
 
     def slopes(self, x: Array) -> Array:
-        """Return the derivative of each free parameter's value with respect to its coordinate."""
+        """Return the derivative of each free parameter's value with respect to the parameter's coordinate."""
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
     def prior(self, x: Array, leave_out: str = "") -> tuple[Array, Array]:
-        """Return the residuals of the priors, and their derivatives with respect to the coordinates. The spread of the
-        parameter `leave_out` does not count.
+        """Return the residuals of the priors, and the derivatives of these residuals with respect to the coordinates.
+        The residuals leave out the spread of the parameter `leave_out`.
         """
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
@@ -139,8 +139,9 @@ class Space:
         return residuals, slopes
 
     def contrasts(self, group: Group, x: Array) -> tuple[Array, Array]:
-        """Return differences of the values of a group, and their derivatives with respect to the coordinates. The sum
-        of the squares is the sum of the squared differences from the mean of the values.
+        """Return contrasts of the values of a group, and the derivatives of the contrasts with respect to the
+        coordinates. The sum of the squared contrasts equals the sum of the squared deviations from the mean of the
+        values.
         """
         from scipy.linalg import helmert
 
@@ -151,7 +152,7 @@ class Space:
 
 
 def _first_spread(group: Group, one: Coordinate) -> float:
-    """Return the standard deviation of a group with which the search begins."""
+    """Return the first guess of the standard deviation of a group, with which the search begins."""
     if group.given is not None and not group.is_share:
         return group.given
     share = 0.1 if group.given is None else group.given
@@ -282,7 +283,7 @@ def _value(names: Names, name: str, given: Any) -> float | None:
 
 
 def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Group:
-    """Return the group of a parameter with a spread. Raise ValueError if the spread is impossible."""
+    """Return the group of coordinates of a parameter with a spread. Raise ValueError if the spread is impossible."""
     if len(places) < 2:
         raise ValueError(f"free[{name!r}]: `spread` requires two or more data sets\ngive one data set for each robot")
     if free.prior is not None:
@@ -294,7 +295,8 @@ def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Grou
 
 
 def _error(names: Names, name: str, told: str, given: Any) -> tuple[float, bool]:
-    """Return a standard error or deviation: in SI units, or as a share with True."""
+    """Return a standard error or a standard deviation. The flag is True if the number is a share of the parameter's
+    value, and False if the number is in SI units."""
     text = given.strip() if isinstance(given, str) else ""
     if isinstance(given, (int, float)) and not 0 < given < np.inf:
         raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")

@@ -21,15 +21,15 @@ class NextMeasurements:
     Attributes
     ----------
     target, unit : str
-        The parameter or measure whose error is reduced, and its unit.
+        The parameter or measure whose error is reduced, and the unit of the target.
     now : float
         The present error of the target.
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
-        The measure to read at each point.
+        The measure of the new reading at each point.
     errors : list of float
-        The error of the target after the readings at a point and at all points before this point.
+        The error of the target after the readings at a point and at all earlier points in the list.
     """
 
     target: str
@@ -66,9 +66,9 @@ def plan(
     """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
     the present error of the target.
 
-    A reading adds the outer product of its derivatives, in standard errors, to the information matrix. The next reading
-    is the candidate after which the variance of the target is smallest. `errors_of` returns the standard errors of the
-    readings of a measure at given values.
+    To the information matrix, a reading adds the outer product of the reading's derivatives, divided by the variance of
+    the reading. The next reading is the candidate after which the variance of the target is smallest. `errors_of`
+    returns the standard errors of the readings of a measure at given values.
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:

@@ -57,8 +57,8 @@ def _column(names: Names, values: list[Any], name: str) -> Any:
 def answers_at(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
-    """Return a measure at other operating points, with the parameters of a data set. If `like` is given, use the branch
-    of the data set `like`.
+    """Return a measure at operating points outside the data, with the parameters of a data set. If `like` is given, use
+    the branch of the data set `like`.
     """
     count = len(next(iter(points.values())))
     model.names.check_measure(measure)

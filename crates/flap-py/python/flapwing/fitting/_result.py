@@ -21,12 +21,12 @@ from ._solution import Solution
 
 @dataclass(frozen=True)
 class Prediction:
-    """A predicted measure at operating points, with its uncertainty.
+    """A predicted measure at operating points, with the uncertainty of the prediction.
 
     Attributes
     ----------
     measure, unit : str
-        The predicted measure and its unit.
+        The predicted measure, and the unit of the measure.
     points : dict
         The operating points: values of parameters, in SI units.
     value : array
@@ -61,9 +61,10 @@ class Prediction:
 
 
 class Fit(Solution):
-    """The result of `fit`: estimates, their uncertainty, and the quality of the fit.
+    """The result of `fit`: estimates with uncertainties, and the quality of the fit.
 
-    ``print(fit)`` shows the whole report. Use ``**fit.values`` to set the fitted parameters in other calls.
+    ``print(fit)`` shows the whole report. Use ``**fit.values`` to set the fitted parameters in calls such as
+    `flapwing.run`.
 
     Attributes
     ----------
@@ -72,7 +73,8 @@ class Fit(Solution):
     spreads : dict of str to Spread
         Mean and standard deviation over all robots of each `FreeParameter` with `spread`.
     correlations : array
-        Correlations of the estimates, in the order of `estimates`; nan for parameters that the data do not determine.
+        Correlations of the estimates, in the order of `estimates`. A correlation is nan if the data do not determine
+        one of the two parameters.
     combinations : list of str
         The combinations of parameters that the data determine best and worst.
     indistinct : list of str
@@ -81,45 +83,47 @@ class Fit(Solution):
     goodness : Goodness
         Chi-square, the probability of chi-square, and the residuals by data set and measure.
     unsettled : list of Unsettled
-        Readings that are ignored, because the motion at their operating point does not settle.
+        Readings that are ignored, because the motion at the operating point does not settle.
     held_out : HeldOut or None
         The predictions of readings that were not fitted (`hold_out`).
     discrepancy : list of Discrepancy
-        The discrepancy of the model for each measure. The list is empty if the model agrees with the data.
+        The discrepancy of the model for each measure. `discrepancy` is empty if the model agrees with the data.
     outliers : list of Outlier
-        Fitted readings that are far from the model, with the largest residual first. The limit is 4 standard errors, or
-        3 standard errors if `loss` is not ``"linear"``.
+        Fitted readings that are far from the model, with the largest residual first. The residual of an outlier is
+        larger than 4 standard errors, or larger than 3 standard errors if `loss` is not ``"linear"``.
     drifting : str
-        The parameter that explains a disagreement between data sets best, if each data set has its own value. Empty if
-        the data sets agree.
+        The parameter that explains a disagreement between data sets best, if each data set has a separate value.
+        `drifting` is empty if the data sets agree.
     effort : Effort
-        The work of the fit: number of starts, points and evaluations, and the time.
+        The amount of work of the fit: number of starts, points and evaluations, and the time.
     """
 
     def predict(self, points: Any, measure: str, *, data_set: str | None = None, reading: bool = False) -> Prediction:
-        """Predict a measure at other operating points, with 95 % bands.
+        """Predict a measure at given operating points, with 95 % bands.
 
-        The bands contain the errors of the parameters. If the model does not agree with the data, the bands also
-        contain the discrepancy of the model for this measure. The discrepancy of a measure without readings is unknown.
+        The bands of the predictions contain the errors of the parameters. If the model does not agree with the data,
+        the bands also contain the discrepancy of the model for the predicted measure. The discrepancy of a measure
+        without readings is unknown.
 
         Parameters
         ----------
         points : dict, DataFrame or Grid
-            Columns of parameters, as in `Readings`. You may leave out parameters that have the same value in all data
+            Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
             sets.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
-            The data set whose parameters and branch are used. Default: the parameters of the first data set, and
-            motions from rest.
+            The data set whose parameters and branch are used for the prediction. Default: the parameters of the first
+            data set, and motions from rest.
         reading : bool
-            If True, the bands also contain the noise of a reading: the bands then contain 95 % of new readings. The
-            noise has the standard errors of the data.
+            If True, the bands also contain the noise of a reading, so that the bands contain 95 % of new readings. The
+            standard errors of the noise are the standard errors of the data.
 
         Returns
         -------
         Prediction
-            `value`, `error`, `low` and `high`, in the unit of the measure; nan if the motion does not settle.
+            The prediction with `value`, `error`, `low` and `high`, in the unit of the measure. The predictions are nan
+            at a point whose motion does not settle.
 
         Raises
         ------
@@ -161,28 +165,29 @@ class Fit(Solution):
         candidates : dict, DataFrame or Grid
             Operating points that could be measured, as columns of parameters.
         target : str or dict
-            The parameter whose error is reduced, or a prediction: ``{"measure": "lift_mean_mn", "drive_frequency":
-            110}``.
+            The parameter whose error is reduced, or a prediction such as ``{"measure": "lift_mean_mn",
+            "drive_frequency": 110}``.
         count : int
-            Number of readings to choose. If there are fewer candidates, all candidates are returned.
+            Number of readings to choose. If `candidates` has fewer than `count` points, all candidates are returned.
         measures : list of str, optional
-            Measures that can be read. Default: the measures of the data and of `sigma`.
+            The allowed measures of the new readings. Default: the measures of the data and of `sigma`.
         sigma : dict, optional
             Standard errors of readings by measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. Default: the standard
-            errors of the data. Measures without readings in the data need a standard error.
+            errors of the data. `sigma` must contain a standard error for measures without readings in the data.
         repeats : bool
-            If True, a measure may be read several times at the same point.
+            If True, a measure can be read several times at the same point.
 
         Returns
         -------
         NextMeasurements
-            Operating points and measures, with the best first, and the error of the target that remains after each
-            reading. The error of a parameter is in the parameter's SI unit.
+            Operating points and measures, with the best reading first, and the error of the target that remains after
+            each reading. The error of a parameter is in the parameter's SI unit.
 
         Raises
         ------
         ValueError
-            A name is unknown, a standard error is missing, there are no points, or no point has a settled motion.
+            A name is unknown, a standard error is missing, `candidates` has no points, or no point has a settled
+            motion.
         """
         repeats = _arguments.flag("repeats", repeats)
         count = _arguments.count("count", count)
@@ -207,11 +212,12 @@ class Fit(Solution):
     def write_device(
         self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False
     ) -> None:
-        """Write a device file: the design with the fitted parameters, their standard errors and correlations.
+        """Write a device file: the design with the fitted parameters, and the standard errors and correlations of these
+        parameters.
 
-        If the design is a device, the file keeps the description of the device, and the standard errors, correlations
-        and sources of other parameters. ``{"device": "mybee.toml"}`` uses the file in a grid. ``[sample] of =
-        "device"`` draws samples from the standard errors in the file.
+        If the design is a device, the file keeps the description of the device. The file also keeps the standard
+        errors, correlations and sources of the parameters that were not fitted. ``{"device": "mybee.toml"}`` uses the
+        file in a grid. ``[sample] of = "device"`` draws samples from the standard errors in the file.
 
         Parameters
         ----------

@@ -87,14 +87,14 @@ _LOOKS = 4
 #: Largest number of steps of a search.
 _STEPS = 40
 
-#: The cost at the end of the last search is known to this error, which changes a parameter by at most 0.014 standard
-#: errors. The numerical error of the cost has about this size.
+#: The largest error of the cost at the end of the last search. An error of this size changes a parameter by at most
+#: 0.014 standard errors. The numerical error of the cost has about the same size.
 _COST = 1e-4
 
 
 @dataclass(frozen=True)
 class Target:
-    """The readings of a fit with their weights."""
+    """The readings of a fit, with the weight of each reading."""
 
     measured: Array
     sigma: Array
@@ -103,10 +103,11 @@ class Target:
     loss: str
 
     def residuals(self, space: Space, x: Array, answer: Answer) -> Array:
-        """Return the residuals of the readings, (model - reading) / standard error, then the residuals of the priors.
+        """Return the residuals of the readings, (model - reading) / standard error, followed by the residuals of the
+        priors.
 
         If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual of an
-        unsettled motion is therefore large, and the search avoids the coordinates of such motions.
+        unsettled motion is therefore large, and the search avoids the coordinates of unsettled motions.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -309,7 +310,8 @@ def new_guesses(
 
 
 def sigmas(sets: Sequence[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
-    """Return the standard errors of all readings, given the model's values. `guesses` has unknown standard errors."""
+    """Return the standard errors of all readings, given the model's values. `guesses` has estimates of the unknown
+    standard errors."""
     parts, begin = [], 0
     for one in sets:
         for measure, measured in one.measured.items():

@@ -18,7 +18,7 @@ from ._names import Names
 from ._result import Fit
 from ._subsets import Subset, Subsets
 
-#: A candidate is fitted if its predicted gain is at least this share of the best gain of the step.
+#: Smallest predicted gain of a candidate that is fitted, as a share of the best gain of the step.
 _WORTH = 0.5
 
 
@@ -29,29 +29,30 @@ class SelectionStep:
     Attributes
     ----------
     freed : str
-        The parameter that becomes free in the step. The name is empty for the first fit and for a step that fixes a
+        The parameter that becomes free in the step. `freed` is empty for the first fit, and for a step that fixes a
         parameter.
     removed : str
-        The parameter that the step set back to its value in the design, because later parameters made this parameter
-        unnecessary. The name is empty in most steps.
+        The parameter that the step sets back to the value in the design, because later parameters made the removed
+        parameter unnecessary. `removed` is empty in most steps.
     parameters : list of str
         All free parameters after the step.
     chi_square : float
-        Sum of the squares of the residuals in standard errors. For estimated standard errors, chi-square contains no
-        information.
+        Sum of the squares of (residual / standard error) over all readings. For estimated standard errors,
+        chi-square contains no information about the fit.
     criterion : float
         The criterion after the step.
     gain : float
-        The decrease of the criterion in this step; nan for the first fit.
+        The decrease of the criterion in the step. For the first fit, `gain` is nan.
     p : float
-        The probability that noise alone improves the fit as much as the best of all candidates; nan if the step frees
-        no parameter.
+        The probability that noise alone improves the fit as much as the best of all candidates. `p` is nan if the step
+        frees no parameter.
     held_out : float
-        Root mean square of the errors of readings that were not fitted, in standard errors; nan without `hold_out`.
+        Root mean square of the errors of readings that were not fitted, in standard errors. `held_out` is nan if the
+        selection has no `hold_out`.
     alternatives : dict of str to float
-        The other candidates that were fitted in this step, with the criterion of each candidate minus the criterion of
-        the chosen parameter. An alternative with a difference below 2 explains the readings about as well as the chosen
-        parameter.
+        The candidates that were fitted in the step but not chosen. In `alternatives`, the value of a candidate is the
+        criterion of the candidate minus the criterion of the chosen parameter. A candidate with a value below 2 in
+        `alternatives` explains the readings about as well as the chosen parameter.
     """
 
     freed: str
@@ -67,17 +68,17 @@ class SelectionStep:
 
 @dataclass(frozen=True)
 class Selection:
-    """The result of `select`. ``print(selection)`` shows the path of the selection.
+    """The result of `select`. ``print(selection)`` shows all steps of the selection.
 
     Attributes
     ----------
     steps : list of SelectionStep
-        The steps of the selection; the first step is the fit of the parameters `start`.
+        The steps of the selection. The first step is the fit of the parameters `start`.
     final : Fit or None
-        The final fit with several starts and profiles; None if no parameter is free.
+        The final fit, with several starts and with profiles. `final` is None if no parameter is free.
     remaining : dict of str to float
         The candidates that are not free, with the predicted decrease of chi-square if the candidate becomes free next.
-        The largest decrease is first.
+        The candidate with the largest decrease is first.
     stopped : str
         The reason for the end of the selection.
     at_bounds : list of str
@@ -87,7 +88,7 @@ class Selection:
     fits : int
         Number of fits, without the final fit.
     points, rhs_evals : int
-        Number of points and of evaluations of the equations of motion of all fits, with the final fit.
+        Number of points, and number of evaluations of the equations of motion, in all fits including the final fit.
     seconds : float
         Time of the selection (s).
     """
@@ -159,14 +160,14 @@ def select(
     progress: Progress = False,
     **keywords: Value,
 ) -> Selection:
-    """Select the parameters that readings require: make one candidate after the other a free parameter, as long as the
-    fit improves.
+    """Select the parameters that readings require: free further candidates, one at a time, until the fit does not
+    improve.
 
-    Use this function to find the effect that a model lacks. Each step predicts the gain of all candidates from
+    Use `select` to find the effect that a model lacks. Each step predicts the gain of all candidates from
     derivatives at the present fit (score test), and fits the candidates with the largest predicted gains. The step
     frees the candidate with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the
-    improvement is not significant. Then `select` fits all selected parameters once more like `fit`, with several starts
-    and profiles.
+    improvement is not significant. At the end, `select` fits all selected parameters once more, with several starts and
+    profiles, like `fit`.
 
     Parameters
     ----------
@@ -175,30 +176,31 @@ def select(
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
         The readings, as for `fit`.
     candidates : list of str, or dict
-        The parameters that may be freed, with bounds as for `fit`. `flapwing.candidates` returns a suitable dictionary.
-        A candidate that is not free has its value in the design.
+        The parameters that can become free, with bounds as for `fit`. `flapwing.candidates` returns a suitable
+        dictionary. A candidate that is not free keeps the value in the design.
     start : list of str, or dict
         The parameters that are free from the beginning, with bounds as for `fit`.
     budget : int, optional
         Largest number of free parameters, including `start`. Default: a fifth of the number of readings.
     rhs_budget : float, optional
-        Number of evaluations of the equations of motion after which no further step begins. The final fit is not
-        limited.
+        Number of evaluations of the equations of motion after which no further step begins. `rhs_budget` does not limit
+        the final fit.
     criterion : {"AICc", "BIC"}
         The criterion that each step must lower.
     significance : float
-        Largest probability that noise alone explains a step. The probability takes into account that the best of all
-        candidates was chosen (Bonferroni). With 1, only the criterion decides, which frees too many parameters.
+        Largest probability that noise alone explains a step. The computed probability takes into account that the best
+        of all candidates was chosen (Bonferroni). With ``significance=1``, only the criterion decides, which frees too
+        many parameters.
     tries : int
         Largest number of candidates that are fitted in a step.
     sigma, seed, hold_out, threads, progress
-        As for `fit`. Readings in `hold_out` do not take part in the selection.
+        The arguments of `fit` with the same names. Readings in `hold_out` do not take part in the selection.
     starts : int
         Number of starts of the final fit, in addition to the estimate of the selection.
     profile : bool
         True if the final fit computes profiles.
     **keywords : float or str
-        Parameters of all data and solver settings.
+        Parameters that apply to all data, and solver settings.
 
     Returns
     -------
@@ -208,8 +210,8 @@ def select(
     Raises
     ------
     ValueError
-        As for `fit`; an unknown criterion; a candidate without a value in the design, or with a `spread`; a budget
-        below the number of parameters in `start`.
+        An argument is invalid, as for `fit`. The criterion is unknown. A candidate has a `spread`, or no value in the
+        design. The budget is below the number of parameters in `start`.
     TypeError
         An argument has the wrong type.
     ImportError
@@ -303,7 +305,7 @@ def select(
 def _best(
     work: Subsets, state: Subset, predicted: Mapping[str, tuple[float, Array]], tries: int
 ) -> tuple[Subset, list[Subset]]:
-    """Return the best fit with one more parameter, and the other fits that were tried."""
+    """Return the best fit with one further free parameter, and the list of all fits that were tried and not chosen."""
     fitted: list[Subset] = []
     reached = 0.0
     for name, (gain, begin) in list(predicted.items())[:tries]:
@@ -323,7 +325,7 @@ def _best(
 
 
 def _chance(state: Subset, best: Subset, work: Subsets, count: int) -> float:
-    """Return the probability that noise alone improves the fit as much, for the best of `count` candidates."""
+    """Return the probability that noise alone improves the fit as much as the best of `count` candidates."""
     from scipy.stats import chi2
 
     freedom = len(work.space(best.names)) - len(work.space(state.names))
@@ -347,7 +349,8 @@ def _step_of(
 
 
 def _final(work: Subsets, state: Subset, starts: int, seed: int, profile: bool) -> Fit | None:
-    """Return the fit of the selected parameters from the estimate of the selection and from further starts."""
+    """Return the fit of the selected parameters. The searches start at the estimate of the selection and at further
+    starts."""
     if not state.names:
         return None
     begun = time.perf_counter()

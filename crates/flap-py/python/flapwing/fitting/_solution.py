@@ -24,7 +24,7 @@ class Estimate:
     Attributes
     ----------
     parameter, unit : str
-        The estimated parameter and its SI unit.
+        The estimated parameter, and the SI unit of the parameter.
     value : float
         The estimated value of the parameter, in SI units.
     error : float
@@ -34,8 +34,8 @@ class Estimate:
         Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval is
         computed from the profile.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. The data then give no limit for the
-        parameter on this side.
+        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
+        the data give no limit for the parameter on the side of the bound.
     profile : Profile or None
         The profile likelihood of the parameter, if the fit computed profiles.
     at_bound : bool
@@ -61,7 +61,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Unsettled:
-    """A reading that is ignored, because the motion of the model at its operating point does not settle.
+    """A reading that is ignored, because the motion of the model at the operating point does not settle.
 
     Attributes
     ----------
@@ -101,14 +101,14 @@ class HeldOut:
 
 @dataclass(frozen=True)
 class Effort:
-    """The work of a fit.
+    """The amount of work of a fit.
 
     Attributes
     ----------
     starts : int
         Number of searches.
     agreed : int
-        Number of searches that ended at the best fit. The number is 0 if only a profile found the best fit.
+        Number of searches that ended at the best fit. `agreed` is 0 if only a profile found the best fit.
     points : int
         Number of design points that were run.
     rhs_evals : int
@@ -153,9 +153,9 @@ class Residuals:
     data_set : str
         Name of the data set.
     measure, unit : str
-        The measure of the residuals and its unit.
+        The measure whose residuals are listed, and the unit of the measure.
     values : array
-        Model minus reading, in the measure's unit; nan if the motion does not settle.
+        Model minus reading, in the measure's unit. A residual is nan if the motion does not settle.
     scaled : array
         The residuals divided by the standard errors of the readings.
     rms : float
@@ -183,12 +183,12 @@ class Goodness:
     Attributes
     ----------
     chi_square : float
-        Sum of the squares of the residuals in standard errors.
+        Sum of the squares of (residual / standard error) over all readings.
     freedom : int
         Degrees of freedom of the fit.
     p : float
-        The probability of a sum of squares of at least `chi_square`, if the model is correct and standard errors are as
-        given. The probability is nan if standard errors are estimated.
+        The probability of a sum of squares of at least `chi_square`, if the model and the given standard errors are
+        correct. `p` is nan if standard errors are estimated.
     residuals : list of Residuals
         The residuals by data set and measure.
     structure : list of Structure
@@ -232,7 +232,7 @@ def of_residuals(
 def goodness(
     residuals: list[Residuals], structure: list[Structure], priors: Array, parameters: int, sigma_known: bool
 ) -> Goodness:
-    """Return the quality of a fit from its residuals and the residuals of the priors."""
+    """Return the quality of a fit from the residuals of the readings and of the priors."""
     from scipy.stats import chi2
 
     scaled = [one.scaled[np.isfinite(one.scaled)] for one in residuals]
@@ -256,7 +256,7 @@ def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: 
 
 
 class Solution:
-    """Estimates with their uncertainty, and the model and the data of the fit. `Fit` is the public class."""
+    """Estimates with uncertainties, and the model and the data of the fit. `Fit` is the public class."""
 
     def __init__(
         self,
@@ -297,7 +297,8 @@ class Solution:
 
     @property
     def values(self) -> dict[str, Any]:
-        """The fitted values of parameters that all data sets share, in SI units: ``run(design, **fit.values)``."""
+        """The fitted values of the parameters that all data sets share, in SI units. Example: ``run(design,
+        **fit.values)``."""
         space = self._model.space
         return {one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None}
 

@@ -1,4 +1,4 @@
-"""The scatter of a parameter between data sets, for example between robots of the same build."""
+"""The scatter of a parameter between data sets, for example between robots of the same design."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ._model import Answer
 from ._parameters import Group, Space
 from ._search import Target
 
-#: The smallest standard deviation that is tried, as a share of the smallest standard error of a value. Data sets with
-#: this standard deviation have practically the same value.
+#: The smallest standard deviation that is tried, as a share of the smallest standard error of a value. At the smallest
+#: standard deviation, all data sets have practically the same value.
 _LEAST = 0.02
 
 #: Number of standard deviations that are tried.
@@ -33,16 +33,16 @@ class Spread:
     Attributes
     ----------
     parameter, unit : str
-        The parameter and its SI unit.
+        The parameter, and the SI unit of the parameter.
     mean, error : float
-        The common mean of the values of all robots, and its standard error, in SI units.
+        The common mean of the values of all robots, and the standard error of the mean, in SI units.
     value : float
-        The standard deviation of the values of robots about their mean, in SI units.
+        The standard deviation of the values of all robots about the common mean, in SI units.
     low, high : float
-        Lower and upper end of the 95 % interval of the standard deviation, in SI units. Equal to `value` if the
-        standard deviation was given.
+        Lower and upper end of the 95 % interval of the standard deviation, in SI units. `low` and `high` equal `value`
+        if the standard deviation was given.
     is_given : bool
-        True if the standard deviation was given, False if it was estimated.
+        True if the standard deviation was given, and False if the standard deviation was estimated.
     """
 
     parameter: str
@@ -91,7 +91,8 @@ def spreads(space: Space, target: Target, x: Array, answer: Answer, covariance: 
 
 
 def _lowest(tried: Array, deviances: Array) -> float:
-    """Return the standard deviation with the lowest deviance, by a parabola through three neighbours."""
+    """Return the standard deviation with the lowest deviance: the minimum of a parabola through three neighbouring
+    values."""
     best = int(np.argmin(deviances))
     if best in (0, len(tried) - 1):
         return float(tried[best])
@@ -100,10 +101,11 @@ def _lowest(tried: Array, deviances: Array) -> float:
 
 
 def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Answer) -> tuple[Array, Array]:
-    """Return standard deviations of a parameter's values, and minus two times the logarithm of their likelihood.
+    """Return standard deviations of a parameter's values, and the deviance of each standard deviation (minus two times
+    the log likelihood).
 
     The likelihood is the integral over all free parameters and over the mean of the values (restricted maximum
-    likelihood). In this integral, residuals are linear in the parameters.
+    likelihood). In the integral, residuals are linear in the parameters.
     """
     everything = target.residuals(space, x, answer)
     readings = int(target.used.sum())

@@ -10,13 +10,14 @@ import numpy as np
 
 from .._types import Array, Places
 
-#: Limit of the probability below which residuals are structured. All tests of a fit share this limit.
+#: Limit of the probability below which residuals are structured. The limit is divided by the number of tests of a fit
+#: (Bonferroni).
 _SIGNIFICANT = 0.01
 
 #: Smallest number of pairs of residuals, or of residuals in groups, for a test.
 _FEWEST = 8
 
-#: Values of a parameter that differ by less than this share count as equal.
+#: Largest relative difference between values of a parameter that count as equal.
 _EQUAL = 0.005
 
 
@@ -29,9 +30,9 @@ class Structure:
     measure, parameter : str
         The measure of the residuals, and the parameter of the operating points along which residuals are compared.
     p : float
-        The probability that pure noise gives residuals that are at least as similar to their neighbours. Neighbours
-        differ in `parameter` and have equal other parameters. If several readings share each value of `parameter`, the
-        test also compares the means of the residuals at each value (analysis of variance).
+        The probability that pure noise gives neighbouring residuals that are at least as similar as the residuals of
+        the fit. Neighbours are readings that differ only in `parameter`. If several readings share each value of
+        `parameter`, the test also compares the means of the residuals at each value (analysis of variance).
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
@@ -56,7 +57,7 @@ class Layout:
 
     def pairs(self, parameter: str, chosen: Places) -> tuple[Places, Places]:
         """Return pairs of neighbours along a parameter among the chosen readings: the first and the second reading of
-        each pair. The other parameters of a pair are equal.
+        each pair. The two readings of a pair differ only in the parameter.
         """
         others = [self._branches, *(ranks for name, ranks in self.ranks.items() if name != parameter)]
         keys = np.stack([one[chosen] for one in others])
@@ -108,7 +109,7 @@ def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) 
 
 
 def _of_pairs(first: Array, second: Array, noise: Array) -> float:
-    """Return the probability of pairs of neighbours that are at least as similar.
+    """Return the probability that pure noise gives pairs of neighbours that are at least as similar as the given pairs.
 
     The probability is computed from the number of pairs with different signs, and from the mean product of the pairs.
     """

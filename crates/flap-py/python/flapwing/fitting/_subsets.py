@@ -20,7 +20,7 @@ from ._search import Target
 #: Largest error of the cost of a fit, and largest number of rounds in which standard errors are updated.
 _COST, _ROUNDS = 0.005, 4
 
-#: Largest predicted rise of chi-square for which a parameter is removed on trial.
+#: Largest predicted rise of chi-square for which the fit without a parameter is tried.
 _NEEDED = 10.0
 
 
@@ -75,7 +75,8 @@ class Subsets:
         return made
 
     def fitted(self, names: list[str], begin: Array, guesses: Mapping[str, float], values: Array) -> Subset:
-        """Return the fit of some parameters by a search from `begin`. The first standard errors belong to `values`."""
+        """Return the fit of the parameters `names` by a search from `begin`. At the beginning of the search, the
+        standard errors are computed for the model's values `values`."""
         space = self.space(names)
         model = self.model(space)
         known = dict(guesses)
@@ -89,7 +90,7 @@ class Subsets:
     def _searched(
         self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
     ) -> tuple[Array, Answer, Target]:
-        """Return the end of a search from `begin`, with the standard errors at the end of the search."""
+        """Return the final coordinates of a search from `begin`, with the final standard errors."""
         x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
         for _ in range(_ROUNDS):
             x = _search.polish(model, target, x, _COST).x
@@ -103,8 +104,8 @@ class Subsets:
         return x, answer, target
 
     def _note_bounds(self, space: Space, x: Array) -> None:
-        """Add the parameters at a bound to `at_bounds`. The bound at or nearest to the design's
-        value does not count.
+        """Add the parameters at a bound to `at_bounds`. The bound at the design's value, or nearest to the design's
+        value, does not count.
         """
         for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
             nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
@@ -114,17 +115,20 @@ class Subsets:
                     self.at_bounds[one.parameter] = None
 
     def held_out(self, state: Subset) -> float:
-        """Return the rms of the errors of readings that were not fitted, in standard errors; nan if there are none."""
+        """Return the root mean square of the errors of readings that were not fitted, in standard errors. Return nan if
+        all readings were fitted."""
         if not self.held.any():
             return float("nan")
         error = (np.nan_to_num(state.answer.values) - state.target.measured) / state.criteria.sigma
         return float(np.sqrt(np.mean(error[self.held] ** 2)))
 
     def predicted(self, state: Subset, more: Sequence[str]) -> dict[str, tuple[float, Array]]:
-        """Return the predicted decrease of chi-square if a further parameter is freed, and the start of that fit.
+        """Return the predicted decrease of chi-square for each further parameter that is freed, and the start of the
+        fit with this parameter.
 
         The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
-        One evaluation gives the derivatives for all candidates at their values in the design.
+        One evaluation of the model gives the derivatives with respect to all candidates, which have their values in the
+        design.
         """
         active = self.space(state.names)
         beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
@@ -142,7 +146,8 @@ class Subsets:
         return dict(sorted(found.items(), key=lambda one: -one[1][0]))
 
     def without(self, state: Subset, name: str) -> Subset | None:
-        """Return the fit without a parameter. Return None if the derivatives predict that chi-square rises too much."""
+        """Return the fit in which one parameter is not free. Return None if the derivatives predict that chi-square
+        rises too much."""
         space = self.space(state.names)
         mine = np.array([one.parameter == name for one in space.coordinates])
         covariance = _search.without(*_search.inverse(state.target.jacobian(space, state.x, state.answer)))

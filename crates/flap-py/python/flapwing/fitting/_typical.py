@@ -28,7 +28,7 @@ _BOUNDS = {
 
 
 def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units; nan for a size that the model does not have."""
+    """Return typical sizes of terms for a design, in SI units. If the model does not have a size, the size is nan."""
 
     def of(name: str) -> float:
         value = values.get(name)
@@ -48,7 +48,7 @@ def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
 
 
 def typical_bounds(values: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
-    """Return bounds in SI units for the terms that the papers leave out, for a design with these values of parameters.
+    """Return bounds in SI units for the terms that the papers leave out, for a design with the parameters `values`.
 
     The bounds do not depend on the values of the terms, which are zero in most designs.
     """

@@ -1,4 +1,4 @@
-"""Pictures of results with matplotlib, each by one function call.
+"""Functions that draw pictures of results with matplotlib.
 
 Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. Every
 function returns matplotlib Axes, a Figure if the picture has several Axes, or an animation. `flapwing.analysis`

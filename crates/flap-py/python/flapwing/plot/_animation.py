@@ -36,10 +36,10 @@ class Animation(FuncAnimation):
         Parameters
         ----------
         filename : path
-            The path of the file. The name ends in ``.gif``, in ``.html`` (a page with buttons), or in the ending of
-            another format that matplotlib's writer (by default ffmpeg) can write.
+            The path of the file. The name of the file ends in ``.gif``, in ``.html`` (a page with buttons), or in the
+            ending of a format that matplotlib's writer supports. By default, the writer is ffmpeg.
         writer, **options
-            As for matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
+            Arguments of matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
         """
         ending = Path(filename).suffix.lower()
         if writer is None and ending == ".gif":

@@ -12,7 +12,7 @@ from .._mistakes import refused
 from . import _style
 from ._checks import checked
 
-#: The markers of models, in their order.
+#: The markers of models, in the order of the models.
 _MARKERS = "oxs^Dv+P"
 
 
@@ -26,11 +26,11 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
     models : LinearModel, or mapping of names to LinearModel
         One linear model, or several models to compare. An array of eigenvalues (1/s) can replace a model.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. A picture of one
-        model without a name has no legend. By default, the legend is beside the axes of a new figure, and inside axes
-        that you give.
+        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. If `models` is one
+        LinearModel without a name, the picture has no legend. By default, the legend is beside the axes of a new
+        figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
         new figure.
 
     Returns
@@ -40,7 +40,7 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
     Raises
     ------
     ValueError
-        There is no model.
+        `models` is empty.
     TypeError
         An entry is neither a model nor an array of numbers.
 

@@ -47,7 +47,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Raises
     ------
     ValueError
-        `show` is not one of the three names, or the fit has no profiles.
+        `show` is not the name of a picture, or the fit has no profiles.
     TypeError
         `result` is not a `Fit`.
     """
@@ -86,7 +86,8 @@ def _rows(count: int) -> int:
 
 
 def _data(result: Fit, measure: str, ax: Axes) -> None:
-    """Draw the readings of a measure with the bands of the model, against the parameter with most values."""
+    """Draw the readings of a measure with the bands of the model, against the parameter with the largest number of
+    values."""
     sets = [one for one in result._sets if measure in one.measured]
     numbers = {name: values for one in sets for name, values in one.points.items() if isinstance(values, np.ndarray)}
     if not numbers:

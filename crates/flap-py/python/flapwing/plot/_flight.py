@@ -22,10 +22,10 @@ class _Panel(NamedTuple):
     """The contents of one panel."""
 
     words: str
-    #: The unit for printing, and the factor from the unit of the columns to this unit.
+    #: The unit for printing, and the factor from the unit of the columns to the unit for printing.
     unit: str
     factor: float
-    #: Columns with their names in the legend.
+    #: Columns, each with the name in the legend.
     columns: dict[str, str]
 
 
@@ -46,7 +46,7 @@ GROUPS = {
     "torque": _Panel("Torque", "µN·m", 1.0, dict(zip(TORQUES, _ABOUT))),
 }
 
-#: Line styles of flights, in their order.
+#: Line styles of flights, in the order of the flights.
 _STYLES = ("-", "--", ":", "-.")
 
 
@@ -79,9 +79,9 @@ def flight(
 ) -> Figure | Axes:
     """Draw a flight of a vehicle over time, with one panel for each group of columns. Several flights share the panels.
 
-    Colours stand for components, and line styles stand for flights. Circles at the time zero are the states that
-    `disturbance` of `fly` sets. Inputs are drawn as changes from their values at the beginning, and are constant within
-    a wing beat.
+    Colours stand for components, and line styles stand for flights. Circles at the time zero show the states that
+    `disturbance` of `fly` sets. Inputs are drawn as changes from the values at the beginning of the flight. Inputs are
+    constant within a wing beat.
 
     Parameters
     ----------
@@ -90,15 +90,15 @@ def flight(
         to flights, or a list.
     groups : str or sequence of str, optional
         The groups to draw: ``"velocity"`` (m/s), ``"rate"`` (rad/s), ``"position"`` (mm), ``"angle"`` (degrees),
-        ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. Inputs have one panel for each of their units. Default:
+        ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. Inputs have one panel for each unit. Default:
         the four groups of states, and the inputs if the flights have inputs.
     label : sequence of str, optional
         The name of each flight of a list.
     legend : bool or str
         False for no legends, or the place of the legends inside the axes, such as ``"upper left"``. By default, the
-        legends are above the axes of a new figure, and inside axes that you give.
+        legends are above the axes of a new figure. In axes that you give, the legends are inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for one panel. The panel has the style of the figure with these axes. Default: axes of a new figure.
+        Axes for one panel. The figure of `ax` determines the style of the panel. Default: axes of a new figure.
 
     Returns
     -------
@@ -108,8 +108,8 @@ def flight(
     Raises
     ------
     ValueError
-        A table is no flight, or a group is unknown. There are more than four flights, or the number of names differs
-        from the number of flights. With `ax`: several panels.
+        A table is no flight, or a group is unknown. More than four flights are given, or the number of names differs
+        from the number of flights. `ax` is given, but the flights have several panels.
 
     Examples
     --------
@@ -178,7 +178,8 @@ def _panels(runs: Mapping[str, Data], groups: Sequence[str] | None) -> list[_Pan
 
 
 def _layout(count: int) -> list[Axes]:
-    """Return axes in two columns, or below each other in a narrow figure. An odd last panel is wide."""
+    """Return axes in two columns, or below each other in a narrow figure. If the number of axes is odd, the last axes
+    fill both columns."""
     columns = 1 if count == 1 or _style.is_narrow() else 2
     rows = -(-count // columns)
     figure = _style.new_figure(3.2 + 2.8 * columns, 1.2 + 2.0 * rows)
@@ -198,7 +199,7 @@ def _layout(count: int) -> list[Axes]:
 
 
 def _draw(ax: Axes, panel: _Panel, runs: Mapping[str, Data]) -> list[Line2D]:
-    """Draw a panel, and return the entries of its legend."""
+    """Draw a panel, and return the entries of the panel's legend."""
     entries: list[Line2D] = []
     is_input = panel not in GROUPS.values()
     for (name, told), colour in zip(panel.columns.items(), _style.further_shades(ax, len(panel.columns))):

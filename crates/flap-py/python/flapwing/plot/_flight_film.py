@@ -32,7 +32,7 @@ _SAMPLES = 240
 #: Smallest number of frames of a wing beat.
 _FRAMES_OF_BEAT = 10
 
-#: Smallest size of the vehicle, as a share of the largest distance that it flies.
+#: Smallest size of the vehicle, as a share of the largest flown distance.
 _SMALLEST = 0.15
 
 
@@ -46,16 +46,17 @@ def flight_film(
     frames: int = 100,
     scale: float | None = None,
 ) -> Animation:
-    """Animate a flight of a vehicle: the body with its flapping wings, the trajectory so far, and the time.
+    """Animate a flight of a vehicle: the body with flapping wings, the trajectory up to the time of the frame, and the
+    time.
 
     The wings follow `motion`, which is the motion of a wing on a body at rest. The animation does not show the response
     of the wings to the motion of the body or to the controller. If a wing beat has fewer than ten frames, the drawn
-    wings beat slower than the simulated wings: once in ten frames. The text above the picture contains the factor
-    between both speeds.
+    wings beat slower than the simulated wings: once in ten frames. The text above the picture shows how many times
+    slower the drawn wings beat.
 
-    A thick line shows the body. The line goes from the shoulders of the wings through the centre of mass, which is a
-    dot, to the opposite side. The length of the thick line is not a property of the vehicle. Keep the returned object
-    until you have saved or shown it: ``plot.flight_film(flight, motion).save("flight.gif")``.
+    A thick line shows the body. The thick line goes from the shoulders of the wings through the centre of mass, which
+    is a dot, to the opposite side. The length of the thick line is not a property of the vehicle. Keep the returned
+    object until you have saved or shown the animation: ``plot.flight_film(flight, motion).save("flight.gif")``.
 
     Parameters
     ----------
@@ -63,19 +64,20 @@ def flight_film(
         A flight from `flapwing.fly` or ``flap vehicle --fly``.
     motion : Table, data frame, mapping of columns, or path
         A trajectory of one wing from `flapwing.trajectory`. The trajectory has at least one cycle and the columns
-        ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the wings move differently, give a mapping of the names of all
-        wings to trajectories.
+        ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the motions of the wings differ, give a mapping of the names of
+        all wings to trajectories.
     vehicle : Vehicle, Grid, dict or path, optional
-        The vehicle with the positions and sizes of its wings. Default: the vehicle of the flight. If the flight is a
-        file, `vehicle` is required.
+        The vehicle, which contains the positions and sizes of the wings. Default: the vehicle of the flight. If the
+        flight is a file, `vehicle` is required.
     views : sequence of str
-        A list of one to three views: ``"side"`` (from the right), ``"top"`` and ``"front"``. Default: side and top.
+        A list of one to three views: ``"side"`` (from the right side), ``"top"`` and ``"front"``. Default: side and
+        top.
     frames : int
         Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
         takes about 0.1 s to draw.
     scale : float, optional
-        Factor by which the vehicle is drawn larger than its trajectory, more than zero. The default is the smallest
-        factor, 1 or more, that gives the drawn vehicle 15 % of the largest flown distance.
+        Factor by which the drawn vehicle is enlarged relative to the trajectory: more than zero. The default is the
+        smallest factor, 1 or more, at which the drawn vehicle is at least as large as 15 % of the flown distance.
 
     Returns
     -------
@@ -109,7 +111,7 @@ def flight_film(
 
 
 class _Wing(NamedTuple):
-    """A wing over one cycle of its motion."""
+    """A wing over one cycle of the wing's motion."""
 
     #: Duration of a cycle (s).
     seconds: float
@@ -149,7 +151,7 @@ def _wings(data: Data, vehicle: Any, motion: Any) -> list[_Wing]:
 
 
 def _wing(name: str, side: float, values: Mapping[str, Any], motion: Data) -> _Wing:
-    """Return a wing with its motion; `side` is -1 for a mirrored wing."""
+    """Return a wing with the motion of the wing. `side` is -1 for a mirrored wing."""
 
     def value(parameter: str) -> float:
         # A parameter of one wing that is not set is NaN.
@@ -231,7 +233,7 @@ class _Scene:
         return np.column_stack([np.interp(self.times, time, column) for column in columns.T])
 
     def _placed(self, points: np.ndarray) -> np.ndarray:
-        """Return points (m, body axes) of each frame in fixed axes (mm)."""
+        """Return the points of each frame in fixed axes (mm). The argument `points` is in body axes (m)."""
         turned = np.einsum("fij,fpj->fpi", self.attitude, points)
         return np.asarray(self.path[:, np.newaxis] + 1e3 * self.scale * turned)
 
@@ -251,7 +253,7 @@ class _Scene:
 
 
 class _View:
-    """The vehicle seen along one axis."""
+    """A view of the vehicle along one axis."""
 
     def __init__(
         self, ax: Axes, across: int, up: int, xlabel: str, ylabel: str, middle: np.ndarray, half: float

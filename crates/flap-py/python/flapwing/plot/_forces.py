@@ -25,11 +25,11 @@ _LEAST = 1e-3
 
 
 class _Effects(NamedTuple):
-    """Changes of force and torque with inputs."""
+    """The change of each force and torque per unit of each input."""
 
     #: Columns of force and torque, one for each row of `values`.
     outputs: list[str]
-    #: Names of inputs with their units, one for each column of `values`.
+    #: Names and units of inputs, one for each column of `values`.
     inputs: list[tuple[str, str]]
     values: np.ndarray
 
@@ -44,19 +44,19 @@ def control_matrix(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the control matrix of a vehicle: the changes of force and torque with its inputs, as a map.
+    """Draw the control matrix of a vehicle as a map: the change of each force and torque with each input.
 
     The columns of the map are inputs, and the rows are components of force and torque. The number in a cell of the map
-    is the change per unit of the input. The colours of a column show which force or torque an input changes most. For
-    the colours, a torque of 1 µN·m counts as much as a force of 1 mN. A number below 0.1 % of the largest number in the
-    same column is shown as ``≈0``.
+    is the change of a force or torque per unit of an input. The colours of a column show which force or torque an input
+    changes most. For the colours, a torque of 1 µN·m counts as much as a force of 1 mN. A number below 0.1 % of the
+    largest number in the same column is shown as ``≈0``.
 
     Parameters
     ----------
     table : Table, array, data frame, mapping of columns, or path
         One row of `evaluate` with ``gradient=``, the output of ``flap vehicle --format csv``, or an array of
-        derivatives. The array has six rows (force forward, left, up in mN; torque in roll, pitch, yaw in µN·m) and
-        one column for each of `inputs`.
+        derivatives. The array has one column for each input. The six rows are the forces forward, left and up (mN), and
+        the torques of roll, pitch and yaw (µN·m).
     inputs : list of str, optional
         The inputs to show, from left to right. If `table` is an array, `inputs` has the names of the columns of the
         array.
@@ -64,12 +64,12 @@ def control_matrix(
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
         new figure.
 
     Returns
@@ -79,8 +79,8 @@ def control_matrix(
     Raises
     ------
     ValueError
-        The table has no derivatives of a force or torque, or several rows with derivatives; an input is unknown; an
-        array has another shape.
+        The table has no derivatives of a force or torque, or several rows with derivatives. An input is unknown. An
+        array does not have six rows and one column for each input.
 
     Examples
     --------
@@ -116,7 +116,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
 
     Returns
     -------
@@ -194,8 +194,8 @@ def _per(unit: str) -> str:
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects of inputs from a table of `flap vehicle`. A table of `flap vehicle` has one row of means, and
-    then one row for each input.
+    """Return the effects of inputs from a table of `flap vehicle`. A table of `flap vehicle` has one row of means,
+    followed by one row for each input.
     """
     if "input" not in data:
         return None
@@ -210,7 +210,7 @@ def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
-    """Return the effects of the inputs that the picture shows."""
+    """Return the names of the inputs that the picture shows."""
     for name in inputs or ():
         if name not in known:
             raise unknown("input", name, known)
@@ -246,7 +246,7 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
 
 
 def _input(name: str, unit: str) -> str:
-    """Return the name of an input with its unit, broken into short lines."""
+    """Return the name and the unit of an input, broken into short lines."""
     text = _labels.words(name, unit).replace(", ", ",\n").replace(" ", "\n", 1)
     return f"{text}\nper {_labels.printed(unit)}" if unit else text
 

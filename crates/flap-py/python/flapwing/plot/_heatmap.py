@@ -52,14 +52,15 @@ def heatmap(
 ) -> _style.Drawn:
     """Draw a measure as a map against two axes, for example lift, power or efficiency against frequency and voltage.
 
-    The edges of cells are halfway between neighbouring values of an axis, or between their logarithms on a logarithmic
-    axis. Cells without a periodic motion are grey. A cell is hatched if ``[where]`` excludes its row or the file does
-    not have the row. A legend explains grey and hatched cells. In a table of `respond`, the curves of different designs
-    have different points. In a map of such a table, a cell without a row shows the nearest row of the same curve.
+    The edges of cells are halfway between neighbouring values of an axis. On a logarithmic axis, the edges are halfway
+    between the logarithms of the values. Cells without a periodic motion are grey. A cell is hatched if ``[where]``
+    excludes the row of the cell, or if the row is not in the file. A legend explains grey and hatched cells. In a table
+    of `respond`, the curves of different designs have different points. In a map of a response, a cell without a row
+    shows the nearest row of the same curve.
 
     If the points form no grid, for example in a sample, each point is drawn as a dot. The colours between the dots are
-    interpolated linearly on triangles. A triangle is left out if one of its points has no value. Crosses are points
-    without a periodic motion.
+    interpolated linearly on triangles. A triangle is left out if one of the three points has no value. Crosses mark
+    points without a periodic motion.
 
     Parameters
     ----------
@@ -69,39 +70,39 @@ def heatmap(
         The measure to draw. Default: the mean lift.
     x, y : str, optional
         The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
-        if ``drive_frequency`` does not vary. Default for y: the first of the other axes. If the grid has fewer than two
-        axes, sampled parameters are used.
+        if ``drive_frequency`` does not vary. Default for y: the first axis of the grid that is not x. If the grid has
+        fewer than two axes, sampled parameters are used.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. By default, an axis is logarithmic if each value is the value before times a constant
-        factor. For points that form no grid, the default is linear.
+        The scales of the axes. By default, an axis is logarithmic if the ratio of neighbouring values is constant. For
+        points that form no grid, the default scale is linear.
     cmap : str, optional
         A colour map of matplotlib. Default: viridis. For values of both signs, the default colour map is white at zero,
         with a line at zero.
     vmin, vmax : float, optional
         The values at the ends of the colour bar, in the unit of the colour bar. Default: the smallest and the largest
-        value of the measure. An arrow at an end of the colour bar marks values beyond this end.
+        value of the measure. An arrow at an end of the colour bar marks values that are outside of the colour bar.
     reduce : {"max", "min", "mean"}, optional
         The cell's value if several rows have the same x and y: the largest value, the smallest value or the mean of
         these rows. Rows with the same x and y differ in the axes that are not drawn. Rows without a value are left out.
     annotate : bool
-        Mark the best cell with a star. The legend has the value and the place of the best cell, and the values of the
-        axes that `reduce` combined. The best cell has the largest value with ``reduce="max"``, and the smallest value
-        with ``reduce="min"``. Without these options, the best cell has the smallest value for costs such as power, and
-        the largest value for other measures.
+        If True, a star marks the best cell. The legend has the value and the place of the best cell, and the values of
+        the axes that `reduce` combined. The best cell has the largest value with ``reduce="max"``, and the smallest
+        value with ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest
+        value for costs such as power. By default, the best cell has the largest value for measures that are not costs.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If `reduce` is not given and
         an axis of the grid is neither drawn nor selected, the picture has only the middle value of this axis. A warning
-        shows the middle value.
+        shows the value that was used.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
-        colour bar are outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------
@@ -110,7 +111,7 @@ def heatmap(
     Raises
     ------
     ValueError
-        A column or value is unknown; several rows are in one cell, and `reduce` is not given; the points form no grid
+        A column or value is unknown. Several rows are in one cell, and `reduce` is not given. The points form no grid
         and are on one line.
 
     Examples
@@ -193,7 +194,7 @@ def _combined(data: Data, x: str, y: str) -> list[str]:
 
 
 def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
-    """Return the entry of the legend for the best row: the value of the measure, then the parameters."""
+    """Return the entry of the legend for the best row: the value of the measure, followed by the parameters."""
     lines = []
     for name in (value, *names):
         shown = data.shown(name)
@@ -220,7 +221,7 @@ class _Points:
         return self.points.draw(ax, colours)
 
     def mark_missing(self, ax: Axes) -> list[Any]:
-        """Mark the points without a value, and return their entries of the legend."""
+        """Mark the points without a value, and return the legend entries."""
         rows = np.arange(len(self.data))
         missing = _missing(self.data, rows, self.values)
         return [self.points.mark(ax, rows[mask], name) for name, mask in missing.items()]
@@ -262,7 +263,7 @@ class _Cells:
         return mesh
 
     def mark_missing(self, ax: Axes) -> list[Any]:
-        """Fill the cells without a value, and return their entries of the legend."""
+        """Fill the cells without a value, and return the legend entries."""
         entries = []
         for name, mask in _missing(self.data, self.rows, self.values).items():
             # Several cells along a curve may show the same row.
@@ -271,7 +272,7 @@ class _Cells:
         return entries
 
     def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value of the measure, and the place of its cell."""
+        """Return the row with the best value of the measure, and the place of the row's cell."""
         cell = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
         line, column = np.unravel_index(cell, self.values.shape)
         return int(self.rows[line, column]), (float(self.across.centres[column]), float(self.up.centres[line]))
@@ -282,7 +283,7 @@ class _Cells:
 
 
 class _Axis:
-    """The values along one axis and the edges of their cells."""
+    """The values along one axis of a map, and the edges of the cells."""
 
     def __init__(self, data: Data, whole: Data, name: str, scale: str | None) -> None:
         self.shown: Shown = data.shown(name)
@@ -301,7 +302,7 @@ class _Axis:
         self.edges = edges(values, self.log)
 
     def places(self, column: np.ndarray) -> np.ndarray:
-        """Return the index of each row's cell along this axis."""
+        """Return the index of each row's cell along the axis."""
         if self.shown.text:
             place = {word: i for i, word in enumerate(self.keys)}
             return np.array([place[word] for word in column.astype(str)])
@@ -320,7 +321,8 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """Return the number of the row that each cell shows. Each line of the array `rows` is one curve.
+    """Return the number of the row that each cell shows. Each row of the array `rows` contains the row numbers of one
+    curve.
 
     A cell between the ends of a curve gets the nearest row of the curve.
     """
@@ -375,7 +377,7 @@ def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.n
 
 
 def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str, count: int) -> Patch:
-    """Fill the cells without a value, and return their entry of the legend."""
+    """Fill the cells without a value, and return the legend entry."""
     text = f"{name} ({count})"
     if name in (_NO_ROW, _UNDEFINED):
         hatch = "////" if name == _NO_ROW else "...."

@@ -38,23 +38,24 @@ def histogram(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of any kind.
+        A table of results of any kind.
     measure : str, optional
-        A column of numbers. Default: the mean lift, or another measure if the table has no mean lift.
+        A column of numbers. Default: the mean lift, or a different measure if the table has no mean lift.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100, each with a line. Default: 5, 50 and 95, as in ``flap plot``.
+        Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. Default: 5 %, 50 % and
+        95 %, as in ``flap plot``.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is above the axes of a new figure, and inside axes that you give. The legend contains the mean and the
-        standard deviation.
+        legend is above the axes of a new figure. In axes that you give, the legend is inside the axes by default. The
+        legend contains the mean and the standard deviation.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels are
-        outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels are drawn outside of
+        `ax`. Default: axes of a new figure.
 
     Returns
     -------
@@ -63,7 +64,7 @@ def histogram(
     Raises
     ------
     ValueError
-        A column or value is unknown; no design has a value of the measure; a percentage is not from 0 to 100.
+        A column or value is unknown. No design has a value of the measure. A percentage is not from 0 to 100.
 
     Examples
     --------

@@ -40,18 +40,18 @@ def hysteresis(
     parameter : str, optional
         The followed parameter. Default: the column after ``branch``.
     curve : int, optional
-        The number of the design in the column ``curve``, if there are several designs.
+        The number of the design in the column ``curve``, if the table has several designs.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
-        colour bar are outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def hysteresis(
     Raises
     ------
     ValueError
-        The table has several designs, and no design is selected; a column or value is unknown; the table has no
+        The table has several designs, and no design is selected. A column or value is unknown. The table has no
         branches.
     """
     data = Data.of(table)
@@ -130,13 +130,13 @@ def hysteresis(
 
 
 class _Way:
-    """The rows of a branch, in the order in which they were computed."""
+    """The rows of a branch, in the order of computation."""
 
     def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
         self.bistable = np.ascontiguousarray(bistable)
         self.jumps: list[int] = []
-        """The rows after which this branch jumps to the motion of the other."""
+        """The rows after which the branch jumps to the motion of the opposite branch."""
 
 
 def _one_design(data: Data) -> None:
@@ -173,7 +173,7 @@ def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
 
 def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
     """Draw an arrowhead on the line of a branch. The arrowhead is in a bistable band, or after a third of the branch if
-    there is no bistable band.
+    the response has no bistable band.
     """
     count = len(way.x)
     if count < 3:
@@ -197,7 +197,7 @@ def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, fl
 
 
 def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
-    """Draw marks above the axes where a branch has no periodic motion."""
+    """Draw marks above the axes, at values of x at which a branch has no periodic motion."""
     without = ~data.measured()
     shown = False
     for place, name in enumerate(("up", "down")):

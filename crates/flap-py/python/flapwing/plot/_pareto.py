@@ -40,7 +40,7 @@ def pareto(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of any kind.
+        A table of results of any kind.
     maximize, minimize : str or sequence of str
         The objectives, at least two. The picture shows the first two objectives. If one of the first two objectives is
         minimised, the minimised objective is on the horizontal axis. Default: maximise the mean lift and minimise the
@@ -48,21 +48,21 @@ def pareto(
     color : str, optional
         A column that sets the colours of the points: numbers with a colour bar, words with a legend.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. Default: the same as for `heatmap`.
+        A colour map of matplotlib for columns of numbers. Default: the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
-        colour bar are outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def pareto(
     Raises
     ------
     ValueError
-        Fewer than two objectives are given; a column or value is unknown; no design has all objectives.
+        Fewer than two objectives are given. A column or value is unknown. No design has all objectives.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Pictures of measures against one parameter, with one line for each value of another parameter."""
+"""Pictures of measures against one parameter, with one line for each value of a second parameter."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def response(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure against one parameter, with one line for each value of another parameter (a family of responses).
+    """Draw a measure against one parameter, with one line for each value of a second parameter (a family of responses).
 
     Rows without a periodic motion leave a gap in a line. Above the picture, each gap in a line has a mark in the colour
     of the line.
@@ -43,7 +43,7 @@ def response(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give
         several results: a mapping of names to results, or a list. With several results, each design has one line.
     y : str, optional
         The measure to draw. Default: the peak-to-peak stroke.
@@ -51,23 +51,24 @@ def response(
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
-        grid's other axes, if the grid has another axis. If several results are given, each result has one line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first axis
+        of the grid that is not x, if the grid has two or more axes. If several results are given, each result has one
+        line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows
-        this middle value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        value that was used.
     label : sequence of str, optional
         The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
         new figure.
 
     Returns
@@ -78,7 +79,7 @@ def response(
     Raises
     ------
     ValueError
-        A column or value is unknown; several rows have the same parameters; a column has text instead of numbers.
+        A column or value is unknown. Several rows have the same parameters. A column has text instead of numbers.
 
     Examples
     --------
@@ -119,12 +120,13 @@ def response_panels(
     colorbar: bool | Axes = True,
     **slices: Any,
 ) -> Figure:
-    """Draw several measures against one parameter, in axes below each other. Each measure is drawn as by `response`.
+    """Draw several measures against one parameter, in axes below each other. Each measure is drawn like a picture of
+    `response`.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file with such results. To compare designs, give
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give
         several results: a mapping of names to results, or a list. With several results, each design has one line.
     measures : sequence of str
         The measures to draw, from top to bottom.
@@ -132,18 +134,19 @@ def response_panels(
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first of the
-        grid's other axes, if the grid has another axis. If several results are given, each result has one line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first axis
+        of the grid that is not x, if the grid has two or more axes. If several results are given, each result has one
+        line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows
-        this middle value.
+        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
+        value that was used.
     label : sequence of str, optional
         The names in the legend, one for each result of a list. Default: the numbers of the results.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
@@ -155,7 +158,7 @@ def response_panels(
     Raises
     ------
     ValueError
-        The same errors as for `response`. `measures` is empty.
+        An argument is invalid (see `response`), or `measures` is empty.
 
     Examples
     --------
@@ -185,8 +188,8 @@ def response_panels(
 
 
 def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
-    """Return results as one table, and the column that has one line for each value. For several results, the column for
-    the lines has the names of the results.
+    """Return results as one table, and the column whose values distinguish the lines. For several results, the lines
+    are distinguished by the names of the results.
     """
     designs = several(table, label)
     if designs is None:
@@ -266,8 +269,8 @@ class Family:
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
-        """Draw marks above the axes at the values of x for which rows of results have no measures. Each line has its
-        own row of marks.
+        """Draw marks above the axes at the values of x for which rows of results have no measures. Each line has a
+        separate row of marks.
         """
         lines = self._not_periodic()
         if not lines:
@@ -304,7 +307,7 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """Return the rows without measures and the colour of the line, for each line that has such rows."""
+        """For each line with rows that have no measures, return these rows and the colour of the line."""
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
         return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
@@ -314,7 +317,7 @@ class Family:
         _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
 
     def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
-        """Draw a legend for the lines, or a colour bar if the lines have many different numbers."""
+        """Draw a legend for the lines, or a colour bar if the lines stand for many different numbers."""
         handles: list[Any] = []
         if given and self._not_periodic():
             look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
@@ -353,7 +356,7 @@ class Family:
 
 
 def along(data: Data, by: str | None) -> str:
-    """Return the default parameter on the horizontal axis."""
+    """Return the default parameter for the horizontal axis."""
     axes = [name for name in data.axes() if by is None or name != data.axis(by)]
     if "drive_frequency" in data and ("drive_frequency" in axes or not axes):
         return "drive_frequency"
@@ -364,7 +367,7 @@ def along(data: Data, by: str | None) -> str:
 
 
 def _beside(data: Data, x: str) -> str | None:
-    """Return the other axis of the grid besides x, if the grid has exactly one other axis."""
+    """Return the first axis of the grid that is not x. Return None if x is the only axis of the grid."""
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
         return None

@@ -22,13 +22,14 @@ class Colours(NamedTuple):
 
     cmap: str | Colormap
     norm: Normalize
-    #: The ends of the colour bar with an arrow, which marks numbers beyond this end: "neither", "min", "max" or "both".
+    #: The ends of the colour bar with an arrow: "neither", "min", "max" or "both". An arrow marks numbers outside of
+    #: the colour bar.
     extend: str
     #: True for a diverging colour map around zero.
     signed: bool
 
     def bar(self, ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes, label: str) -> None:
-        """Draw the colour bar of the numbers, with a line at zero between both signs."""
+        """Draw the colour bar of the numbers, with a line at zero if the numbers have both signs."""
         bar = _style.colour_bar(ax, mappable, wanted, label=label, extend=self.extend)
         if bar is None:
             return
@@ -81,7 +82,8 @@ def in_ratio(values: np.ndarray) -> bool:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers for the ticks of a logarithmic scale. Some short scales contain no power of ten."""
+    """Return round numbers for the ticks of a logarithmic scale. Short scales also have ticks, although some short
+    scales contain no power of ten."""
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]

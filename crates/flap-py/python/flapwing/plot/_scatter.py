@@ -35,29 +35,29 @@ def scatter(
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of any kind.
+        A table of results of any kind.
     x, y : str, optional
-        Columns of numbers. Default: the mean power along x and the mean lift along y. If the table has no such measure,
-        another measure is drawn.
+        Columns of numbers. Default: the mean power along x and the mean lift along y. If the table lacks power or lift,
+        a different measure of the table is drawn.
     color : str, optional
         A column that sets the colours of the points: numbers with a colour bar, words with a legend. Default: the
-        peak-to-peak stroke, or another measure if the table has no such column.
+        peak-to-peak stroke, or a different measure if the table has no stroke.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. Default: the same as for `heatmap`.
+        A colour map of matplotlib for columns of numbers. Default: the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        middle value.
+        value that was used.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
-        colour bar are outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------
@@ -66,7 +66,7 @@ def scatter(
     Raises
     ------
     ValueError
-        A column or value is unknown, or no design has values in both columns.
+        A column or value is unknown, or no design has values in the columns x and y.
 
     Examples
     --------

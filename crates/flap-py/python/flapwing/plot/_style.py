@@ -1,4 +1,4 @@
-"""The style of pictures. Settings of matplotlib are changed only while a picture is drawn, and then restored."""
+"""The style of pictures. Settings of matplotlib are changed only while a picture is drawn, and restored afterwards."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .._mistakes import refused
 if TYPE_CHECKING:
 
     class Drawn(Axes):
-        """The type of axes with a picture: type checkers then accept that their figure is saved."""
+        """The type of axes with a picture: type checkers accept ``ax.figure.savefig`` for this type."""
 
         @property
         def figure(self) -> Figure: ...
@@ -71,7 +71,7 @@ _INCHES = {"in": 1.0, "cm": 1.0 / 2.54, "mm": 1.0 / 25.4}
 #: The height of a picture with one Axes object (inches). Pictures with several axes are higher in proportion.
 _HEIGHT = 4.0
 
-#: Figures narrower than this width (inches) have their axes below each other.
+#: Width of a figure (inches) below which axes are drawn below each other.
 NARROW = 5.0
 
 
@@ -82,7 +82,7 @@ def style(
     """Set the size of pictures and of the letters in pictures, for a paper or for slides.
 
     The settings apply to figures that are drawn and saved in the ``with`` block. The settings of `style` are settings
-    of matplotlib, such as ``figure.figsize`` and ``font.size``, so they apply to your own figures too.
+    of matplotlib, such as ``figure.figsize`` and ``font.size``, so that `style` also changes your own figures.
 
     Parameters
     ----------
@@ -90,21 +90,22 @@ def style(
         Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
         the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. The height of a figure
         with several axes below each other grows with the number of axes. If both width and height are omitted, figures
-        keep flap's sizes.
+        have flap's default sizes.
     font_size : float, optional
-        Size of the letters (points). Lines and markers are thinner for letters of less than 9.5 points. Default: 8.
+        Size of the letters (points). If the letters are smaller than 9.5 points, lines and markers are thinner.
+        Default: 8 points.
 
     Returns
     -------
     context manager
-        A context manager, which restores the settings at the end of its ``with`` block.
+        A context manager, which restores the settings at the end of the ``with`` block.
 
     Raises
     ------
     ValueError
         A length or a font size is zero or less, or has an unknown unit.
     TypeError
-        A value of the wrong type.
+        A value has the wrong type.
 
     Examples
     --------
@@ -162,7 +163,7 @@ def applied(ax: Axes | None = None) -> Iterator[None]:
     """Apply the style of flap's pictures while a picture is drawn.
 
     Settings of matplotlib that the user has changed are kept. A setting counts as changed if its value differs from the
-    default of matplotlib. Axes that the user gives keep the style of their figure.
+    default of matplotlib. Axes that the user gives keep the style of the user's figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     before = plt.get_fignums()
@@ -208,8 +209,8 @@ def size(factor: float) -> float:
 
 
 def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
-    """Return a new figure whose layout fits its labels. If the user has changed the size of figures in matplotlib, the
-    figure has this width. A figure with one axes also has the changed height.
+    """Return a new figure whose layout leaves room for the labels. If the user has changed the size of figures in
+    matplotlib, the figure has the changed width. A figure with one Axes object also has the changed height.
     """
     if not _is_default("figure.figsize"):
         sides = mpl.rcParams["figure.figsize"]
@@ -244,7 +245,7 @@ def legend(
     **options: Any,
 ) -> None:
     """Draw a legend if `wanted` is true: outside of new axes, or inside given axes. If `wanted` is a place, the legend
-    is inside both new and given axes.
+    is inside the axes in all cases.
     """
     if wanted is False:
         return
@@ -273,7 +274,8 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """If the label of a colour bar is longer than the bar, break the label into lines or make its letters smaller."""
+    """If the label of a colour bar is longer than the bar, break the label into lines or make the letters of the label
+    smaller."""
     if not bar.ax.yaxis.label.get_text() or bar.orientation != "vertical":
         return
     figure_of(bar.ax).draw_without_rendering()
@@ -282,7 +284,8 @@ def _fit_label(bar: Any) -> None:
 
 
 def _shorten(label: Any, side: str, room: float) -> None:
-    """Break a text into lines, or make its letters smaller, until its width or its height has the `room` (pixels)."""
+    """Break a text into lines, or make the letters smaller, until the width or the height of the text fits into `room`
+    (pixels)."""
     text, letters = label.get_text(), label.get_fontsize()
     if getattr(label.get_window_extent(), side) <= room:
         return
@@ -295,7 +298,7 @@ def _shorten(label: Any, side: str, room: float) -> None:
 
 
 def _fit_labels(figure: Figure) -> None:
-    """Shorten the labels of axes that are longer than their part of the figure."""
+    """Shorten the labels that are longer than the axes' part of the figure."""
     figure.draw_without_rendering()
     for ax in figure.axes:
         place = ax.get_subplotspec()

@@ -29,7 +29,7 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw the sensitivity of a measure to each parameter as a bar. The bars are in the order of their length.
+    """Draw the sensitivity of a measure to each parameter as a bar. The longest bar is at the top.
 
     If `design` is a preset, each parameter of the preset is changed slightly, and bars show the changes of the measure.
     If `design` is a sample, bars show the rank correlation (Spearman) of each parameter with the measure, from -1 to 1.
@@ -37,30 +37,30 @@ def tornado(
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. Only for a preset, the
-        function runs points of the model.
+        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. The function runs points
+        of the model only if `design` is a preset.
     measure, parameters, change, **fixed
-        For a preset, as for `flapwing.analysis.sensitivities`. For a sample, as for
+        For a preset, the arguments of `flapwing.analysis.sensitivities`. For a sample, the arguments of
         `flapwing.analysis.rank_correlations`, without `change`.
     top : int
         The largest number of parameters to draw.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure, and inside axes that you give.
+        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for the picture. The style of the picture is the style of the figure with these axes. Only labels and a
-        colour bar are outside of the given axes. Default: axes of a new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------
     matplotlib Axes
-        For a preset, the horizontal axis is the change of the measure in percent of the design's value. For a sample,
-        the horizontal axis is the correlation.
+        For a preset, the horizontal axis is the change of the measure in per cent of the measure's value for the
+        design. For a sample, the horizontal axis is the correlation.
 
     Raises
     ------
     ValueError
-        The same errors as for `sensitivities` and `rank_correlations`. The list of sensitivities is empty, or the
+        An argument is invalid (see `sensitivities` and `rank_correlations`). The list of sensitivities is empty, or the
         measure is zero for the design.
     """
     if _is_table(design):
@@ -161,14 +161,15 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
 
 
 def _is_table(design: Any) -> bool:
-    """Return True if the argument is a table of results, or a path of results, which has an ending."""
+    """Return True if the argument is a table of results, or the path of a file whose name has an ending such as
+    ``.csv``."""
     if isinstance(design, str):
         return bool(os.path.splitext(design)[1])
     return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
 
 
 def _named(each: Sensitivity) -> str:
-    """Return the name of a parameter and its value in the design, as text."""
+    """Return the name of a parameter with the value in the design, as text."""
     factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"

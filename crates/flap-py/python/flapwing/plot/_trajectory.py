@@ -1,4 +1,4 @@
-"""A picture of a motion over time, and of its phase portrait."""
+"""A picture of a motion over time, and of the phase portrait of the motion."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def trajectory(
         colour.
     signals : str or sequence of str
         The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
-        each column has its own axes. Default: stroke and pitch.
+        each column has separate axes. Default: stroke and pitch.
     portrait : sequence of str, optional
         The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
         table has no column for a rate, the rate is computed from the samples.
@@ -71,21 +71,22 @@ def trajectory(
         motions have numbers as names.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is above the axes of a new figure, and inside axes that you give.
+        legend is above the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
-        signal. If these axes already have motions, the colours continue and the legend has all lines.
+        signal. If `ax` already contains motions, the colours continue and the legend has all lines.
 
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The axes of the figure are first the signals, from top to bottom, then the phase portraits.
+        The axes of the figure are first the signals, from top to bottom, followed by the phase portraits.
 
     Raises
     ------
     ValueError
-        A column is unknown. The number of names differs from the number of trajectories. With `ax`, the signals have
-        several units, or portraits are requested. The motions in `ax` have another unit.
+        A column is unknown. The number of names differs from the number of trajectories. `ax` is given, but the signals
+        have several units, or phase portraits are requested. The motions that `ax` already contains have a different
+        unit.
 
     Examples
     --------
@@ -198,14 +199,14 @@ def _factor(ax: Axes, time: Shown) -> float:
 
 
 def _numbered(label: str, ax: Axes) -> str:
-    """Return a label for a motion that no line of the axes has yet."""
+    """Return a label for a motion. The label differs from the labels of all lines in the axes."""
     taken = [line.get_label() for line in ax.lines]
     numbers = (number for number in range(2, len(taken) + 2) if f"{label} ({number})" not in taken)
     return f"{label} ({next(numbers)})" if label in taken else label
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
-    """Return axes over time, one below the other, and the axes of phase portraits beside the axes over time."""
+    """Return axes over time, from top to bottom, and the axes of phase portraits beside the axes over time."""
     rows = max(signals, portraits)
     height = 1.0 + 1.9 * rows
     if not portraits:
@@ -227,8 +228,8 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
 
 
 def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarray, str]:
-    """Return the rate of a signal and its unit: from the column of the rate, or from the samples if there is no such
-    column."""
+    """Return the rate of a signal and the unit of the rate. If the column of the rate is missing, the rate is computed
+    from the samples."""
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name
@@ -252,7 +253,7 @@ def _common(words: list[str], unit: str) -> str:
 
 
 def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """Draw an arrow along the curve of a portrait, after a third of the first turn."""
+    """Draw an arrow along the curve of a phase portrait, after a third of the first cycle."""
     i = max(1, len(x) // 12)
     if i + 1 < len(x):
         ax.annotate(

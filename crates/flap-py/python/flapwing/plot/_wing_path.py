@@ -39,9 +39,9 @@ def wing_path(
 ) -> Animation:
     """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
 
-    The dot is the leading edge, at the upper edge of the wing, and the line ends at the trailing edge. The length of
-    the arrow shows the lift. The arrow points down if the lift is negative. Below the wing, curves show stroke and
-    pitch over the cycle. Keep the returned object until you have saved or shown it:
+    A dot marks the leading edge, at the upper edge of the wing, and the line of the chord ends at the trailing edge.
+    The length of the arrow shows the lift. The arrow points down if the lift is negative. Below the wing, curves show
+    stroke and pitch over the cycle. Keep the returned object until you have saved or shown the animation:
     ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
@@ -54,10 +54,10 @@ def wing_path(
     frequency : float, optional
         Frequency of the wing's cycles (Hz). Default: the rate at which the motion repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke axis, in chords. Default: 3. If the peak-to-peak stroke is less than
-        11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
+        Distance of the drawn chord from the stroke axis, in chords. Default: 3 chords. If the peak-to-peak stroke is
+        less than 11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
     lift : str or None
-        The column that the arrow shows; If `lift` is None, no arrow is drawn. If `lift` is not given and the table has
+        The column that the arrow shows. If `lift` is None, no arrow is drawn. If `lift` is not given and the table has
         no column of the lift, the picture has no arrow.
     pitch_sign : {1, -1}, optional
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
@@ -67,8 +67,8 @@ def wing_path(
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is above the axes.
     ax : matplotlib Axes, optional
-        Axes for the picture of the wing. The curves of stroke and pitch are then not drawn. The legend is inside the
-        given axes.
+        Axes for the picture of the wing. If `ax` is given, the curves of stroke and pitch are not drawn, and the legend
+        is inside `ax`.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def wing_path(
 
 
 class Cycle:
-    """The resampled last cycle of a trajectory. The phase rises from 0 to 1."""
+    """The resampled last cycle of a trajectory. Over the cycle, the phase rises from 0 to 1."""
 
     def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
         t, stroke, pitch = (data.numbers(name) for name in ("time_s", "stroke_deg", "pitch_deg"))
@@ -239,8 +239,8 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 def pitch_sign_of(data: Data, cycle: Cycle) -> int:
     """Return 1 if the trailing edge lags at a positive pitch, and -1 if the trailing edge leads.
 
-    The sign follows the convention of the model. For a table without a model, the sign is chosen so that the trailing
-    edge lags on average.
+    The returned sign follows the convention of the model. For a table without a model, the sign is chosen so that the
+    trailing edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
