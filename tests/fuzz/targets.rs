@@ -63,7 +63,7 @@ pub(crate) fn units(bytes: &[u8]) {
 struct Names;
 
 impl Scope for Names {
-    fn meaning(&self, name: &str) -> Option<Meaning> {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         Some(match name {
             "x" => Meaning::Number(0),
             "y" => Meaning::Number(1),

@@ -49,7 +49,7 @@ impl Simulator for Fake {
     }
 }
 
-const fn parameter(name: &'static str, unit: &'static str, kind: Kind) -> Parameter<'static> {
+const fn parameter(name: &'static str, unit: &'static str, kind: Kind<'static>) -> Parameter<'static> {
     Parameter::new(name, unit, "", kind, "")
 }
 

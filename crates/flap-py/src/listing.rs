@@ -19,7 +19,7 @@ pub(crate) struct Listed {
     symbol: &'static str,
     doc: String,
     allowed: String,
-    options: Vec<&'static str>,
+    options: Vec<String>,
 }
 
 /// A measure, as a dictionary.
@@ -48,7 +48,7 @@ struct Correlation {
 #[derive(IntoPyObject)]
 pub(crate) enum Value {
     Number(f64),
-    Option(&'static str),
+    Option(String),
 }
 
 /// Return the parameters of a design or a model; see `flapwing.params`.
@@ -62,13 +62,12 @@ pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
             Kind::Following(range, follows) => {
                 (format!("{}; if not set, {follows}", range.describe()), Vec::new())
             }
-            Kind::Choice(options) => (options.join(" | "), options.to_vec()),
+            Kind::Choice(options) => {
+                (options.join(" | "), options.iter().copied().map(str::to_owned).collect())
+            }
         };
-        let value = if value.is_nan() {
-            Value::Number(value)
-        } else {
-            text::option(parameter, value).map_or(Value::Number(value), Value::Option)
-        };
+        let option = text::option(parameter, value);
+        let value = option.map_or(Value::Number(value), |option| Value::Option(option.to_owned()));
         let (name, doc) = (parameter.name.to_owned(), parameter.doc.to_owned());
         Listed { name, value, unit: parameter.unit, symbol: parameter.symbol, doc, allowed, options }
     });

@@ -75,8 +75,9 @@ fn refused(parameter: &Parameter, error: &ValueError) -> PyErr {
             error.message(name, "") + &help
         }
         ValueError::NoOption { text, options } => {
-            let hint = did_you_mean(text, options);
-            format!("{}{hint} (options: {})", error.message(name, text), listed(options))
+            let options: Vec<&str> = options.iter().map(String::as_str).collect();
+            let hint = did_you_mean(text, &options);
+            format!("{}{hint} (options: {})", error.message(name, text), listed(&options))
         }
     })
 }

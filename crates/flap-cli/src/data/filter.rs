@@ -248,7 +248,7 @@ const BRANCHES: &[&str] = &["up", "down", "unstable"];
 struct Names<'n>(&'n [String]);
 
 impl Scope for Names<'_> {
-    fn meaning(&self, name: &str) -> Option<Meaning> {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         let mut known = self.0.iter().map(String::as_str);
         let column = known.position(|known| known == name)?;
         Some(match name {

@@ -10,7 +10,7 @@ pub struct Parameter<'a> {
     /// Symbol in the model's paper, empty if the paper has none.
     pub symbol: &'static str,
     /// Allowed values.
-    pub kind: Kind,
+    pub kind: Kind<'a>,
     /// Description in one line, with its source.
     pub doc: &'a str,
     /// Part of the robot, such as `hinge`. It is a heading in lists of parameters.
@@ -31,7 +31,7 @@ impl<'a> Parameter<'a> {
         name: &'a str,
         unit: &'static str,
         symbol: &'static str,
-        kind: Kind,
+        kind: Kind<'a>,
         doc: &'a str,
     ) -> Parameter<'a> {
         Parameter {
@@ -55,14 +55,14 @@ impl<'a> Parameter<'a> {
 
 /// Allowed values of a parameter.
 #[derive(Clone, Copy, Debug)]
-pub enum Kind {
+pub enum Kind<'a> {
     /// A number in SI units.
     Number(Range),
     /// A number that follows other parameters until it is set. The text is the value that it then has (`"half of
     /// actuator_length"`).
     Following(Range, &'static str),
     /// One of several named options: a reading of the paper, or a modelling choice.
-    Choice(&'static [&'static str]),
+    Choice(&'a [&'a str]),
 }
 
 /// A published parameter set.

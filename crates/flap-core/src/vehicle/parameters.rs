@@ -83,7 +83,7 @@ const fn about(name: &'static str, doc: &'static str) -> Parameter<'static> {
 struct Own {
     name: String,
     unit: &'static str,
-    kind: Kind,
+    kind: Kind<'static>,
     doc: String,
     group: String,
     default: f64,

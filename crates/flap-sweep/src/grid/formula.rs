@@ -67,7 +67,7 @@ impl Names<'_> {
         shared.unwrap_or(index)
     }
 
-    fn of_parameter(&self, index: usize) -> Meaning {
+    fn of_parameter(&self, index: usize) -> Meaning<'_> {
         let index = self.standing(index);
         match (&self.parameters[index].kind, self.unset[index]) {
             (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
@@ -77,7 +77,7 @@ impl Names<'_> {
     }
 
     /// Returns the meaning of a parameter's value in fixed designs: the presets or the devices.
-    fn of_fixed(&self, designs: &[Vec<Value>], index: usize) -> Option<Meaning> {
+    fn of_fixed(&self, designs: &[Vec<Value>], index: usize) -> Option<Meaning<'_>> {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
         }
@@ -97,7 +97,7 @@ impl Names<'_> {
         Some(if are_equal { Meaning::Constant(first) } else { Meaning::OfChoice(design, numbers.into()) })
     }
 
-    fn of_measure(&self, name: &str) -> Option<Meaning> {
+    fn of_measure(&self, name: &str) -> Option<Meaning<'_>> {
         let first = self.parameters.len();
         if !self.are_measured {
             return None;
@@ -115,7 +115,7 @@ impl Names<'_> {
 }
 
 impl Scope for Names<'_> {
-    fn meaning(&self, name: &str) -> Option<Meaning> {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         if let Some(name) = name.strip_prefix(PRESET) {
             return self.parameter(name).and_then(|index| self.of_fixed(&self.preset, index));
         }

@@ -33,7 +33,10 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     let name = parameter.name;
     let text = value.get_ref().as_str().unwrap_or_default();
     match error {
-        ValueError::NoOption { options, .. } => report_no_option(name, options, text, value, problems),
+        ValueError::NoOption { options, .. } => {
+            let options: Vec<&str> = options.iter().map(String::as_str).collect();
+            report_no_option(name, &options, text, value, problems);
+        }
         ValueError::NoQuantity(error) => {
             let span = inside(problems.text(), value.span(), text, &error.span);
             report_unit_error(name, span, error, problems);

@@ -144,7 +144,7 @@ pub(crate) fn no_default(follows: &str) -> Option<String> {
 }
 
 /// Returns the option with the index `value`, if the parameter is a choice.
-pub fn option(parameter: &Parameter, value: f64) -> Option<&'static str> {
+pub fn option<'p>(parameter: &Parameter<'p>, value: f64) -> Option<&'p str> {
     let Kind::Choice(options) = parameter.kind else { return None };
     // Comparing numbers avoids a cast that could be out of range.
     (0_u32..).map(f64::from).zip(options).find(|(index, _)| *index == value).map(|(_, name)| *name)

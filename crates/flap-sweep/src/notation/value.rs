@@ -12,7 +12,7 @@ pub enum ValueError {
         /// The text.
         text: String,
         /// Options of the parameter.
-        options: &'static [&'static str],
+        options: Vec<String>,
     },
     /// The text is not a quantity with the parameter's dimension.
     NoQuantity(UnitError),
@@ -65,8 +65,7 @@ pub enum UnitOf<'a> {
 pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f64, ValueError> {
     if let Kind::Choice(options) = parameter.kind {
         let index = options.iter().position(|option| *option == text);
-        let error = || ValueError::NoOption { text: text.to_owned(), options };
-        return index.map(|index| index as f64).ok_or_else(error);
+        return index.map(|index| index as f64).ok_or_else(|| no_option(text, options));
     }
     let number = match unit {
         UnitOf::Text => units::parse_as(text, parameter.unit),
@@ -74,6 +73,11 @@ pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f6
         UnitOf::Column(unit) => units::parse_as(&format!("{text} {unit}"), parameter.unit),
     };
     of_number(parameter, number.map_err(ValueError::NoQuantity)?)
+}
+
+fn no_option(text: &str, options: &[&str]) -> ValueError {
+    let options = options.iter().copied().map(str::to_owned).collect();
+    ValueError::NoOption { text: text.to_owned(), options }
 }
 
 /// Returns the number, if `parameter` accepts the number: a number in SI units, or the index of an option.
@@ -86,7 +90,7 @@ pub fn of_number(parameter: &Parameter, value: f64) -> Result<f64, ValueError> {
             Err(ValueError::OutOfRange { value, allowed })
         }
         Kind::Choice(options) if !(0..options.len()).any(|index| index as f64 == value) => {
-            Err(ValueError::NoOption { text: value.to_string(), options })
+            Err(no_option(&value.to_string(), options))
         }
         Kind::Number(_) | Kind::Following(..) | Kind::Choice(_) => Ok(value),
     }

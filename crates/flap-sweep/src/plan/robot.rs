@@ -1,7 +1,7 @@
 //! Simulator of a plan's points: a model or a vehicle, and the choice between several designs of it.
 
 use std::ops::Deref;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use flap_core::aero::Wing;
 use flap_core::num::Backend;
@@ -47,10 +47,13 @@ impl Robot {
     /// Returns the robot with one more parameter after the others: a choice called `name` between designs with these
     /// labels.
     pub(crate) fn with_designs(self, name: &'static str, labels: Vec<String>) -> Robot {
-        let kind = Kind::Choice(interned(labels));
         let doc = if name == "preset" { PRESET_DOC } else { DEVICE_DOC };
-        let own = Parameter { default: 0.0, group: "design", ..Parameter::new(name, "", "", kind, doc) };
-        let table = Table::new(self, |robot| robot.parameters().iter().copied().chain([own]).collect());
+        let labels = Labels::new(labels, |labels| labels.iter().map(String::as_str).collect());
+        let table = Table::new((self, labels), |(robot, labels)| {
+            let kind = Kind::Choice(labels.borrow_dependent());
+            let own = Parameter { default: 0.0, group: "design", ..Parameter::new(name, "", "", kind, doc) };
+            robot.parameters().iter().copied().chain([own]).collect()
+        });
         Robot::Designs(Arc::new(Designs { table }))
     }
 }
@@ -70,11 +73,23 @@ impl Deref for Robot {
     }
 }
 
+type Options<'a> = Vec<&'a str>;
+
+self_cell!(
+    /// Labels of designs, also as the options of a choice.
+    struct Labels {
+        owner: Vec<String>,
+        #[covariant]
+        dependent: Options,
+    }
+);
+
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
+    /// All parameters, with the robot and the labels from which they borrow.
     struct Table {
-        owner: Robot,
+        owner: (Robot, Labels),
         #[covariant]
         dependent: Parameters,
     }
@@ -89,7 +104,7 @@ pub struct Designs {
 
 impl Designs {
     fn robot(&self) -> &Robot {
-        self.table.borrow_owner()
+        &self.table.borrow_owner().0
     }
 }
 
@@ -147,18 +162,6 @@ impl Simulator for Designs {
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
         self.robot().experiments()
     }
-}
-
-/// Returns the labels as options of a choice, which live as long as the program. Equal labels share their memory.
-fn interned(labels: Vec<String>) -> &'static [&'static str] {
-    static KNOWN: Mutex<Vec<&[&str]>> = Mutex::new(Vec::new());
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(same) = known.iter().copied().find(|&same| same == labels) {
-        return same;
-    }
-    let labels: Vec<&'static str> = labels.into_iter().map(|label| &*label.leak()).collect();
-    known.push(labels.leak());
-    known[known.len() - 1]
 }
 
 /// Values of the parameters in which the designs of a plan differ.

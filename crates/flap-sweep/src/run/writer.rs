@@ -166,7 +166,7 @@ impl<'a> RowWriter<'a> {
     pub(crate) fn write_rows<'r>(
         &mut self,
         index: u64,
-        rows: impl IntoIterator<Item = (Vec<Cell<'static>>, &'r Row)>,
+        rows: impl IntoIterator<Item = (Vec<Cell<'r>>, &'r Row)>,
     ) -> Result<(), RunError> {
         let written = usize::try_from(self.summary.begun).unwrap_or(usize::MAX);
         let mut rows = rows.into_iter().skip(written).peekable();

@@ -136,12 +136,12 @@ impl<'p> Layout<'p> {
     /// Unknown values are the measures of a point that is not periodic, and the residual of a point that completed no
     /// period.
     /// If no orbit was found, the Floquet multiplier and the stability are unknown too.
-    pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'static>> {
+    pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'p>> {
         self.cells_at(point, None, row)
     }
 
     /// Returns the cells of a motion on a curve of the design `point`, in the form of [`Layout::cells`].
-    pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'static>> {
+    pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'p>> {
         // `curve` or `point`, `branch`, the followed parameter, `status`, and `bistable`.
         let mut cells = Vec::with_capacity(5 + self.varied.len() + self.behind.len());
         cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
@@ -149,7 +149,7 @@ impl<'p> Layout<'p> {
     }
 
     /// Returns the columns with their cells.
-    fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
+    fn entries(&self) -> impl Iterator<Item = Entry<'_, 'p>> {
         let first = if self.followed.is_some() { &CURVE } else { &POINT };
         let followed =
             self.followed.into_iter().flat_map(|parameter| [Entry::Branch, Entry::Followed(parameter)]);
@@ -236,14 +236,14 @@ pub fn special_columns() -> [Column; 3] {
 }
 
 /// A column of a layout.
-enum Entry<'l> {
+enum Entry<'l, 'p> {
     Fixed(&'static Fixed),
     /// A varied or derived parameter, with its index in the model's table.
-    Parameter(usize, &'l Parameter<'l>),
+    Parameter(usize, &'p Parameter<'p>),
     /// Branch of a curve.
     Branch,
     /// Followed parameter of a curve.
-    Followed(&'l Parameter<'l>),
+    Followed(&'p Parameter<'p>),
     /// Flag that is true where a curve is bistable.
     Bistable,
     Measure(&'l Measure),
@@ -251,7 +251,7 @@ enum Entry<'l> {
     State(usize, &'l str),
 }
 
-impl Entry<'_> {
+impl<'p> Entry<'_, 'p> {
     fn column(&self) -> Column {
         match self {
             Entry::Fixed(Fixed { name, kind, doc, .. }) => Column::new(name, "", *kind, doc),
@@ -266,7 +266,7 @@ impl Entry<'_> {
         }
     }
 
-    fn cell(&self, point: &Point, place: Option<Place>, row: &Row) -> Cell<'static> {
+    fn cell(&self, point: &Point, place: Option<Place>, row: &Row) -> Cell<'p> {
         match self {
             Entry::Fixed(fixed) => (fixed.cell)(point, row),
             Entry::Parameter(index, parameter) => Cell::of_parameter(parameter, point.values[*index]),
@@ -378,7 +378,7 @@ pub enum Cell<'t> {
 }
 
 impl<'t> Cell<'t> {
-    pub(crate) fn of_parameter(parameter: &Parameter, value: f64) -> Cell<'static> {
+    pub(crate) fn of_parameter(parameter: &Parameter<'t>, value: f64) -> Cell<'t> {
         text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
     }
 

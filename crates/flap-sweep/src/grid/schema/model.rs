@@ -302,7 +302,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
 }
 
 /// Returns the names of parameters of the wanted kinds.
-fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind) -> bool) -> Vec<&'p str> {
+fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind<'p>) -> bool) -> Vec<&'p str> {
     parameters.iter().filter(|parameter| is_wanted(parameter.kind)).map(|parameter| parameter.name).collect()
 }
 

@@ -79,8 +79,8 @@ pub enum ExpressionProblem {
     ChoiceAsNumber {
         /// Name of the choice.
         name: String,
-        /// Options of the choice.
-        options: &'static [&'static str],
+        /// First option of the choice.
+        first: String,
     },
     /// A comparison of a choice with text that is not the name of an option of this choice.
     #[error("`{name}` has no option `{option}`")]
@@ -90,7 +90,7 @@ pub enum ExpressionProblem {
         /// Text with which the choice is compared.
         option: String,
         /// Options of the choice.
-        options: &'static [&'static str],
+        options: Vec<String>,
     },
     /// A parameter that is not set and is computed from other parameters.
     #[error("`{name}` is not set")]
@@ -138,12 +138,11 @@ impl ExpressionError {
                 Some(nearest(name, known.iter().copied()).map_or_else(listed, did_you_mean))
             }
             ExpressionProblem::BareFunction(name) => Some(format!("write {name}(…)")),
-            ExpressionProblem::ChoiceAsNumber { name, options } => {
-                let first = options.first().copied().unwrap_or_default();
+            ExpressionProblem::ChoiceAsNumber { name, first } => {
                 Some(format!("compare it with an option: {name} == '{first}'"))
             }
             ExpressionProblem::UnknownOption { option, options, .. } => Some(
-                nearest(option, options.iter().copied())
+                nearest(option, options.iter().map(String::as_str))
                     .map_or_else(|| format!("options: {}", options.join(", ")), did_you_mean),
             ),
             ExpressionProblem::Unset { name, follows } if name.contains('.') => {

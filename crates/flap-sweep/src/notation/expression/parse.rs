@@ -233,10 +233,12 @@ impl<'a> Parser<'a> {
         name: &str,
         span: Range<usize>,
         place: usize,
-        options: &'static [&'static str],
+        options: &[&str],
     ) -> Result<Operand, ExpressionError> {
         let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
-            self.note(span.clone(), ExpressionProblem::ChoiceAsNumber { name: name.to_owned(), options });
+            let first = options.first().copied().unwrap_or_default();
+            let (name, first) = (name.to_owned(), first.to_owned());
+            self.note(span.clone(), ExpressionProblem::ChoiceAsNumber { name, first });
             return Ok(Operand { kind: None, span });
         };
         self.advance()?;
@@ -250,6 +252,7 @@ impl<'a> Parser<'a> {
         let span = span.start..text_span.end;
         let Some(index) = options.iter().position(|option| *option == text) else {
             let (name, option) = (name.to_owned(), text.to_owned());
+            let options = options.iter().copied().map(str::to_owned).collect();
             self.note(text_span, ExpressionProblem::UnknownOption { name, option, options });
             return Ok(Operand { kind: None, span });
         };

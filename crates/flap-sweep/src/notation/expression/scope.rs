@@ -13,13 +13,13 @@ pub enum Kind {
 
 /// Meaning of a name in an expression.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Meaning {
+pub enum Meaning<'a> {
     /// A number. Contains the index in the values.
     Number(usize),
     /// A condition. Contains the index in the values, as returned by [`Expression::value`](super::Expression::value).
     Condition(usize),
     /// A choice. Contains the index in the values, and the options. The value is the index of an option.
-    Choice(usize, &'static [&'static str]),
+    Choice(usize, &'a [&'a str]),
     /// Constant.
     Constant(f64),
     /// Number that depends on the choice with this index in the values: a number for each option.
@@ -31,7 +31,7 @@ pub enum Meaning {
 /// Names that an expression may use.
 pub trait Scope {
     /// Returns the meaning of `name`, if the name has a meaning.
-    fn meaning(&self, name: &str) -> Option<Meaning>;
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>>;
 
     /// Returns all names, for suggestions after a misspelling.
     fn names(&self) -> Vec<String>;

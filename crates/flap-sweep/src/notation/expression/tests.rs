@@ -8,7 +8,7 @@ struct Names;
 const OPTIONS: &[&str] = &["printed", "axis"];
 
 impl Scope for Names {
-    fn meaning(&self, name: &str) -> Option<Meaning> {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         Some(match name {
             "T" => Meaning::Number(0),
             "x" => Meaning::Number(1),

@@ -220,7 +220,7 @@ impl Names<'_> {
         column.map(|column| column.unit.to_owned()).or_else(own)
     }
 
-    fn of_parameter(&self, index: usize) -> Meaning {
+    fn of_parameter(&self, index: usize) -> Meaning<'_> {
         let parameters = self.plan.parameters();
         let follows = |index: usize| match self.plan.base()[index] {
             Value::Given(_) | Value::OfDesign => None,
@@ -240,7 +240,7 @@ impl Names<'_> {
 }
 
 impl Scope for Names<'_> {
-    fn meaning(&self, name: &str) -> Option<Meaning> {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         let parameters = self.plan.parameters();
         if let Some(index) = Parameter::index(parameters, name) {
             return Some(self.of_parameter(index));

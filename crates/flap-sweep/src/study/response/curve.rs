@@ -52,7 +52,7 @@ impl Curve {
     ///
     /// The upward branch comes first in ascending order, then the downward branch in descending order, then the
     /// unstable orbits.
-    pub fn rows(&self, layout: &Layout<'_>) -> impl Iterator<Item = (Vec<Cell<'static>>, &Row)> {
+    pub fn rows<'p>(&self, layout: &Layout<'p>) -> impl Iterator<Item = (Vec<Cell<'p>>, &Row)> {
         let bistable = self.bistable();
         let up = self.up.iter().zip(bistable.clone()).map(|(step, bistable)| ("up", step, bistable));
         let down = self.down.iter().zip(bistable).rev().map(|(step, bistable)| ("down", step, bistable));

@@ -190,9 +190,9 @@ impl Edges {
     }
 
     /// Returns one row of [`Edges::columns`] for each point of the edges of `design`.
-    pub fn rows(&self, plan: &Plan, design: &Point) -> Vec<Vec<Cell<'static>>> {
+    pub fn rows<'p>(&self, plan: &'p Plan, design: &Point) -> Vec<Vec<Cell<'p>>> {
         let measures = measures(plan);
-        let varied: Vec<Cell<'static>> = (plan.axes().varied())
+        let varied: Vec<Cell<'_>> = (plan.axes().varied())
             .map(|index| Cell::of_parameter(&plan.parameters()[index], design.values[index]))
             .collect();
         let row = |number: u64, kind: EdgeKind, point: &EdgePoint| {
