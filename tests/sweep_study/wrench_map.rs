@@ -140,10 +140,9 @@ fn rows_without_a_periodic_motion_are_counted() {
     assert_eq!(map.fitted + map.left_out + invalid[0].1, 200);
     assert!(map.warnings()[0].ends_with(&format!("{} invalid", invalid[0].1)), "{:?}", map.warnings());
     let error = of(vec![input("amplitude_difference", 420.0, 440.0)]).unwrap_err();
-    assert!(
-        matches!(&error, WrenchMapError::FewRows { periodic: 0, reason: Some(reason), .. } if !reason.is_empty()),
-        "{error}"
-    );
+    assert!(matches!(error, WrenchMapError::FewRows(_)));
+    let start = "none of the 200 rows are periodic, too few for 3 coefficients per component: 200 invalid (";
+    assert!(error.to_string().starts_with(start), "{error}");
 }
 
 /// A stopped run gives no map.

@@ -88,7 +88,7 @@ fn into_python<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py,
     dict.set_item("C", matrix(&DMatrix::identity(size, size)))?;
     dict.set_item("D", matrix(&DMatrix::zeros(size, model.inputs.len())))?;
     dict.set_item("damping", matrix(&damping))?;
-    dict.set_item("control_matrix", matrix(&model.control))?;
+    dict.set_item("control_matrix", matrix(&hover.control))?;
     dict.set_item("W0", PyArray1::from_slice(py, &hover.wrench))?;
     dict.set_item("residual", PyArray1::from_slice(py, &hover.residual()))?;
     dict.set_item("eigenvalues_real", PyArray1::from_vec(py, real))?;
@@ -102,6 +102,6 @@ fn into_python<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py,
     dict.set_item("wrench", (0..6).map(component).collect::<Vec<_>>())?;
     dict.set_item("drive_frequency", model.frequency)?;
     dict.set_item("floquet_max", model.floquet_max)?;
-    dict.set_item("warnings", model.warnings().iter().map(ToString::to_string).collect::<Vec<_>>())?;
+    dict.set_item("warnings", model.warnings())?;
     Ok(dict)
 }

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
+use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError};
 use flap_sweep::vehicle::control::{COMPONENTS, ControlInputError, Input};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -82,10 +82,6 @@ fn into_python<'py>(py: Python<'py>, chosen: &Chosen, map: &WrenchMap) -> PyResu
     let of_inputs = |get: fn(&MapInput) -> f64| map.inputs.iter().map(get).collect::<Vec<f64>>();
     let parameters: Vec<_> =
         map.inputs.iter().map(|input| &chosen.plan.parameters()[input.parameter]).collect();
-    let powers = terms(map.inputs.len()).into_iter().map(|term| {
-        let power = |input| term.iter().filter(|&&factor| factor == input).count();
-        (0..map.inputs.len()).map(power).collect::<Vec<usize>>()
-    });
     let [scaled, physical] = [&map.scaled, &map.physical()].map(|coefficients| {
         coefficients.row_iter().map(|row| row.iter().copied().collect()).collect::<Vec<Vec<f64>>>()
     });
@@ -100,7 +96,7 @@ fn into_python<'py>(py: Python<'py>, chosen: &Chosen, map: &WrenchMap) -> PyResu
     dict.set_item("start", of_inputs(|input| input.from))?;
     dict.set_item("stop", of_inputs(|input| input.to))?;
     dict.set_item("components", COMPONENTS.to_vec())?;
-    dict.set_item("powers", powers.collect::<Vec<_>>())?;
+    dict.set_item("powers", map.powers())?;
     dict.set_item("scaled", scaled)?;
     dict.set_item("physical", physical)?;
     dict.set_item("r_squared", map.r_squared.to_vec())?;

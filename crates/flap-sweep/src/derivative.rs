@@ -90,9 +90,10 @@ const SMALL: f64 = 1e-3;
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
     let known = (value != 0.0 && value.is_finite()).then_some(value);
-    match simulator.parameters()[index].kind {
-        Kind::Number(range) | Kind::Following(range, _) if !range.contains(0.0) => return known,
-        Kind::Number(_) | Kind::Following(..) | Kind::Choice(_) => {}
+    if let Kind::Number(range) | Kind::Following(range, _) = simulator.parameters()[index].kind
+        && !range.contains(0.0)
+    {
+        return known;
     }
     let typical = typical(simulator, values, index);
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
@@ -100,10 +101,7 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
 
 /// Returns true if a parameter is zero and cannot be negative, so that its differences are one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
-    let range = match parameters[index].kind {
-        Kind::Number(range) | Kind::Following(range, _) => range,
-        Kind::Choice(_) => return false,
-    };
+    let (Kind::Number(range) | Kind::Following(range, _)) = parameters[index].kind else { return false };
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 

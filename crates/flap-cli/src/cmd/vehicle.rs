@@ -11,9 +11,7 @@ use flap_core::simulate::{NoSlope, never};
 use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
-use flap_sweep::vehicle::control::{
-    COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, TrimError, trim,
-};
+use flap_sweep::vehicle::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, trim};
 
 use self::parts::{HEADINGS, input, tidy, title};
 use super::point::Chosen;
@@ -88,7 +86,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         hover::export(model, path, format, args.overwrite.force)?;
     }
     for warning in model.iter().flat_map(LinearModel::warnings) {
-        console::warn(&warning.to_string());
+        console::warn(&warning);
     }
     let model = model.filter(|_| args.hover);
     let (names, rows) = match (&damping, &model) {
@@ -256,23 +254,11 @@ impl From<ControlError> for Failure {
             ControlError::NoSlope { .. } => {
                 "the manual explains this reason in Reference, Grid files: choose another point, or remove the input from --inputs"
             }
-        };
-        Failure::usage(error.to_string()).help(help)
-    }
-}
-
-impl From<TrimError> for Failure {
-    fn from(error: TrimError) -> Failure {
-        let help = match &error {
-            TrimError::FewInputs { .. } => "give more --inputs or fewer --trim",
-            TrimError::NotReached { .. } => {
+            ControlError::FewInputs { .. } => "give more --inputs or fewer --trim",
+            ControlError::NotReached(_) => {
                 "choose other --inputs, or targets closer to the point's force and torque"
             }
-            TrimError::Control(_) => "",
         };
-        match error {
-            TrimError::Control(error) => error.into(),
-            error => Failure::usage(error.to_string()).help(help),
-        }
+        Failure::usage(error.to_string()).help(help)
     }
 }

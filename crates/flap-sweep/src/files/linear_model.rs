@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::matlab::{self, Variable};
 use crate::notation::text;
 use crate::vehicle::control::{Effectiveness, Flight};
-use crate::vehicle::hover::{HoverError, HoverModel, HoverWarning, STATES, WRENCH_UNITS, component};
+use crate::vehicle::hover::{HoverError, HoverModel, STATES, WRENCH_UNITS, component};
 
 /// Input of a linear model, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +28,6 @@ pub struct LinearInput {
 pub struct LinearModel {
     /// Model.
     pub hover: HoverModel,
-    /// Change of force (N) and torque (N·m) with the inputs: 6 × inputs.
-    pub control: DMatrix<f64>,
     /// Inputs, in the order of the columns of B.
     pub inputs: Vec<LinearInput>,
     /// Drive frequency (Hz).
@@ -87,7 +85,7 @@ impl LinearModel {
         let vehicle = flight.vehicle;
         let parameters = vehicle.parameters();
         let index = |name: &str| Parameter::index(parameters, name);
-        let (hover, control) = HoverModel::at(flight, values, at, has_position)?;
+        let hover = HoverModel::at(flight, values, at, has_position)?;
         let response =
             index("body_response").and_then(|index| text::option(&parameters[index], values[index]));
         let inputs = at.inputs.iter().zip(&at.values).map(|(input, value)| LinearInput {
@@ -97,7 +95,6 @@ impl LinearModel {
         });
         Ok(LinearModel {
             hover,
-            control,
             inputs: inputs.collect(),
             frequency: index("drive_frequency").map_or(f64::NAN, |index| values[index]),
             floquet_max: at.row.floquet_max,
@@ -108,7 +105,7 @@ impl LinearModel {
     }
 
     /// Returns the reasons to doubt the model.
-    pub fn warnings(&self) -> Vec<HoverWarning> {
+    pub fn warnings(&self) -> Vec<String> {
         self.hover.warnings(self.frequency, self.floquet_max)
     }
 
@@ -152,7 +149,7 @@ impl LinearModel {
             ("output_units", texts(&units)),
             ("input_values", Variable::Vector(values)),
             ("damping", Variable::Matrix(damping)),
-            ("control_matrix", Variable::Matrix(self.control.clone())),
+            ("control_matrix", Variable::Matrix(self.hover.control.clone())),
             ("W0", Variable::Vector(self.hover.wrench.to_vec())),
             ("wrench", texts(&components)),
             ("wrench_units", texts(&WRENCH_UNITS)),
@@ -284,11 +281,10 @@ mod tests {
         let damping =
             Matrix6::from_fn(|i, j| if i == j { -1e-7 } else { 1e-9 * (i as f64 - 2.0 * j as f64) });
         let control = DMatrix::from_fn(6, 2, |i, j| 1e-6 / (1.0 + i as f64) - 1e-7 * j as f64);
-        let hover = HoverModel::new(body, damping, &control, [0.0; 6], true).unwrap();
+        let hover = HoverModel::new(body, damping, control, [0.0; 6], true).unwrap();
         let input = |name: &str| LinearInput { name: name.to_owned(), unit: "V".to_owned(), value: 140.0 };
         let model = LinearModel {
             hover,
-            control,
             inputs: vec![input("amplitude"), input("bias")],
             frequency: 120.0,
             floquet_max: 0.2,

@@ -7,14 +7,14 @@
 //! Least squares over rows of the vehicle give the coefficients. Every fifth row is left out of the fit and tests the
 //! map.
 
-use flap_core::simulate::{Row, Rows as _, Status};
+use flap_core::simulate::{Row, Status};
 use nalgebra::{DMatrix, DVector};
 
 use crate::notation::text;
 use crate::plan::sample::{Design, Distribution, Method};
 use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
-use crate::vehicle::control::{COMPONENTS, Input};
+use crate::vehicle::control::{COMPONENTS, Input, because, places};
 
 /// Number of rows of which one row is left out of the fit.
 const LEFT_OUT: usize = 5;
@@ -59,7 +59,8 @@ impl MapInput {
         if from < to {
             return Ok(MapInput { name: input.name.clone(), parameter: input.parameter, from, to });
         }
-        Err(WrenchMapError::Range { name: input.name.clone(), is_empty: from == to })
+        let mistake = if from == to { "is empty" } else { "ends below its beginning" };
+        Err(WrenchMapError::Range(input.name.clone(), mistake))
     }
 
     /// Returns the centre of the range (SI).
@@ -88,14 +89,9 @@ pub enum WrenchMapError {
     /// The parameter is computed from other parameters.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
-    /// The range is empty, or its first value is above its last value.
-    #[error("the range of `{name}` {}", if *is_empty { "is empty" } else { "ends below its beginning" })]
-    Range {
-        /// Name of the input.
-        name: String,
-        /// True if both ends of the range are equal.
-        is_empty: bool,
-    },
+    /// The range of an input is empty, or its first value is above its last value. Contains the name and the mistake.
+    #[error("the range of `{0}` {1}")]
+    Range(String, &'static str),
     /// The number of samples is too small for the map.
     #[error(
         "{samples} samples are too few for {terms} coefficients per component: at least {needed} are needed"
@@ -108,25 +104,9 @@ pub enum WrenchMapError {
         /// Smallest number of samples.
         needed: usize,
     },
-    /// The number of periodic rows is too small for the map.
-    #[error(
-        "{} rows are periodic, too few for {terms} coefficients per component: {}{}",
-        of_rows(*periodic, *samples),
-        statuses(unused),
-        because(reason.as_deref())
-    )]
-    FewRows {
-        /// Number of periodic rows.
-        periodic: usize,
-        /// Number of rows.
-        samples: usize,
-        /// Number of coefficients of each component of force and torque.
-        terms: usize,
-        /// Numbers of rows without a periodic motion, by status.
-        unused: Vec<(Status, usize)>,
-        /// Reason of the first invalid row.
-        reason: Option<String>,
-    },
+    /// The number of periodic rows is too small for the map. Contains the numbers of rows.
+    #[error("{0}")]
+    FewRows(String),
     /// The periodic rows do not determine all coefficients.
     #[error("the periodic rows do not determine all coefficients")]
     Undetermined,
@@ -148,11 +128,11 @@ impl WrenchMapError {
             WrenchMapError::Derived(_) => {
                 Some("choose the parameters from which it is derived, or remove it from [derived]")
             }
-            WrenchMapError::Range { .. } => Some("a range has its smaller end first, as in 180V:220V"),
+            WrenchMapError::Range(..) => Some("a range has its smaller end first, as in 180V:220V"),
             WrenchMapError::FewSamples { .. } => Some(
                 "compute more samples, or leave out inputs; 200 or more samples are usual for four inputs",
             ),
-            WrenchMapError::FewRows { .. } | WrenchMapError::Undetermined => {
+            WrenchMapError::FewRows(_) | WrenchMapError::Undetermined => {
                 Some("choose narrower ranges around a settled motion, or more samples")
             }
             WrenchMapError::Inputs(_)
@@ -161,14 +141,6 @@ impl WrenchMapError {
             | WrenchMapError::Run(_) => None,
         }
     }
-}
-
-fn because(reason: Option<&str>) -> String {
-    reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
-}
-
-fn of_rows(periodic: usize, samples: usize) -> String {
-    if periodic == 0 { format!("none of the {samples}") } else { format!("only {periodic} of the {samples}") }
 }
 
 /// Returns the numbers of rows by status, such as `3 unsettled, 1 invalid`.
@@ -223,7 +195,7 @@ impl WrenchMap {
         options: &RunOptions,
         mut stops: impl FnMut(Progress) -> bool,
     ) -> Result<Option<WrenchMap>, WrenchMapError> {
-        let places = places(plan)?;
+        let places = places(plan.vehicle().ok_or(WrenchMapError::NoVehicle)?);
         check(plan, &inputs, samples)?;
         let axis = sampled(&inputs, samples);
         let plan = plan.clone().of_point(values).with_measures(Vec::new()).crossed_with(axis.clone())?;
@@ -238,20 +210,26 @@ impl WrenchMap {
                 return Ok(None);
             }
         }
-        let periodic: Vec<usize> =
-            (0..found.len()).filter(|&index| found[index].status == Status::Periodic).collect();
+        let is_periodic = |(_, row): &(usize, &Row)| row.status == Status::Periodic;
+        let periodic: Vec<(usize, &Row)> = found.iter().enumerate().filter(is_periodic).collect();
         let unused = unused(&found);
         let terms = terms(inputs.len()).len();
         if periodic.len() < needed(terms) {
-            let reason = found.into_iter().find_map(|row| row.reason);
-            let (periodic, samples) = (periodic.len(), samples as usize);
-            return Err(WrenchMapError::FewRows { periodic, samples, terms, unused, reason });
+            let rows = match periodic.len() {
+                0 => format!("none of the {samples}"),
+                some => format!("only {some} of the {samples}"),
+            };
+            return Err(WrenchMapError::FewRows(format!(
+                "{rows} rows are periodic, too few for {terms} coefficients per component: {}{}",
+                statuses(&unused),
+                because(found.iter().find_map(|row| row.reason.as_deref()))
+            )));
         }
-        let point = |index: usize| axis.iter().map(|(_, list)| list[index]).collect::<Vec<f64>>();
-        let points: Vec<Vec<f64>> = periodic.iter().map(|&index| point(index)).collect();
-        let wrench = |index: &usize| places.map(|place| found[*index].measures[place]);
+        let point = |(index, _): &(usize, &Row)| axis.iter().map(|(_, list)| list[*index]).collect();
+        let points: Vec<Vec<f64>> = periodic.iter().map(point).collect();
+        let wrench = |(_, row): &(usize, &Row)| places.map(|place| row.measures[place]);
         let wrenches: Vec<[f64; 6]> = periodic.iter().map(wrench).collect();
-        let floquet_max = periodic.iter().map(|&index| found[index].floquet_max).fold(f64::NAN, f64::max);
+        let floquet_max = periodic.iter().map(|(_, row)| row.floquet_max).fold(f64::NAN, f64::max);
         WrenchMap::fitted_to(inputs, &points, &wrenches)
             .map(|map| Some(WrenchMap { unused, floquet_max, ..map }))
             .ok_or(WrenchMapError::Undetermined)
@@ -282,15 +260,12 @@ impl WrenchMap {
             let exact: Vec<f64> = tested.iter().map(|&place| wrenches[place][component]).collect();
             let mean = exact.iter().sum::<f64>() / exact.len() as f64;
             let errors = computed.iter().zip(&exact).map(|(computed, exact)| computed[component] - exact);
-            let (mut squares, mut error) = (0.0, 0.0_f64);
-            for one in errors {
-                squares += one * one;
-                error = error.max(one.abs());
-            }
-            map.largest_error[component] = error;
+            let errors: Vec<f64> = errors.collect();
+            map.largest_error[component] = errors.iter().fold(0.0, |one: f64, error| one.max(error.abs()));
             let spread = exact.iter().fold(0.0, |one: f64, exact| one.max((exact - mean).abs()));
             if spread > CONSTANT * largest {
                 let total: f64 = exact.iter().map(|exact| (exact - mean) * (exact - mean)).sum();
+                let squares: f64 = errors.iter().map(|error| error * error).sum();
                 map.r_squared[component] = 1.0 - squares / total;
             }
         }
@@ -372,21 +347,24 @@ impl WrenchMap {
                 self.floquet_max
             ));
         }
-        let idle = self.idle().into_iter();
-        warnings.extend(idle.map(|name| format!("the input `{name}` changes neither force nor torque")));
+        let terms = terms(self.inputs.len());
+        let least = CONSTANT * self.scaled.amax();
+        for (place, MapInput { name, .. }) in self.inputs.iter().enumerate() {
+            let mut own =
+                terms.iter().zip(self.scaled.column_iter()).filter(|(term, _)| term.contains(&place));
+            if own.all(|(_, coefficients)| coefficients.amax() <= least) {
+                warnings.push(format!("the input `{name}` changes neither force nor torque"));
+            }
+        }
         warnings
     }
 
-    /// Returns the names of inputs that change no component.
-    fn idle(&self) -> Vec<&str> {
-        let terms = terms(self.inputs.len());
-        let effect = |input: usize| {
-            let columns = terms.iter().enumerate().filter(|(_, term)| term.contains(&input));
-            columns.map(|(column, _)| self.scaled.column(column).amax()).fold(0.0, f64::max)
-        };
-        let least = CONSTANT * self.scaled.amax();
-        let inputs = self.inputs.iter().enumerate();
-        inputs.filter(|(place, _)| effect(*place) <= least).map(|(_, input)| input.name.as_str()).collect()
+    /// Returns the exponent of each input in each term of [`terms`].
+    pub fn powers(&self) -> Vec<Vec<usize>> {
+        let inputs = 0..self.inputs.len();
+        let power = |term: &[usize], input| term.iter().filter(|&&factor| factor == input).count();
+        let powers = |term: &Vec<usize>| inputs.clone().map(|input| power(term, input)).collect();
+        terms(inputs.len()).iter().map(powers).collect()
     }
 
     /// Returns the numbers of rows by use or status: `fitted`, `left_out`, then statuses of rows that are not used.
@@ -410,13 +388,6 @@ pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
 fn needed(terms: usize) -> usize {
     // Of each LEFT_OUT rows, LEFT_OUT - 1 are in the fit.
     (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
-}
-
-/// Returns the indices of force and torque among the measures of the vehicle's rows.
-fn places(plan: &Plan) -> Result<[usize; 6], WrenchMapError> {
-    let columns = plan.vehicle().ok_or(WrenchMapError::NoVehicle)?.columns();
-    let place = |name: &str| columns.iter().position(|column| column.name == name).unwrap_or_default();
-    Ok(COMPONENTS.map(place))
 }
 
 fn check(plan: &Plan, inputs: &[MapInput], samples: u32) -> Result<(), WrenchMapError> {

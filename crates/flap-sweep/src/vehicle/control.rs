@@ -1,10 +1,13 @@
 //! Control effectiveness of a vehicle: the change of mean force and torque with each input. Also trims.
 
+use core::iter::successors;
+
 use flap_core::body::BodyParameters;
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{
-    Change, Gradients as _, Interrupt, NoSlope, PointRun, Row, Rows as _, SolverSettings, Status, Unfinished,
+    Change, Gradients as _, Interrupt, NoSlope, PointRun, Row, Rows as _, Simulator as _, SolverSettings,
+    Status, Unfinished,
 };
 use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::{DMatrix, DVector};
@@ -58,7 +61,7 @@ impl Input {
     /// # Errors
     /// An error if the vehicle has no input with the given name.
     pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
-        let parameters = parameters(vehicle);
+        let parameters = vehicle.parameters();
         let unknown = || ControlInputError::Unknown(name.to_owned());
         let index = names(vehicle, name)
             .iter()
@@ -82,11 +85,11 @@ impl Input {
     /// Each word applies to all wings and, if there are wings on both sides, also to the difference. `values` are values of
     /// the vehicle's parameters.
     pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
-        let shape = Parameter::index(parameters(vehicle), "drive_shape");
-        let shape = shape.and_then(|shape| text::option(&parameters(vehicle)[shape], values[shape]));
-        let has_harmonics = shape == Some("harmonics");
+        let parameters = vehicle.parameters();
+        let shape = Parameter::index(parameters, "drive_shape");
+        let shape = shape.and_then(|shape| text::option(&parameters[shape], values[shape]));
         let words = ["amplitude", "bias", "second_harmonic"];
-        let words = if has_harmonics { &words[..] } else { &words[..2] };
+        let words = if shape == Some("harmonics") { &words[..] } else { &words[..2] };
         let names = words.iter().flat_map(|word| [(*word).to_owned(), format!("{word}{DIFFERENCE}")]);
         names.filter_map(|name| Input::of(vehicle, &name).ok()).collect()
     }
@@ -98,21 +101,16 @@ impl Input {
             [(*word).to_owned(), format!("{word}{DIFFERENCE}")].into_iter().chain(of_wings)
         });
         let words = words.filter(|name| Input::of(vehicle, name).is_ok());
-        let parameters = parameters(vehicle).iter();
+        let parameters = vehicle.parameters().iter();
         let numbers = parameters.filter(|parameter| !matches!(parameter.kind, Kind::Choice(_)));
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
     }
 
-    /// Returns the size (SI) of the input's parameter, to which relative changes refer; `None` if the size is unknown.
-    fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Option<f64> {
-        derivative::size(vehicle, values, self.parameter).map(f64::abs)
+    /// Returns the size (SI) of the input's parameter, to which relative changes refer.
+    fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Result<f64, ControlError> {
+        let size = derivative::size(vehicle, values, self.parameter);
+        size.map(f64::abs).ok_or_else(|| ControlError::NoSize(self.name.clone()))
     }
-}
-
-/// Returns the vehicle's parameter table.
-fn parameters(vehicle: &Vehicle) -> &[Parameter<'_>] {
-    use flap_core::simulate::Simulator as _;
-    vehicle.parameters()
 }
 
 /// Returns the parameters that a name may represent.
@@ -167,40 +165,6 @@ pub struct Trim {
     pub steps: usize,
 }
 
-/// Reason for a failed trim.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TrimError {
-    /// The trim has more targets than inputs.
-    #[error("{targets} targets need at least {targets} inputs, not {inputs}")]
-    FewInputs {
-        /// Number of targets.
-        targets: usize,
-        /// Number of inputs.
-        inputs: usize,
-    },
-    /// Further iterations do not reduce the distance from the targets.
-    #[error("the targets are not reached: {}", nearest(at, targets))]
-    NotReached {
-        /// Nearest point.
-        at: Box<Effectiveness>,
-        /// Targets.
-        targets: Vec<Target>,
-    },
-    /// The effectiveness cannot be computed.
-    #[error(transparent)]
-    Control(#[from] ControlError),
-}
-
-fn nearest(at: &Effectiveness, targets: &[Target]) -> String {
-    let parts = targets.iter().map(|target| {
-        format!(
-            "{} = {:.4} instead of {}",
-            COMPONENTS[target.component], at.wrench[target.component], target.value
-        )
-    });
-    parts.collect::<Vec<_>>().join(", ")
-}
-
 /// Returns the inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives.
 ///
 /// If there are more inputs than targets, each step is the smallest possible step, relative to the typical sizes of the
@@ -213,21 +177,19 @@ pub fn trim(
     values: &[f64],
     inputs: &[Input],
     targets: &[Target],
-) -> Result<Trim, TrimError> {
+) -> Result<Trim, ControlError> {
     if targets.len() > inputs.len() {
-        return Err(TrimError::FewInputs { targets: targets.len(), inputs: inputs.len() });
+        return Err(ControlError::FewInputs { targets: targets.len(), inputs: inputs.len() });
     }
     let mut values = own_values(flight.vehicle, values, inputs);
-    let sizes: Option<Vec<f64>> = inputs.iter().map(|input| input.size(flight.vehicle, &values)).collect();
-    let Some(sizes) = sizes else {
-        let without = inputs.iter().find(|input| input.size(flight.vehicle, &values).is_none());
-        let name = without.map_or_else(String::new, |input| input.name.clone());
-        return Err(ControlError::NoSize(name).into());
-    };
+    let sizes = inputs.iter().map(|input| input.size(flight.vehicle, &values));
+    let sizes: Vec<f64> = sizes.collect::<Result<_, _>>()?;
     let mut at = flight.effectiveness(&values, inputs, None)?;
-    let mut taken = 0;
-    let own = own_sizes(&at.wrench, targets);
-    for steps in 0..MOST_STEPS {
+    let first = largest(&at.wrench, targets);
+    let own = targets.iter().map(|target| if target.value == 0.0 { first } else { target.value.abs() });
+    let own = DVector::from_iterator(targets.len(), own);
+    let mut steps = 0;
+    while steps < MOST_STEPS {
         let missed = missed_by(&at.wrench, targets);
         if is_met(&missed, &own) {
             return Ok(Trim { at, steps });
@@ -237,36 +199,32 @@ pub fn trim(
         });
         let step =
             slopes.svd(true, true).solve(&missed, 1e-12).unwrap_or_else(|_| DVector::zeros(inputs.len()));
-        let largest = step.amax();
-        let mut part = if largest > LARGEST_STEP { LARGEST_STEP / largest } else { 1.0 };
-        let next = loop {
+        let first = (LARGEST_STEP / step.amax()).min(1.0);
+        let mut parts =
+            successors(Some(first), |part| Some(0.5 * part).filter(|part| *part >= SMALLEST_PART));
+        let next = parts.find_map(|part| {
             let mut tried = values.clone();
             for ((input, size), step) in inputs.iter().zip(&sizes).zip(step.iter()) {
                 tried[input.parameter] += part * size * step;
             }
-            let row = flight.row(&tried, Some(&at.row.state));
-            let better = row.status == Status::Periodic && {
-                let left = missed_by(&flight.wrench(&row), targets);
-                left.component_div(&own).norm() < missed.component_div(&own).norm()
-            };
-            if better {
-                break Some((tried, row));
-            }
-            part *= 0.5;
-            if part < SMALLEST_PART {
-                break None;
-            }
-        };
+            let row = flight.settled(&tried, Some(&at.row.state)).ok()?;
+            let left = missed_by(&flight.wrench(&row), targets);
+            let is_closer = left.component_div(&own).norm() < missed.component_div(&own).norm();
+            is_closer.then_some((tried, row))
+        });
         let Some((tried, row)) = next else { break };
         values = tried;
-        taken = steps + 1;
+        steps += 1;
         at = flight.effectiveness(&values, inputs, Some(&row.state))?;
     }
     let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
     if is_met(&missed_by(&at.wrench, targets), &all) {
-        return Ok(Trim { at, steps: taken });
+        return Ok(Trim { at, steps });
     }
-    Err(TrimError::NotReached { at: Box::new(at), targets: targets.to_vec() })
+    let nearest = targets.iter().map(|Target { component, value }| {
+        format!("{} = {:.4} instead of {value}", COMPONENTS[*component], at.wrench[*component])
+    });
+    Err(ControlError::NotReached(nearest.collect::<Vec<_>>().join(", ")))
 }
 
 /// Returns the targets minus the components.
@@ -281,13 +239,6 @@ fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
 }
 
-/// Returns the size of each target: the magnitude of the target, or the largest magnitude if the target is zero.
-fn own_sizes(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
-    let largest = largest(wrench, targets);
-    let own = targets.iter().map(|target| if target.value == 0.0 { largest } else { target.value.abs() });
-    DVector::from_iterator(targets.len(), own)
-}
-
 /// Returns true if the error of each target is a small fraction of the size of the target.
 fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
     missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
@@ -299,7 +250,7 @@ pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], 
 /// Smallest effect of an input, relative to the largest effect of an input. A smaller effect counts as no effect.
 const IDLE: f64 = 1e-9;
 
-/// Reason why the control effectiveness cannot be computed.
+/// Reason why a control effectiveness or a trim cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
     /// The motion of a wing has no derivatives.
@@ -323,12 +274,24 @@ pub enum ControlError {
         /// Reason.
         reason: NoSlope,
     },
+    /// The trim has more targets than inputs.
+    #[error("{targets} targets need at least {targets} inputs, not {inputs}")]
+    FewInputs {
+        /// Number of targets.
+        targets: usize,
+        /// Number of inputs.
+        inputs: usize,
+    },
+    /// Further iterations do not reduce the distance from the targets. Contains the nearest values.
+    #[error("the targets are not reached: {0}")]
+    NotReached(String),
     /// The motion cannot be computed.
     #[error(transparent)]
     Unfinished(#[from] Unfinished),
 }
 
-fn because(reason: Option<&str>) -> String {
+/// Returns a reason as the end of a message, such as ` (reason)`; empty without a reason.
+pub(crate) fn because(reason: Option<&str>) -> String {
     reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
 }
 
@@ -376,13 +339,24 @@ impl Flight<'_> {
         self.vehicle.run_point(&run, begin)
     }
 
-    /// Returns mean force (mN) and torque (uN·m) of a row with measures.
-    pub fn wrench(&self, row: &Row) -> [f64; 6] {
-        COMPONENTS.map(|name| row.measures[self.place(name)])
+    /// Returns the row of a periodic motion. The arguments are those of [`Flight::row`].
+    ///
+    /// # Errors
+    /// If the motion is not periodic, or the computation is interrupted.
+    pub(super) fn settled(&self, values: &[f64], begin: Option<&[f64]>) -> Result<Row, ControlError> {
+        let row = self.row(values, begin);
+        if (self.interrupted)() {
+            return Err(Unfinished::Interrupted.into());
+        }
+        match row.status {
+            Status::Periodic => Ok(row),
+            status => Err(ControlError::NotPeriodic { status, reason: row.reason }),
+        }
     }
 
-    fn place(&self, component: &str) -> usize {
-        self.vehicle.columns().iter().position(|column| column.name == component).unwrap_or_default()
+    /// Returns mean force (mN) and torque (uN·m) of a row with measures.
+    pub fn wrench(&self, row: &Row) -> [f64; 6] {
+        places(self.vehicle).map(|place| row.measures[place])
     }
 
     /// Returns the control effectiveness of `inputs` at these values, from exact derivatives of the settled orbit.
@@ -398,17 +372,10 @@ impl Flight<'_> {
         begin: Option<&[f64]>,
     ) -> Result<Effectiveness, ControlError> {
         let values = own_values(self.vehicle, values, inputs);
-        let row = self.row(&values, begin);
-        if (self.interrupted)() {
-            return Err(Unfinished::Interrupted.into());
-        }
-        if row.status != Status::Periodic {
-            return Err(ControlError::NotPeriodic { status: row.status, reason: row.reason });
-        }
+        let row = self.settled(&values, begin)?;
         let mut changes = Vec::with_capacity(inputs.len());
         for input in inputs {
-            let size = input.size(self.vehicle, &values);
-            let size = size.ok_or_else(|| ControlError::NoSize(input.name.clone()))? * Change::SHARE;
+            let size = input.size(self.vehicle, &values)? * Change::SHARE;
             let moved = |by: f64| {
                 let mut values = values.clone();
                 values[input.parameter] += by;
@@ -417,15 +384,16 @@ impl Flight<'_> {
             // A parameter that can only grow has a one-sided difference. At rest, this difference would be the square
             // of the change.
             let at_rest = row.floquet_max.is_nan();
-            let is_one_sided = !at_rest && is_least(parameters(self.vehicle), &values, input.parameter);
+            let is_one_sided = !at_rest && is_least(self.vehicle.parameters(), &values, input.parameter);
             let behind = moved(if is_one_sided { 0.0 } else { -size });
             changes.push(Change { ahead: moved(size), behind, size });
         }
         let run = PointRun::new(Backend::best(), self.solver, &values).until(self.interrupted);
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
+        let places = places(self.vehicle);
         let mut matrix = DMatrix::zeros(6, inputs.len());
         for (j, (input, slopes)) in inputs.iter().zip(&gradient.slopes).enumerate() {
-            let slopes = COMPONENTS.map(|name| slopes[self.place(name)]);
+            let slopes = places.map(|place| slopes[place]);
             let column = match self.motion_step(input) {
                 Some(step) if slopes.contains(&Err(NoSlope::Kink)) => {
                     self.differences(&values, input, step, &row)?
@@ -442,9 +410,7 @@ impl Flight<'_> {
             row,
         })
     }
-}
 
-impl Flight<'_> {
     /// Returns the derivatives of the components, if all are known. `ahead` is the point after a change of the input.
     fn slopes(
         &self,
@@ -452,21 +418,21 @@ impl Flight<'_> {
         input: &Input,
         slopes: [Result<f64, NoSlope>; 6],
     ) -> Result<[f64; 6], ControlError> {
-        let Some(i) = slopes.iter().position(Result::is_err) else {
-            return Ok(slopes.map(Result::unwrap_or_default));
-        };
-        let reason = slopes[i].err().unwrap_or(NoSlope::Missing);
-        // If the changed point is impossible, its row says why.
-        let row = (reason == NoSlope::Edge).then(|| self.row(ahead, None));
-        match row.filter(|row| row.status == Status::Invalid) {
-            Some(Row { status, reason, .. }) => Err(ControlError::NotPeriodic { status, reason }),
-            None => Err(ControlError::NoSlope { of: COMPONENTS[i], by: input.name.clone(), reason }),
+        let missing = COMPONENTS.into_iter().zip(slopes).find(|(_, slope)| slope.is_err());
+        let Some((of, Err(reason))) = missing else { return Ok(slopes.map(Result::unwrap_or_default)) };
+        // If the changed point is impossible, its row contains the reason.
+        if reason == NoSlope::Edge
+            && let Err(error @ ControlError::NotPeriodic { status: Status::Invalid, .. }) =
+                self.settled(ahead, None)
+        {
+            return Err(error);
         }
+        Err(ControlError::NoSlope { of, by: input.name.clone(), reason })
     }
 
     /// Returns the step (m/s, rad/s) for differences with respect to an input that is a motion of the body.
     fn motion_step(&self, input: &Input) -> Option<f64> {
-        let name = parameters(self.vehicle)[input.parameter].name;
+        let name = self.vehicle.parameters()[input.parameter].name;
         let component = BodyParameters::MOTION.iter().position(|component| *component == name)?;
         Some(if component < 3 { VELOCITY_STEP } else { RATE_STEP })
     }
@@ -484,11 +450,7 @@ impl Flight<'_> {
         let side = |by: f64| {
             let mut values = values.to_vec();
             values[input.parameter] += by;
-            let row = self.row(&values, Some(&row.state));
-            match row.status {
-                Status::Periodic => Ok(self.wrench(&row)),
-                status => Err(ControlError::NotPeriodic { status, reason: row.reason }),
-            }
+            self.settled(&values, Some(&row.state)).map(|row| self.wrench(&row))
         };
         let (ahead, behind) = (side(step)?, side(-step)?);
         Ok(core::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * step)))
@@ -501,11 +463,17 @@ const VELOCITY_STEP: f64 = 0.01;
 /// Change of a rate of the body for computing differences (rad/s).
 const RATE_STEP: f64 = 1.0;
 
+/// Returns the indices of force and torque among the measures of a vehicle's rows.
+pub(crate) fn places(vehicle: &Vehicle) -> [usize; 6] {
+    let columns = vehicle.columns();
+    COMPONENTS.map(|name| columns.iter().position(|column| column.name == name).unwrap_or_default())
+}
+
 /// Returns the values, with the values of all wings in place of unset parameters of one wing.
 pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {
-        filled[input.parameter] = standing(parameters(vehicle), values, input.parameter);
+        filled[input.parameter] = standing(vehicle.parameters(), values, input.parameter);
     }
     filled
 }
@@ -544,17 +512,13 @@ impl Effectiveness {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };
         let modes = decomposed.singular_values.iter().enumerate().map(|(i, &size)| {
-            let inputs: Vec<f64> = v_t.row(i).iter().copied().collect();
+            let inputs = v_t.row(i).transpose();
             // The sign is chosen so that the largest input is positive.
-            let largest = inputs
-                .iter()
-                .copied()
-                .fold(0.0, |one: f64, other| if other.abs() > one.abs() { other } else { one });
-            let sign = 1.0_f64.copysign(largest);
+            let sign = inputs[inputs.iamax()].signum();
             Mode {
                 size,
                 components: core::array::from_fn(|j| sign * u[(j, i)]),
-                inputs: inputs.into_iter().map(|share| sign * share).collect(),
+                inputs: inputs.iter().map(|share| sign * share).collect(),
             }
         });
         modes.collect()

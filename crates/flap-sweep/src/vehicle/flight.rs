@@ -12,12 +12,12 @@ use core::f64::consts::TAU;
 
 use flap_core::ode::tableau::{A, B, C, E, STAGES};
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::{Simulator as _, Status, Unfinished};
+use flap_core::simulate::{Simulator as _, SolverSettings, Unfinished};
 use flap_core::vehicle::{MassProperties, MovingWings};
-use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 use super::control::{COMPONENTS, ControlError, Flight, Input, own_values};
-use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, at_rest, check, inertia, inverse_mass};
+use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, body_at_rest, inertia, inverse_mass};
 
 /// Number of states of a disturbance and of the feedback: velocities, rates and angles.
 pub const FED_BACK: usize = 9;
@@ -57,43 +57,12 @@ pub struct FlightRecord {
 /// Reason why a flight cannot be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
-    /// The duration is impossible.
-    #[error("a flight of {0} s is impossible: the duration must be positive, with at most 1e6 wing beats")]
-    Seconds(f64),
-    /// The disturbance is infinite or NaN.
-    #[error("the disturbance of {0} is not finite")]
-    Disturbance(&'static str),
-    /// The number of samples is zero.
-    #[error("0 samples in a wing beat are too few: at least 1 is required")]
-    Samples,
-    /// The matrix of gains has another shape, or has entries that are not finite.
-    #[error(
-        "the gains have {rows} rows and {columns} columns, but must be {inputs} x {FED_BACK} finite numbers: one row for \
-         each input, one column for each velocity, rate and angle"
-    )]
-    Gains {
-        /// Number of rows.
-        rows: usize,
-        /// Number of columns.
-        columns: usize,
-        /// Number of inputs.
-        inputs: usize,
-    },
+    /// The request is impossible. Contains the mistake and the allowed values.
+    #[error("{0}")]
+    Request(String),
     /// The hover model, or the settled motion of the wings, cannot be computed.
     #[error(transparent)]
     Hover(#[from] HoverError),
-}
-
-impl From<ControlError> for FlightError {
-    fn from(error: ControlError) -> FlightError {
-        HoverError::from(error).into()
-    }
-}
-
-impl From<Unfinished> for FlightError {
-    fn from(error: Unfinished) -> FlightError {
-        ControlError::from(error).into()
-    }
 }
 
 /// Simulates the flight from the settled motion of the wings at these values of the vehicle's parameters.
@@ -107,38 +76,45 @@ pub fn fly(
     request: &FlightRequest,
 ) -> Result<FlightRecord, FlightError> {
     let FlightRequest { seconds, disturbance, inputs, gains, is_averaged, samples } = request;
+    let refused = |mistake: String| Err(FlightError::Request(mistake));
     if let Some(i) = disturbance.iter().position(|number| !number.is_finite()) {
-        return Err(FlightError::Disturbance(STATES[i].0));
+        return refused(format!("the disturbance of {} is not finite", STATES[i].0));
     }
     if *samples == Some(0) {
-        return Err(FlightError::Samples);
+        return refused("0 samples in a wing beat are too few: at least 1 is required".to_owned());
     }
     if let Some(gains) = gains {
         let (rows, columns) = gains.shape();
-        let is_finite = gains.iter().all(|gain| gain.is_finite());
-        if (rows, columns) != (inputs.len(), FED_BACK) || !is_finite {
-            return Err(FlightError::Gains { rows, columns, inputs: inputs.len() });
+        if (rows, columns) != (inputs.len(), FED_BACK) || !gains.iter().all(|gain| gain.is_finite()) {
+            return refused(format!(
+                "the gains have {rows} rows and {columns} columns, but must be {} x {FED_BACK} finite numbers: one row \
+                 for each input, one column for each velocity, rate and angle",
+                inputs.len()
+            ));
         }
     }
-    let body = flight.vehicle.mass_properties(values);
-    check(&body)?;
-    at_rest(flight.vehicle, values)?;
+    let body = body_at_rest(flight.vehicle, values)?;
     let values = own_values(flight.vehicle, values, inputs);
-    let point: Vec<f64> = inputs.iter().map(|input| values[input.parameter]).collect();
+    let point = DVector::from_iterator(inputs.len(), inputs.iter().map(|input| values[input.parameter]));
     let mut motion: Box<dyn Motion + '_> = if *is_averaged {
         Box::new(Averaged::new(flight, &values, inputs, disturbance)?)
     } else {
-        Box::new(Coupled::new(flight, values, &body, inputs, disturbance)?)
+        Box::new(Coupled::new(flight, values, body, inputs, disturbance)?)
     };
     if !(*seconds > 0.0 && *seconds <= MOST_BEATS * motion.period()) {
-        return Err(FlightError::Seconds(*seconds));
+        return refused(format!(
+            "a flight of {seconds} s is impossible: the duration must be positive, with at most 1e6 wing beats"
+        ));
     }
     let parts = samples.unwrap_or(1);
     let mut record = FlightRecord { columns: columns(inputs), rows: Vec::new(), end: None };
     let (mut time, mut now) = (0.0, point.clone());
-    while time < seconds * (1.0 - 1e-12) {
+    record.end = 'flight: loop {
+        if time >= seconds * (1.0 - 1e-12) {
+            break None;
+        }
         if (flight.interrupted)() {
-            return Err(Unfinished::Interrupted.into());
+            return Err(HoverError::from(ControlError::from(Unfinished::Interrupted)).into());
         }
         let period = motion.period();
         let mut rows = Vec::new();
@@ -148,8 +124,7 @@ pub fn fly(
                 rows.push(row(time + from, &motion.state(from), &now));
             }
             if let Err(reason) = motion.advance(from, to) {
-                record.end = Some(reason);
-                return Ok(record);
+                break 'flight Some(reason);
             }
         }
         let means = motion.end_beat();
@@ -159,14 +134,12 @@ pub fn fly(
         record.rows.append(&mut rows);
         time += period;
         if let Some(gains) = gains {
-            let change = gains * DVector::from_column_slice(&means.states[..FED_BACK]);
-            now = point.iter().zip(change.iter()).map(|(value, change)| value - change).collect();
+            now = &point - gains * DVector::from_column_slice(&means.states[..FED_BACK]);
             if let Err(reason) = motion.set_inputs(&now) {
-                record.end = Some(reason);
-                return Ok(record);
+                break Some(reason);
             }
         }
-    }
+    };
     Ok(record)
 }
 
@@ -178,7 +151,7 @@ fn columns(inputs: &[Input]) -> Vec<String> {
     names.chain(COMPONENTS.iter().map(|&name| name.to_owned())).collect()
 }
 
-fn row(time: f64, at: &BodyState, inputs: &[f64]) -> Vec<f64> {
+fn row(time: f64, at: &BodyState, inputs: &DVector<f64>) -> Vec<f64> {
     let wrench = at.wrench.iter().zip(WRENCH_TO_SI).map(|(component, unit)| component / unit);
     let states = at.states.iter().chain(inputs).copied();
     core::iter::once(time).chain(states).chain(wrench).collect()
@@ -205,7 +178,7 @@ trait Motion {
     fn end_beat(&mut self) -> BodyState;
 
     /// Changes the inputs (SI) for the next beat, or returns the reason why the new inputs are impossible.
-    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String>;
+    fn set_inputs(&mut self, inputs: &DVector<f64>) -> Result<(), String>;
 }
 
 /// Number of states of the body: velocities, rates, attitude as a quaternion, and position.
@@ -229,7 +202,7 @@ struct Coupled<'a> {
     equations: Equations,
     /// States of wings and body, and integrals since the beginning of the beat.
     y: Vec<f64>,
-    integrator: Integrator,
+    integrator: Integrator<'a>,
     /// Last yaw angle (rad), which is continuous over full turns.
     heading: f64,
 }
@@ -239,8 +212,7 @@ struct Equations {
     wings: MovingWings,
     /// Number of states of all wings.
     of_wings: usize,
-    mass: f64,
-    gravity: f64,
+    body: MassProperties,
     inertia: Matrix3<f64>,
     inverse: Matrix3<f64>,
 }
@@ -249,40 +221,24 @@ impl<'a> Coupled<'a> {
     fn new(
         flight: &'a Flight<'a>,
         values: Vec<f64>,
-        body: &MassProperties,
+        body: MassProperties,
         inputs: &'a [Input],
         disturbance: &[f64; FED_BACK],
-    ) -> Result<Coupled<'a>, FlightError> {
-        let row = flight.row(&values, None);
-        if (flight.interrupted)() {
-            return Err(Unfinished::Interrupted.into());
-        }
-        if row.status != Status::Periodic {
-            return Err(ControlError::NotPeriodic { status: row.status, reason: row.reason }.into());
-        }
-        let inertia = inertia(body);
-        let inverse = inertia.try_inverse().ok_or(HoverError::NotPositive)?;
-        let wings = flight.vehicle.moving_wings(&values)?;
-        let of_wings = row.state.len();
+    ) -> Result<Coupled<'a>, HoverError> {
+        let settled = flight.settled(&values, None)?.state;
+        let wings = flight.vehicle.moving_wings(&values).map_err(ControlError::from)?;
+        let of_wings = settled.len();
         let mut scale = wings.scale();
         scale.extend(BODY_SCALE);
         scale.resize(of_wings + BODY + INTEGRALS, f64::INFINITY);
-        let period = wings.period();
-        let equations =
-            Equations { wings, of_wings, mass: body.mass, gravity: body.gravity, inertia, inverse };
-        let integrator = Integrator {
-            rtol: flight.solver.rtol,
-            atol: flight.solver.atol,
-            most_steps: flight.solver.max_steps,
-            scale,
-            step: period / 200.0,
-        };
+        let integrator = Integrator { solver: flight.solver, scale, step: wings.period() / 200.0 };
+        let inverse = inverse_mass(&body)?.fixed_view::<3, 3>(3, 3).into_owned();
+        let equations = Equations { wings, of_wings, body, inertia: inertia(&body), inverse };
         let mut coupled =
             Coupled { flight, values, inputs, equations, y: Vec::new(), integrator, heading: disturbance[8] };
-        coupled.begin(&row.state, &[0.0; FED_BACK]);
-        let vibration = coupled.vibration().map_err(|_| Unfinished::Diverged)?;
-        let start: [f64; FED_BACK] = core::array::from_fn(|i| disturbance[i] - vibration[i]);
-        coupled.begin(&row.state, &start);
+        coupled.begin(&settled, &[0.0; FED_BACK]);
+        let vibration = coupled.vibration().map_err(|_| ControlError::from(Unfinished::Diverged))?;
+        coupled.begin(&settled, &core::array::from_fn(|i| disturbance[i] - vibration[i]));
         Ok(coupled)
     }
 
@@ -355,9 +311,9 @@ impl Motion for Coupled<'_> {
         BodyState { states, wrench }
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String> {
-        for (input, &value) in self.inputs.iter().zip(inputs) {
-            let parameter: &Parameter<'_> = &self.flight.vehicle.parameters()[input.parameter];
+    fn set_inputs(&mut self, inputs: &DVector<f64>) -> Result<(), String> {
+        for (input, &value) in self.inputs.iter().zip(inputs.iter()) {
+            let parameter = &self.flight.vehicle.parameters()[input.parameter];
             if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind
                 && !range.contains(value)
             {
@@ -383,14 +339,12 @@ impl Equations {
         let (of_wings, of_rest) = slope.split_at_mut(self.of_wings);
         let motion: [f64; 6] = core::array::from_fn(|i| rest[i]);
         let wrench = self.wings.derivative(t, wings, &motion, of_wings);
-        let velocity = Vector3::new(rest[0], rest[1], rest[2]);
-        let rate = Vector3::new(rest[3], rest[4], rest[5]);
+        let [velocity, rate] = [&rest[..3], &rest[3..6]].map(Vector3::from_column_slice);
+        let [force, torque] = [&wrench[..3], &wrench[3..]].map(Vector3::from_column_slice);
         let attitude = quaternion(&rest[6..10]);
         let turned = UnitQuaternion::from_quaternion(attitude);
-        let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
-        let torque = Vector3::new(wrench[3], wrench[4], wrench[5]);
-        let weight = turned.inverse_transform_vector(&Vector3::new(0.0, 0.0, -self.gravity));
-        let acceleration = force / self.mass + weight - rate.cross(&velocity);
+        let weight = turned.inverse_transform_vector(&Vector3::new(0.0, 0.0, -self.body.gravity));
+        let acceleration = force / self.body.mass + weight - rate.cross(&velocity);
         let angular = self.inverse * (torque - rate.cross(&(self.inertia * rate)));
         let turn = attitude * Quaternion::from_imag(rate * 0.5);
         let travel = turned * velocity;
@@ -404,20 +358,16 @@ impl Equations {
 }
 
 /// Dormand-Prince 5(4) with step-size control, for any number of states.
-struct Integrator {
-    /// Tolerance relative to each state.
-    rtol: f64,
-    /// Tolerance relative to the typical size of each state.
-    atol: f64,
-    /// Largest number of steps of an integration.
-    most_steps: u32,
+struct Integrator<'a> {
+    /// Tolerances, relative to each state and to its typical size, and the largest number of steps of an integration.
+    solver: &'a SolverSettings,
     /// Typical size of each state; infinite if the error of the state does not count.
     scale: Vec<f64>,
     /// Next step (s).
     step: f64,
 }
 
-impl Integrator {
+impl Integrator<'_> {
     /// Integrates from the first to the second time (s), or returns the reason for a failure.
     fn advance(
         &mut self,
@@ -425,12 +375,13 @@ impl Integrator {
         [from, to]: [f64; 2],
         y: &mut Vec<f64>,
     ) -> Result<(), String> {
+        let SolverSettings { rtol, atol, .. } = *self.solver;
         let counted = self.scale.iter().filter(|scale| scale.is_finite()).count() as f64;
         let mut k = vec![vec![0.0; y.len()]; STAGES];
         let mut next = vec![0.0; y.len()];
         let mut t = from;
         equations.derivative(t, y, &mut k[0]);
-        for _ in 0..self.most_steps {
+        for _ in 0..self.solver.max_steps {
             let is_last = t + self.step * (1.0 + 1e-9) >= to;
             let h = if is_last { to - t } else { self.step };
             for stage in 1..STAGES {
@@ -444,7 +395,7 @@ impl Integrator {
             }
             let square = |i: usize| {
                 let error: f64 = (0..STAGES).map(|j| E[j] * k[j][i]).sum();
-                let size = self.rtol * y[i].abs().max(next[i].abs()) + self.atol * self.scale[i];
+                let size = rtol * y[i].abs().max(next[i].abs()) + atol * self.scale[i];
                 (h * error / size).powi(2)
             };
             let error = ((0..y.len()).map(square).sum::<f64>() / counted).sqrt();
@@ -473,20 +424,20 @@ impl Integrator {
     }
 }
 
+/// Number of states of the linear model.
+const N: usize = STATES.len();
+
 /// The linear model about hover, with the mean force and torque over each beat.
 struct Averaged {
     hover: HoverModel,
-    /// Derivatives of force (N) and torque (N·m) with respect to the inputs (SI).
-    control: DMatrix<f64>,
     /// Values of the inputs at the point (SI).
-    point: Vec<f64>,
+    point: DVector<f64>,
     /// Changes of the inputs.
     change: DVector<f64>,
     /// Accelerations that the residual force and torque at the point cause.
     residual: DVector<f64>,
-    state: DVector<f64>,
-    /// Integral of the states since the beginning of the beat.
-    integral: DVector<f64>,
+    /// The N states, their integrals since the beginning of the beat, and the constant 1.
+    y: DVector<f64>,
     /// Drive frequency (Hz), and the index of the drive frequency among the inputs.
     frequency: f64,
     frequency_input: Option<usize>,
@@ -498,35 +449,29 @@ impl Averaged {
         values: &[f64],
         inputs: &[Input],
         disturbance: &[f64; FED_BACK],
-    ) -> Result<Averaged, FlightError> {
+    ) -> Result<Averaged, HoverError> {
         let at = flight.effectiveness(values, inputs, None)?;
-        let (hover, control) = HoverModel::at(flight, values, &at, true)?;
-        let states = hover.a.nrows();
-        let inverse = inverse_mass(&hover.body).ok_or(HoverError::NotPositive)?;
-        let mut residual = DVector::zeros(states);
-        residual.rows_mut(0, 6).copy_from(&(inverse * nalgebra::Vector6::from(hover.residual())));
-        let mut state = DVector::zeros(states);
-        state.rows_mut(0, FED_BACK).copy_from_slice(disturbance);
-        let parameters = flight.vehicle.parameters();
-        let drives = |input: &Input| parameters[input.parameter].name == "drive_frequency";
-        let frequency =
-            Parameter::index(parameters, "drive_frequency").map_or(f64::NAN, |index| values[index]);
+        let hover = HoverModel::at(flight, values, &at, true)?;
+        let residual = inverse_mass(&hover.body)? * Vector6::from(hover.residual());
+        let mut y = DVector::zeros(2 * N + 1);
+        y.rows_mut(0, FED_BACK).copy_from_slice(disturbance);
+        y[2 * N] = 1.0;
+        let frequency = Parameter::index(flight.vehicle.parameters(), "drive_frequency");
         Ok(Averaged {
-            point: inputs.iter().map(|input| values[input.parameter]).collect(),
-            change: DVector::zeros(inputs.len()),
-            residual,
-            integral: DVector::zeros(states),
-            state,
-            frequency,
-            frequency_input: inputs.iter().position(drives),
             hover,
-            control,
+            point: DVector::from_iterator(inputs.len(), inputs.iter().map(|input| values[input.parameter])),
+            change: DVector::zeros(inputs.len()),
+            residual: residual.resize_vertically(N, 0.0),
+            y,
+            frequency: frequency.map_or(f64::NAN, |index| values[index]),
+            frequency_input: inputs.iter().position(|input| Some(input.parameter) == frequency),
         })
     }
 
-    fn body(&self, states: &DVector<f64>) -> BodyState {
+    /// Returns the state of the body, with the force and torque that belong to it; `states` begins with the N states.
+    fn body(&self, states: &[f64]) -> BodyState {
         let hover = &self.hover;
-        let wrench = hover.damping * states.fixed_rows::<6>(0) + &self.control * &self.change;
+        let wrench = hover.damping * Vector6::from_column_slice(&states[..6]) + &hover.control * &self.change;
         BodyState {
             states: core::array::from_fn(|i| states[i]),
             wrench: core::array::from_fn(|i| hover.wrench[i] + wrench[i]),
@@ -542,39 +487,30 @@ impl Motion for Averaged {
     /// Advances by the exponential of the matrix of states, their integrals, and a constant.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
         let hover = &self.hover;
-        let n = self.state.len();
-        let mut matrix = DMatrix::zeros(2 * n + 1, 2 * n + 1);
-        matrix.view_mut((0, 0), (n, n)).copy_from(&hover.a);
-        matrix.view_mut((0, 2 * n), (n, 1)).copy_from(&(&hover.b * &self.change + &self.residual));
-        matrix.view_mut((n, 0), (n, n)).fill_with_identity();
-        let mut y = DVector::zeros(2 * n + 1);
-        y.rows_mut(0, n).copy_from(&self.state);
-        y.rows_mut(n, n).copy_from(&self.integral);
-        y[2 * n] = 1.0;
-        let y = (matrix * (to - from)).exp() * y;
-        if !y.iter().all(|number| number.is_finite()) {
-            return Err("the motion diverges".to_owned());
+        let mut matrix = DMatrix::zeros(2 * N + 1, 2 * N + 1);
+        matrix.view_mut((0, 0), (N, N)).copy_from(&hover.a);
+        matrix.view_mut((0, 2 * N), (N, 1)).copy_from(&(&hover.b * &self.change + &self.residual));
+        matrix.view_mut((N, 0), (N, N)).fill_with_identity();
+        self.y = (matrix * (to - from)).exp() * &self.y;
+        if self.y.iter().all(|number| number.is_finite()) {
+            Ok(())
+        } else {
+            Err("the motion diverges".to_owned())
         }
-        self.state.copy_from(&y.rows(0, n));
-        self.integral.copy_from(&y.rows(n, n));
-        Ok(())
     }
 
     fn state(&mut self, _time: f64) -> BodyState {
-        self.body(&self.state)
+        self.body(self.y.as_slice())
     }
 
     fn end_beat(&mut self) -> BodyState {
-        let means = &self.integral / self.period();
-        self.integral.fill(0.0);
-        self.body(&means)
+        let means = self.y.rows(N, N) / self.period();
+        self.y.rows_mut(N, N).fill(0.0);
+        self.body(means.as_slice())
     }
 
-    fn set_inputs(&mut self, inputs: &[f64]) -> Result<(), String> {
-        self.change = DVector::from_iterator(
-            inputs.len(),
-            inputs.iter().zip(&self.point).map(|(value, point)| value - point),
-        );
+    fn set_inputs(&mut self, inputs: &DVector<f64>) -> Result<(), String> {
+        self.change = inputs - &self.point;
         if let Some(input) = self.frequency_input {
             self.frequency = inputs[input];
             if self.frequency <= 0.0 {

@@ -83,9 +83,8 @@ impl BodyRows {
             let body = self.vehicle.mass_properties(values);
             let wrench = flight.wrench(row);
             let wrench = core::array::from_fn(|i| wrench[i] * WRENCH_TO_SI[i]);
-            let model = damping.and_then(|damping| {
-                HoverModel::new(body, damping, &DMatrix::zeros(6, 0), wrench, false).ok()
-            });
+            let model = damping
+                .and_then(|damping| HoverModel::new(body, damping, DMatrix::zeros(6, 0), wrench, false).ok());
             let mode = model.as_ref().and_then(HoverModel::fastest_growing);
             row.measures.push(mode.map_or(f64::NAN, |mode| mode.eigenvalue.re));
             row.measures.push(mode.and_then(HoverMode::period).unwrap_or(f64::NAN));

@@ -29,7 +29,7 @@ pub(super) fn run(
     };
     let record = fly(flight, values, &request).map_err(|error| match error {
         FlightError::Hover(error) => error.into(),
-        error => Failure::usage(format!("--fly: {error}")),
+        FlightError::Request(mistake) => Failure::usage(format!("--fly: {mistake}")),
     })?;
     if let Some(reason) = record.end {
         console::warn(&format!("the flight ends early: {reason}"));

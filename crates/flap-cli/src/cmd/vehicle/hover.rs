@@ -197,7 +197,7 @@ impl From<HoverError> for Failure {
             HoverError::Missing(_) => {
                 "add the numbers to [vehicle], or use --set, as in --set total_mass='85 mg' --set body_inertia_roll='1.5e-9 kg*m^2'"
             }
-            HoverError::Mass(_) | HoverError::NotPositive | HoverError::Triangle(_) => {
+            HoverError::Impossible(_) => {
                 "correct the mass properties in [vehicle]: masses in mg and lengths in mm give moments in 1e-12 kg*m^2"
             }
             HoverError::NoBodyMotion => "choose a model whose wings respond to the motion of the body",

@@ -170,10 +170,6 @@ fn object(map: &WrenchMap, chosen: &Chosen, vehicle: &Vehicle) -> String {
         })
     });
     let terms = terms(map.inputs.len());
-    let powers = terms.iter().map(|term| {
-        let power = |input| term.iter().filter(|&&factor| factor == input).count();
-        (0..map.inputs.len()).map(power).collect::<Vec<_>>()
-    });
     let rows = map.rows().into_iter().map(|(name, rows)| (name.to_owned(), Value::from(rows)));
     let [scaled, physical] = [&map.scaled, &map.physical()].map(|coefficients| {
         coefficients.row_iter().map(|row| json!(row.iter().copied().collect::<Vec<f64>>())).collect()
@@ -183,7 +179,7 @@ fn object(map: &WrenchMap, chosen: &Chosen, vehicle: &Vehicle) -> String {
         ("inputs", inputs.collect()),
         ("outputs", outputs.collect()),
         ("terms", terms.iter().map(|term| term_name(map, term)).collect()),
-        ("powers", powers.map(|powers| json!(powers)).collect()),
+        ("powers", json!(map.powers())),
         ("scaled", scaled),
         ("physical", physical),
         ("rows", Value::Object(rows.collect())),
