@@ -70,7 +70,7 @@ fn refinement(refined: &Refined) -> String {
 
 /// Prints the numbers of rows with reduced accuracy or reliability, with advice.
 fn report_warnings(plan: &Plan, done: &Done) {
-    let Warnings { inaccurate, negative_power, at_range_end } = done.summary.warnings;
+    let Warnings { inaccurate, negative_power, at_range_end, unbalanced } = done.summary.warnings;
     if inaccurate > 0 {
         let rows = count(inaccurate, "row");
         let verb = if inaccurate == 1 { "misses" } else { "miss" };
@@ -94,6 +94,13 @@ fn report_warnings(plan: &Plan, done: &Done) {
             ),
             None => format!("{said} (see the column error_estimate): use a smaller rtol"),
         });
+    }
+    if unbalanced > 0 {
+        let rows = count(unbalanced, "row");
+        let verb = if unbalanced == 1 { "does" } else { "do" };
+        console::say(&format!(
+            "{rows} {verb} not hover: the search for hover left more than 1 % of the weight (see the column hover_residual)"
+        ));
     }
     if negative_power > 0 {
         let rows = count(negative_power, "row");

@@ -183,12 +183,13 @@ fn read_points<'n>(
         base.with_units.note(draft.parameter, Some(false));
     }
     let moved = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
-    let moved: Vec<usize> = moved.chain(drafts.iter().map(|draft| draft.parameter)).collect();
+    let varied: Vec<usize> = moved.collect();
+    let derived: Vec<usize> = drafts.iter().map(|draft| draft.parameter).collect();
+    let moved = [varied.as_slice(), &derived].concat();
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
     let is_set = |parameter: usize| base.values[parameter].given().is_some() || moved.contains(&parameter);
-    let is_derived = |parameter: usize| drafts.iter().any(|draft| draft.parameter == parameter);
-    let body = settings.body_rows(&base, is_set, is_derived, problems);
+    let body = settings.body_rows(&base, is_set, &varied, &derived, problems);
     settings.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
     let unreached =
         base.robot.vehicle().map_or_else(Vec::new, |vehicle| vehicle::unreached(vehicle, &chosen, is_set));

@@ -60,6 +60,9 @@ pub(super) struct VehicleSettings {
     frequencies: Vec<(Range<usize>, String)>,
 }
 
+/// Number of targets of a search for hover: the lift and three torques.
+const HOVER_TARGETS: usize = 4;
+
 /// Mass of the vehicle, which determines the lift at hover.
 const TOTAL_MASS: &str = "total_mass";
 
@@ -71,12 +74,14 @@ impl VehicleSettings {
 
     /// Returns the source of rows at hover or with the damping matrix, if the section requests such rows.
     ///
-    /// `is_set` returns true for a parameter with a value, and `is_derived` for a parameter that formulas determine.
+    /// `is_set` returns true for a parameter with a value. `varied` contains the parameters of axes, and `derived` the
+    /// parameters that formulas determine.
     pub(super) fn body_rows(
         &self,
         base: &Base,
         is_set: impl Fn(usize) -> bool,
-        is_derived: impl Fn(usize) -> bool,
+        varied: &[usize],
+        derived: &[usize],
         problems: &mut Problems,
     ) -> Option<BodyRows> {
         let asked = self.trim.as_ref().or(self.damping.as_ref())?;
@@ -101,11 +106,26 @@ impl VehicleSettings {
             }
             let values: Vec<f64> = base.values.iter().map(|value| value.in_point()).collect();
             let inputs = Input::usual(vehicle, &values);
-            for input in inputs.iter().filter(|input| is_derived(input.parameter)) {
-                let name = vehicle.parameters()[input.parameter].name;
+            let kinds = [(varied, "varies", "the section of its axis"), (derived, "is derived", "[derived]")];
+            for (of_kind, verb, section) in kinds {
+                for input in inputs.iter().filter(|input| of_kind.contains(&input.parameter)) {
+                    let name = vehicle.parameters()[input.parameter].name;
+                    problems
+                        .report(trim.clone(), format!("the search for hover changes {name}, which {verb}"))
+                        .help(format!("remove {name} from {section}"));
+                }
+            }
+            if inputs.len() < HOVER_TARGETS {
+                let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
                 problems
-                    .report(trim.clone(), format!("the search for hover changes {name}, which is derived"))
-                    .help(format!("remove {name} from [derived]"));
+                    .report(
+                        trim.clone(),
+                        format!(
+                            "the search for hover requires {HOVER_TARGETS} inputs, but this vehicle has only {}",
+                            names.join(", ")
+                        ),
+                    )
+                    .help("use a drive with a bias and wings on both sides");
             }
             inputs
         });

@@ -329,7 +329,7 @@ impl Plan {
         if self.measures().is_empty() || measures.len() != self.rows().columns().len() {
             return;
         }
-        let mut known = values.to_vec();
+        let mut known = self.body().map_or_else(|| values.to_vec(), |body| body.at_hover(values, measures));
         known.extend_from_slice(measures);
         for own in self.measures() {
             known.push(own.value(&known));

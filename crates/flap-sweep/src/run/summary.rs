@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::plan::Plan;
 use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
+use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
 /// Number of rows with each status. In files, the numbers are a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,6 +48,9 @@ pub struct Warnings {
     pub negative_power: u64,
     /// Rows whose resonance is at an end of the range of the search.
     pub at_range_end: u64,
+    /// Rows at hover with an unbalanced force of more than 1 % of the weight, or torque of more than 1 % of the weight times
+    /// 1 mm.
+    pub unbalanced: u64,
 }
 
 /// A condition of a plan, and the number of points that do not satisfy it.
@@ -150,6 +154,8 @@ impl Summary {
         self.warnings.inaccurate += u64::from(row.error_estimate > limits.accuracy);
         self.warnings.negative_power += u64::from(measure(limits.power).is_some_and(|power| power < 0.0));
         self.warnings.at_range_end += u64::from(measure(limits.margin) == Some(0.0));
+        self.warnings.unbalanced +=
+            u64::from(measure(limits.residual).is_some_and(|share| share > TRIM_LIMIT));
     }
 
     /// Adds the summary of other points of the same plan.
@@ -166,6 +172,7 @@ impl Summary {
         self.warnings.inaccurate += other.warnings.inaccurate;
         self.warnings.negative_power += other.warnings.negative_power;
         self.warnings.at_range_end += other.warnings.at_range_end;
+        self.warnings.unbalanced += other.warnings.unbalanced;
         for Unsatisfied { condition, points } in &other.unsatisfied {
             match self.unsatisfied.iter_mut().find(|known| known.condition == *condition) {
                 Some(known) => known.points += points,
@@ -187,6 +194,7 @@ pub(super) struct Limits {
     /// Indices in the measures.
     power: Option<usize>,
     margin: Option<usize>,
+    residual: Option<usize>,
 }
 
 impl Limits {
@@ -198,6 +206,7 @@ impl Limits {
             accuracy: plan.solver().accuracy,
             power: position("power_mean_mw"),
             margin: position(RESONANCE_MARGIN_HZ),
+            residual: position(HOVER_RESIDUAL),
         }
     }
 }

@@ -191,7 +191,7 @@ pub fn trim(
     let mut steps = 0;
     while steps < MOST_STEPS {
         let missed = missed_by(&at.wrench, targets);
-        if is_met(&missed, &own) {
+        if is_met(&missed, &own, TOLERANCE) {
             return Ok(Trim { at, steps });
         }
         let slopes = DMatrix::from_fn(targets.len(), inputs.len(), |i, j| {
@@ -218,11 +218,12 @@ pub fn trim(
         at = flight.effectiveness(&values, inputs, Some(&row.state))?;
     }
     let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
-    if is_met(&missed_by(&at.wrench, targets), &all) {
+    // Newton's iteration cannot reduce a distance below the error of the row.
+    if is_met(&missed_by(&at.wrench, targets), &all, TOLERANCE.max(at.row.error_estimate)) {
         return Ok(Trim { at, steps });
     }
     let nearest = targets.iter().map(|Target { component, value }| {
-        format!("{} = {:.4} instead of {value}", COMPONENTS[*component], at.wrench[*component])
+        format!("{} = {:.7} instead of {value:.7}", COMPONENTS[*component], at.wrench[*component])
     });
     Err(ControlError::NotReached(nearest.collect::<Vec<_>>().join(", ")))
 }
@@ -239,9 +240,9 @@ fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
 }
 
-/// Returns true if the error of each target is a small fraction of the size of the target.
-fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>) -> bool {
-    missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= TOLERANCE * size)
+/// Returns true if the error of each target is at most `tolerance` times the size of the target.
+fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>, tolerance: f64) -> bool {
+    missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= tolerance * size)
 }
 
 /// Components of force and torque: columns of rows.

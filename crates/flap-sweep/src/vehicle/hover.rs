@@ -66,10 +66,22 @@ const COUPLED_SHARE: f64 = 0.1;
 const NEUTRAL: f64 = 1e-10;
 
 /// Largest residual of a trim, as a fraction of the weight.
-const TRIM_LIMIT: f64 = 1e-2;
+pub(crate) const TRIM_LIMIT: f64 = 1e-2;
 
 /// Lever that turns the limit of forces into the limit of torques (m).
 const TRIM_LEVER: f64 = 1e-3;
+
+/// Returns the largest residual of a force as a fraction of the weight, or of a torque as a fraction of the weight times
+/// 1 mm, from the wrench (N and N·m).
+pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
+    let weight = body.mass * body.gravity;
+    let share = |i: usize| match i {
+        2 => wrench[2] / weight - 1.0,
+        0 | 1 => wrench[i] / weight,
+        _ => wrench[i] / (weight * TRIM_LEVER),
+    };
+    (0..6).map(|i| share(i).abs()).fold(0.0, f64::max)
+}
 
 const NOT_POSITIVE: &str = "the inertia of the body is not positive definite: moments must be positive, and the square of \
     body_inertia_product must be smaller than body_inertia_roll times body_inertia_yaw";

@@ -5,4 +5,6 @@ pub mod flight;
 pub mod hover;
 mod rows;
 
+pub(crate) use hover::TRIM_LIMIT;
 pub use rows::BodyRows;
+pub(crate) use rows::HOVER_RESIDUAL;

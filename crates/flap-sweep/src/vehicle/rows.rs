@@ -12,16 +12,19 @@ use flap_core::vehicle::{Vehicle, standing};
 use nalgebra::DMatrix;
 
 use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input};
-use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, trim};
+use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, residual_share, trim};
 use crate::derivative::{Per, column_name, meaning};
 
 /// Units of the derivatives of a force and of a torque with respect to a velocity and to a rate.
 const DAMPING_UNITS: [[&str; 2]; 2] = [["mN/(m/s)", "mN/(rad/s)"], ["uN*m/(m/s)", "uN*m/(rad/s)"]];
 
+/// Column with the force or torque that a trim to hover does not balance.
+pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
+
 /// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
 ///
-/// After the measures of the vehicle, a row at hover contains growth rate and period of the fastest-growing mode of hover.
-/// The values of the inputs and the damping matrix follow.
+/// After the measures of the vehicle, a row at hover contains growth rate and period of the fastest-growing mode of hover,
+/// and the residual of the trim. The values of the inputs and the damping matrix follow.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,
@@ -44,6 +47,8 @@ impl BodyRows {
             let period =
                 "period of the mode of hover with this real part; empty if the mode is no oscillation";
             add("hover_period_s".to_owned(), "s", period.to_owned());
+            let residual = "largest force without the weight, divided by the weight, or largest torque divided by the weight times 1 mm, that the search for hover leaves";
+            add(HOVER_RESIDUAL.to_owned(), "", residual.to_owned());
             for input in inputs {
                 let doc = format!("value of the input {} at which the vehicle hovers", input.name);
                 add(input_column(input), input.unit, doc);
@@ -75,6 +80,23 @@ impl BodyRows {
         self.inputs.as_ref().map(|inputs| trim(&flight, values, inputs))
     }
 
+    /// Returns the inputs that the search for hover changes; none if rows are computed at the given inputs.
+    fn inputs(&self) -> &[Input] {
+        self.inputs.as_deref().unwrap_or_default()
+    }
+
+    /// Returns `values` with the inputs at hover, from the measures of a row.
+    pub(crate) fn at_hover(&self, values: &[f64], measures: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
+        for input in self.inputs() {
+            let name = input_column(input);
+            if let Some(place) = self.columns.iter().position(|column| column.name == name) {
+                values[input.parameter] = measures[place] * input.factor;
+            }
+        }
+        values
+    }
+
     /// Adds the columns of this source to the measures of a row of the vehicle at these values.
     fn extend(&self, flight: &Flight<'_>, values: &[f64], row: &mut Row) {
         // Cells stay empty if a derivative is missing, or the moments of inertia are not set.
@@ -83,11 +105,13 @@ impl BodyRows {
             let body = self.vehicle.mass_properties(values);
             let wrench = flight.wrench(row);
             let wrench = core::array::from_fn(|i| wrench[i] * WRENCH_TO_SI[i]);
+            let residual = residual_share(&body, &wrench);
             let model = damping
                 .and_then(|damping| HoverModel::new(body, damping, DMatrix::zeros(6, 0), wrench, false).ok());
             let mode = model.as_ref().and_then(HoverModel::fastest_growing);
             row.measures.push(mode.map_or(f64::NAN, |mode| mode.eigenvalue.re));
             row.measures.push(mode.and_then(HoverMode::period).unwrap_or(f64::NAN));
+            row.measures.push(residual);
             let value =
                 |input: &Input| standing(self.vehicle.parameters(), values, input.parameter) / input.factor;
             row.measures.extend(inputs.iter().map(value));
