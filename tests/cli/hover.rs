@@ -51,6 +51,9 @@ fn near(found: f64, wanted: f64, share: f64) {
 fn rows_at_hover_are_the_numbers_of_the_command() {
     let folder = Folder::with_grid(&format!("{HEAD}{BODY}trim = \"hover\"\ndamping = true\n{WINGS}"));
     folder.ends(0, "sweep grid.toml --out all.csv --threads 2");
+    let slowest = growth.iter().copied().fold(f64::INFINITY, f64::min);
+    let best = folder.ends(0, "top all.csv --by hover_growth_1_s -n 1 --format csv").stdout;
+    assert_eq!(numbers(&best, "hover_growth_1_s"), [slowest]);
     folder.ends(0, "sweep grid.toml --out one.csv --threads 1");
     folder.ends(0, "sweep grid.toml --out part1.csv --shard 1/2");
     folder.ends(0, "sweep grid.toml --out part2.csv --shard 2/2");

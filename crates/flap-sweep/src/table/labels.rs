@@ -79,7 +79,7 @@ pub fn titled(words: &str, unit: &str) -> String {
 }
 
 /// First words of names of measures that are benefits or costs. Longer matches precede shorter matches.
-const BETTER: [(&str, Direction); 9] = [
+const BETTER: [(&str, Direction); 10] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),
     ("efficiency", Direction::Larger),
@@ -89,6 +89,7 @@ const BETTER: [(&str, Direction); 9] = [
     ("field", Direction::Smaller),
     ("drag", Direction::Smaller),
     ("force", Direction::Smaller),
+    ("hover_growth", Direction::Smaller),
 ];
 
 /// Returns the preferred direction of a column, from the first words of its name; `None` if the column is neither a
@@ -316,6 +317,8 @@ mod tests {
         assert_eq!(better("lift_mean_mn"), Some(Direction::Larger));
         assert_eq!(better("power_mean_mw"), Some(Direction::Smaller));
         assert_eq!(better("drive_frequency"), None);
+        assert_eq!(better("hover_growth_1_s"), Some(Direction::Smaller));
+        assert_eq!(better("hover_period_s"), None);
         assert_eq!(better("force_up_mn"), Some(Direction::Larger));
         assert_eq!(better("force_left_mn"), None);
         assert_eq!(better("torque_yaw_unm"), None);
