@@ -1,6 +1,8 @@
 //! Standard streams, closed pipes and signals.
 
 use std::io::{BufRead, BufReader, Read};
+#[cfg(target_os = "linux")]
+use std::os::unix::fs::FileTypeExt as _;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -16,6 +18,31 @@ fn stdout_carries_rows_and_nothing_else() {
     assert!(ended.stdout.starts_with("point,drive_frequency,status,"));
     assert!(ended.stderr.ends_with("3 rows in stdout\n"), "{}", ended.stderr);
     assert_eq!(folder.names(), ["grid.toml"]);
+}
+
+/// Devices and pipes hold no earlier results, and get neither a sidecar nor a lock.
+#[test]
+#[cfg(target_os = "linux")]
+fn rows_go_to_devices_and_pipes() {
+    let folder = Folder::with_grid(&frequencies(3));
+    let rows = folder.ends(0, "sweep grid.toml --out -").stdout;
+    let flap = env!("CARGO_BIN_EXE_flap");
+    let null = folder.ends(0, "sweep grid.toml --out /dev/null");
+    assert!(null.stderr.ends_with("3 rows in /dev/null\n"), "{}", null.stderr);
+    folder.ends(0, "respond grid.toml --out /dev/null");
+    assert!(std::fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+    for line in [
+        "mkfifo pipe; cat pipe & $flap sweep grid.toml --out pipe; wait; rm pipe",
+        "$flap sweep grid.toml --out /dev/stdout | cat",
+        "$flap sweep grid.toml --out /dev/stdout > rows.csv; cat rows.csv; rm rows.csv",
+        "$flap sweep grid.toml --out /dev/fd/3 3>&1 | cat",
+    ] {
+        let ended = folder.shell(&format!("flap={flap}; {line}"));
+        assert_eq!(ended.stdout, rows, "{line}: {}", ended.stderr);
+    }
+    // A name without an ending that leads to a file is refused.
+    folder.shell(&format!("{flap} sweep grid.toml --out /dev/fd/3 3> rows.csv")).says("must end in .csv");
+    assert_eq!(folder.names(), ["grid.toml", "rows.csv"]);
 }
 
 #[test]

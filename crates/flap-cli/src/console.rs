@@ -2,6 +2,7 @@
 
 use std::env;
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstyle::{AnsiColor, Style};
@@ -25,6 +26,13 @@ pub(crate) fn is_quiet() -> bool {
 pub(crate) fn width() -> Option<usize> {
     let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)
+}
+
+/// Returns true for `-` and `/dev/stdout`, the names of stdout.
+///
+/// If the shell redirects stdout to a file, `/dev/stdout` leads to this file, which the shell has opened.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-" || (cfg!(unix) && path == Path::new("/dev/stdout"))
 }
 
 /// Writes results to stdout.

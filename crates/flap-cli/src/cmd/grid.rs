@@ -6,7 +6,6 @@ use std::path::Path;
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 
-use super::outputs::is_stdout;
 use crate::console;
 use crate::failure::Failure;
 use crate::models;
@@ -34,5 +33,5 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
 
 /// Returns true for `-`, the name of stdin.
 pub(super) fn is_stdin(path: &Path) -> bool {
-    is_stdout(path)
+    path.as_os_str() == "-"
 }

@@ -93,7 +93,7 @@ fn search(args: &OptimiseArgs, problem: &Problem) -> Result<Exit, Failure> {
 /// Writes the best design as a device file.
 fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
     let text = grid::device(plan);
-    if outputs::is_stdout(out) {
+    if console::is_stdout(out) {
         return Err(Failure::usage("--out -: flap already prints the result to stdout").help("name a file"));
     }
     let written = job::make(out, overwrite, |mut file| file.write_all(text.as_bytes()).map(|()| None))?;

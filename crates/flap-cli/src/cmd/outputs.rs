@@ -7,12 +7,8 @@ use flap_sweep::files::disk::is_same_target;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::results::Format;
 
+use crate::console::is_stdout;
 use crate::failure::Failure;
-
-/// Returns true for `-`, the name of stdout.
-pub(crate) fn is_stdout(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
 
 /// Checks the names of CSV tables as [`check`] does, and also the endings of the names.
 ///

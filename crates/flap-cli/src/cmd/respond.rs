@@ -12,10 +12,9 @@ use flap_sweep::run::{RunOptions, Sink, Summary};
 use flap_sweep::study::response::{AlongError, EdgeRange, Starts};
 use flap_sweep::table::layout::Cell;
 
-use super::outputs::is_stdout;
 use super::point;
 use crate::args::{OutputFormat, RespondArgs};
-use crate::console;
+use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure};
 use crate::job::{self, Lines, Verdicts};
 use crate::print;

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     }
     if let Some(path) = &args.trajectory {
         trajectories(&designs, path, args)?;
-        if args.once || path.as_os_str() == "-" {
+        if args.once || console::is_stdout(path) {
             return Ok(Exit::Done);
         }
     }
@@ -141,7 +141,7 @@ fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), F
     let motions = motions.collect::<Result<Vec<Trajectory>, Failure>>()?;
     let keyed = designs.iter().zip(&motions).map(|(design, motion)| Keyed { keys: &design.keys, motion });
     let keyed: Vec<Keyed> = keyed.collect();
-    if path.as_os_str() == "-" {
+    if console::is_stdout(path) {
         write_motions(&keyed, io::stdout().lock())?;
         return Ok(());
     }

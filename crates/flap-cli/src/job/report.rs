@@ -15,8 +15,8 @@ use flap_sweep::table::layout::Layout;
 use super::exclusion;
 use crate::console::{self, shell_word};
 
-/// Prints the summary of the rows and the name of the file with the rows.
-pub(super) fn report(plan: &Plan, done: &Done) {
+/// Prints the summary of the rows and the name of the file with the rows, or of the stream `out`.
+pub(super) fn report(plan: &Plan, done: &Done, out: &Path) {
     let Done { summary, rows_before, seconds, place } = done;
     for InvalidPoint { point, reason } in &summary.invalid {
         console::say(&format!("point {point} is invalid: {reason}"));
@@ -44,7 +44,7 @@ pub(super) fn report(plan: &Plan, done: &Done) {
         report_unsettled(plan, done);
     }
 
-    let to = place.as_deref().map_or("stdout".into(), Path::to_string_lossy);
+    let to = place.as_deref().unwrap_or(out).display();
     if summary.is_interrupted() {
         let (done, points) = (summary.done(), summary.points);
         console::say(&format!("interrupted: the rows of the first {done} of {points} points are in {to}"));
@@ -163,21 +163,14 @@ fn beside(results: &Path, word: &str) -> String {
     shell_word(&results.with_file_name(format!("{stem}.{word}{ending}")).to_string_lossy())
 }
 
-/// Prints the number of curves and the name of the file with the curves.
-pub(super) fn report_curves(done: &Done) {
+/// Prints the number of curves and the name of the file with the curves, or of the stream `out`.
+pub(super) fn report_curves(done: &Done, out: &Path) {
     let Done { summary, place, .. } = done;
-    match place {
-        Some(place) if !summary.is_interrupted() => {
-            console::say(&format!("{} in {}", count(summary.ran, "curve"), place.display()));
-        }
-        // Without a file, the rows are the output.
-        None if !summary.is_interrupted() => {}
-        place => {
-            let place = place.as_ref().map_or("stdout".to_owned(), |place| place.display().to_string());
-            let (done, designs) = (summary.done(), summary.points);
-            console::say(&format!(
-                "interrupted: the rows of the first {done} of {designs} designs are in {place}"
-            ));
-        }
+    let to = place.as_deref().unwrap_or(out).display();
+    if summary.is_interrupted() {
+        let (done, designs) = (summary.done(), summary.points);
+        console::say(&format!("interrupted: the rows of the first {done} of {designs} designs are in {to}"));
+    } else if place.is_some() {
+        console::say(&format!("{} in {to}", count(summary.ran, "curve")));
     }
 }

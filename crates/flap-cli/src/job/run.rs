@@ -49,13 +49,13 @@ pub(crate) fn run_and_summarize(
     if let Some(threads) = work.threads {
         options.threads = threads;
     }
-    if out.as_os_str() == "-" {
+    if console::is_stdout(&out) {
         let begun = Instant::now();
         let mut sink = CsvSink::new(Layout::of(plan).names(), io::stdout());
         let mut verdicts = Verdicts::of(plan, OutputFormat::Table, Lines::Stderr);
         let summary = self::work(plan, &options, Summary::default(), &mut sink, verdicts.as_mut())?;
         let done = Done { summary, rows_before: 0, seconds: begun.elapsed().as_secs_f64(), place: None };
-        return Ok(ended(plan, &done, None, work));
+        return Ok(ended(plan, &done, Path::new("stdout"), work));
     }
     let options = SessionOptions { run: options, checkpoint: work.checkpoint };
     let job = Job { plan, out, begin, options, origin };
@@ -88,18 +88,19 @@ pub(crate) fn run_and_summarize(
     if let Some(verdicts) = verdicts.filter(|_| format != OutputFormat::Table) {
         print::table(format, &verdicts.names(), &verdicts.rows, String::new)?;
     }
-    Ok(ended(plan, &done, Some(&job.out), work))
+    Ok(ended(plan, &done, &job.out, work))
 }
 
-/// Prints the report of a job that ran, and returns the exit code.
-fn ended(plan: &Plan, done: &Done, resumable: Option<&Path>, work: &WorkArgs) -> Exit {
+/// Prints the report of a job that ran, and returns the exit code. `out` is the file or the stream with the rows.
+fn ended(plan: &Plan, done: &Done, out: &Path, work: &WorkArgs) -> Exit {
     if plan.followed().is_some() {
-        report_curves(done);
+        report_curves(done, out);
     } else {
-        report(plan, done);
+        report(plan, done, out);
     }
     if done.summary.is_interrupted() {
-        if let Some(out) = resumable {
+        // A stream has no journal.
+        if done.place.is_some() {
             console::say(&format!("`flap results resume {}` continues the run", out.display()));
             if let Some(kept) = still_kept(out) {
                 console::say(&kept);

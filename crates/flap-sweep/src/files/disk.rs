@@ -130,6 +130,11 @@ pub fn empty(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }
 
+/// Returns true if `path` is a pipe or a device without storage, such as `/dev/null`. Links are followed.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|metadata| system::is_stream(&metadata))
+}
+
 /// Returns true if there is no file at `path`, or an empty file.
 pub fn is_empty(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)

@@ -37,9 +37,11 @@ impl Lock {
                 Err(TryLockError::Error(error)) => Some(error),
                 Ok(()) => None,
             };
-            // The earlier holder may have removed the file after this process opened it.
-            if disk::is_in_place(&file, path).unwrap_or(false) {
-                return Ok(Some(Lock { file, path: path.to_owned(), unlocked }));
+            // The earlier holder may have removed the file after this process opened it. Windows may then deny access.
+            match disk::is_in_place(&file, path) {
+                Ok(true) => return Ok(Some(Lock { file, path: path.to_owned(), unlocked })),
+                Err(error) if error.kind() != io::ErrorKind::PermissionDenied => return Err(error),
+                _ => {}
             }
         }
     }

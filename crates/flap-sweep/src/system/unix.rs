@@ -25,6 +25,11 @@ fn id(metadata: &Metadata) -> (u64, u64) {
     (metadata.dev(), metadata.ino())
 }
 
+/// Returns true for a pipe or a device without storage. A disk has storage.
+pub(crate) fn is_stream(metadata: &Metadata) -> bool {
+    metadata.file_type().is_fifo() || metadata.file_type().is_char_device()
+}
+
 /// Returns true if `path` is a pipe that the shell opened for the command: `<(command)` or `/dev/stdin`.
 pub(crate) fn is_pipe_of_shell(path: &Path, metadata: &Metadata) -> bool {
     metadata.file_type().is_fifo() && (path.starts_with("/dev") || path.starts_with("/proc"))

@@ -11,8 +11,7 @@ use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::notation::text::count;
 
 use crate::args::ConvertArgs;
-use crate::cmd::outputs::is_stdout;
-use crate::console;
+use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure, IGNORE_HELP};
 use crate::{job, system};
 

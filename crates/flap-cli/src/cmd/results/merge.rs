@@ -11,8 +11,7 @@ use flap_sweep::notation::text::count;
 use flap_sweep::run::identity::{self, Identity};
 
 use crate::args::MergeArgs;
-use crate::cmd::outputs::is_stdout;
-use crate::console;
+use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure};
 use crate::{job, system};
 

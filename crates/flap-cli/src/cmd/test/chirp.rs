@@ -8,8 +8,9 @@ use flap_sweep::study::experiment;
 
 use crate::args::ChirpArgs;
 use crate::cmd::motion::write_file;
-use crate::cmd::outputs::{self, is_stdout};
+use crate::cmd::outputs;
 use crate::cmd::point::{Chosen, check_one_wing};
+use crate::console::is_stdout;
 use crate::failure::{Exit, Failure};
 use crate::print::{self, write_csv};
 

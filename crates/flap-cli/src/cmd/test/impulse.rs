@@ -10,9 +10,9 @@ use flap_sweep::notation::text;
 
 use crate::args::ImpulseArgs;
 use crate::cmd::motion::write_file;
-use crate::cmd::outputs::{self, is_stdout};
+use crate::cmd::outputs;
 use crate::cmd::point::{Chosen, check_one_wing};
-use crate::console;
+use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure};
 use crate::print::{self, write_csv};
 use crate::table::{Table, six_digits};

@@ -35,7 +35,7 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let forces = experiment::forces(plan.simulator().experiments()?, &values, &motion)?;
 
     match &args.trajectory {
-        Some(path) if path.as_os_str() == "-" => {
+        Some(path) if console::is_stdout(path) => {
             write_csv(&forces, io::stdout().lock())?;
             return Ok(Exit::Done);
         }

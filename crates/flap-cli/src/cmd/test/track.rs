@@ -7,8 +7,8 @@ use flap_sweep::files::record::{self, Record};
 
 use crate::args::TrackArgs;
 use crate::cmd::motion::write_file;
-use crate::cmd::outputs::{self, is_stdout};
-use crate::console;
+use crate::cmd::outputs;
+use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::six_digits;

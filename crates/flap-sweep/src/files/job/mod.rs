@@ -108,8 +108,8 @@ pub struct Done {
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
-        Begin::Continue => job.resume(),
-        Begin::Restart => job.start(),
+        Begin::Continue if !disk::is_stream(&job.out) => job.resume(),
+        _ => job.start(),
     }
 }
 
@@ -228,7 +228,7 @@ impl Writing<'_> {
             Target::Session(session, sidecar) => (session, sidecar),
             Target::Stream(_) => {
                 let summary = ended.map_err(|error| JobError::Run { error, resumable: false })?;
-                return Ok(Done { summary, rows_before, seconds, place: Some(self.job.out.clone()) });
+                return Ok(Done { summary, rows_before, seconds, place: None });
             }
         };
         let closed = ended.and_then(|summary| {
