@@ -1,6 +1,7 @@
 //! `flap check`: a summary of the sweep that a grid file describes.
 
 mod estimate;
+mod trial;
 
 use std::fmt::Write as _;
 

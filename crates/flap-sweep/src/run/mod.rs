@@ -40,7 +40,7 @@ mod workers;
 mod writer;
 
 pub use chunk::{Chunk, chunk};
-pub use points::{Outcome, alone, rows};
+pub use points::{Outcome, add_columns, alone, rows};
 pub use summary::{Counts, InvalidPoint, Summary, Unsatisfied, Warnings};
 pub use workers::Run;
 pub(crate) use workers::Worker;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use flap_core::num::Backend;
 use flap_core::simulate::{Change, Interrupt, Jobs, NoSlope, Point, PointRun, Row, Status};
 use flap_core::vehicle::standing;
 use serde::{Deserialize, Serialize};
@@ -93,12 +94,25 @@ fn completed(
     let has_more = !plan.measures().is_empty() || plan.gradient().is_some();
     if has_more && position < plan.selected() {
         let point = plan.selected_point(position);
-        plan.add_own_measures(&point.values, &mut row.measures);
-        if !add_gradient(plan, options, &point, &mut row, interrupted) {
+        if !add_columns(plan, options.instructions, &point, &mut row, interrupted) {
             return Ok(None);
         }
     }
     Ok(Some(Outcome::Ran(row)))
+}
+
+/// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
+///
+/// Returns false if the run was interrupted.
+pub fn add_columns(
+    plan: &Plan,
+    instructions: Backend,
+    point: &Point,
+    row: &mut Row,
+    interrupted: Interrupt<'_>,
+) -> bool {
+    plan.add_own_measures(&point.values, &mut row.measures);
+    add_gradient(plan, instructions, point, row, interrupted)
 }
 
 /// Largest number of points per thread for which scalars are faster than lanes, most of which would stay empty.
@@ -162,7 +176,7 @@ const OWN_SHARE: f64 = 1e-5;
 /// [`NoSlope::ALL`]. The sum is NaN if no derivative is missing. Returns false if the run was interrupted.
 fn add_gradient(
     plan: &Plan,
-    options: &RunOptions,
+    instructions: Backend,
     point: &Point,
     row: &mut Row,
     interrupted: Interrupt<'_>,
@@ -174,7 +188,7 @@ fn add_gradient(
         Change { ahead: changed(Change::SHARE), behind: changed(back), size: Change::SHARE }
     });
     let changes: Vec<Change> = changes.collect();
-    let run = PointRun::new(options.instructions, plan.solver(), &point.values).until(interrupted);
+    let run = PointRun::new(instructions, plan.solver(), &point.values).until(interrupted);
     let found =
         plan.simulator().gradients().and_then(|gradients| gradients.gradient(&run, &row.state, &changes));
     if interrupted() {

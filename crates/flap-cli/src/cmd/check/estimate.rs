@@ -1,37 +1,14 @@
-//! Runs some points of a sweep, and estimates the time of the sweep and the size of its rows.
+//! Estimates of the time of a sweep and of the size of its rows.
 
-use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread;
-use std::time::{Duration, Instant};
 
-use flap_core::num::Backend;
-use flap_core::simulate::{Jobs, Point, Row, Status};
-use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::notation::text::count;
+use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Shard;
-use flap_sweep::plan::{Admission, Plan};
-use flap_sweep::run::{RunOptions, Sink};
-use flap_sweep::study::survey::spread;
-use flap_sweep::table::layout::Layout;
+use flap_sweep::run::RunOptions;
 
+use super::trial::Trial;
 use crate::duration;
-
-/// Largest number of points in a sample.
-const MOST: usize = 256;
-
-/// Running time of the sample after which no further point is added to the sample.
-const LONGEST_BEGIN: Duration = Duration::from_secs(1);
-
-/// Running time of the sample after which running points are abandoned.
-const LONGEST: Duration = Duration::from_secs(2);
-
-/// Largest number of points that are checked in the search for points that are not excluded.
-const MOST_LOOKED_AT: u64 = 100_000;
-
-/// Smallest relative error of an estimate, because the speed of a machine varies by this fraction.
-const SMALLEST_ERROR: f64 = 0.1;
 
 /// Estimates for a sweep, from a few points of the sweep.
 #[derive(Default)]
@@ -88,260 +65,26 @@ pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option
     };
     let cores = RunOptions::default().threads;
     let threads = threads.unwrap_or(cores).get();
-    let mut trial = Trial::run(plan, cores.get());
-    if let Trial { valid: 0, first_reason: Some((index, reason)), .. } = &trial
-        && trial.is_complete()
-    {
+    let trial = Trial::run(plan, cores.get());
+    if let Some((index, reason)) = trial.invalid() {
         let text = format!("every point that was tried is invalid, for example point {index}: {reason}");
         return Estimate { invalid: Some(text), ..Estimate::default() };
     }
+    let share = cores.get() as f64 / threads as f64;
     Estimate {
         invalid: None,
-        seconds: trial
-            .seconds(points)
-            .map(|bounds| bounds.map(|time| time * cores.get() as f64 / threads as f64)),
+        seconds: trial.seconds(points).map(|bounds| bounds.map(|seconds| seconds * share)),
         bytes: trial.bytes_of_row().map(|bytes| bytes * points as f64),
         is_complete: trial.is_complete(),
         threads,
-        tried: trial.works.len(),
+        tried: trial.tried(),
         most_points,
-    }
-}
-
-/// A sample of points that are spread over a plan.
-///
-/// Until the last point of the sample is done, further points keep all lanes full, as in a sweep. Without the further
-/// points, the slowest points of the sample would run alone and distort the time.
-struct Trial<'a> {
-    plan: &'a Plan,
-    started: Instant,
-    /// The time from the start to the end of the sample.
-    took: Duration,
-    looked_at: u64,
-    /// True if no more points are added to the sample.
-    closed: bool,
-    /// Numbers of the points of the sample that are running.
-    running: BTreeSet<u64>,
-    /// The work of each point of the sample: the number of evaluations of the equations of motion.
-    works: Vec<f64>,
-    /// Points that were started, points that have rows, and the work of the points with rows.
-    begun: u64,
-    done: u64,
-    work: f64,
-    /// Number of valid points.
-    valid: u64,
-    layout: Layout<'a>,
-    /// The rows of the sample as CSV, and the number of rows.
-    rows: CsvSink<Vec<u8>>,
-    written: u64,
-    /// Index and reason of the first invalid point.
-    first_reason: Option<(u64, String)>,
-}
-
-impl Trial<'_> {
-    /// Runs the sample on all threads.
-    fn run(plan: &Plan, threads: usize) -> Trial<'_> {
-        let trial = Mutex::new(Trial {
-            plan,
-            started: Instant::now(),
-            took: Duration::ZERO,
-            looked_at: 0,
-            closed: false,
-            running: BTreeSet::new(),
-            works: Vec::new(),
-            begun: 0,
-            done: 0,
-            work: 0.0,
-            valid: 0,
-            layout: Layout::of(plan),
-            rows: CsvSink::new(Vec::new(), Vec::new()),
-            written: 0,
-            first_reason: None,
-        });
-        thread::scope(|scope| {
-            for _ in 0..threads {
-                let work = || plan.rows().run(Backend::best(), plan.solver(), &mut Worker(&trial));
-                // If no further thread starts, the other threads do the work.
-                let _ = thread::Builder::new().spawn_scoped(scope, work);
-            }
-        });
-        let mut trial = trial.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if trial.took.is_zero() {
-            trial.took = trial.started.elapsed();
-        }
-        trial
-    }
-
-    /// Returns the mean work of a point and its probable relative error, for a sweep of `points` points; none if no point was run.
-    fn mean_work(&self, points: u64) -> Option<(f64, f64)> {
-        let number = self.works.len() as f64;
-        let mean = self.works.iter().sum::<f64>() / number;
-        if mean.is_nan() || mean <= 0.0 {
-            return None;
-        }
-        let squares: f64 = self.works.iter().map(|work| (work - mean).powi(2)).sum();
-        // If the sample contains all points of the plan, the mean is exact.
-        let left_out = (1.0 - number / points as f64).max(0.0);
-        let deviation = (left_out * squares / (number * (number - 1.0).max(1.0))).sqrt();
-        Some((mean, (2.0 * deviation / mean).max(SMALLEST_ERROR)))
-    }
-
-    /// Returns the bounds of the likely time of a sweep of `points` points (s); none if no point was run.
-    fn seconds(&self, points: u64) -> Option<[f64; 2]> {
-        let (mean, error) = self.mean_work(points)?;
-        // Points that are still running count as half done.
-        let work = self.work + 0.5 * mean * (self.begun - self.done) as f64;
-        let seconds = points as f64 * mean * self.took.as_secs_f64() / work;
-        Some([seconds / (1.0 + error), seconds * (1.0 + error)])
-    }
-
-    /// Returns the mean size of a row as CSV (bytes); none if no point was run.
-    fn bytes_of_row(&mut self) -> Option<f64> {
-        let _ = self.rows.flush();
-        (self.written > 0).then(|| self.rows.target().len() as f64 / self.written as f64)
-    }
-
-    /// True if all points of the sample have rows.
-    fn is_complete(&self) -> bool {
-        self.closed && self.running.is_empty()
-    }
-
-    fn is_over(&self) -> bool {
-        self.is_complete() || self.started.elapsed() >= LONGEST
-    }
-
-    /// Returns the index in the plan of checked point `number`.
-    fn index(&self, number: u64) -> u64 {
-        let points = self.plan.len();
-        if points <= MOST as u64 { number % points } else { spread(number, points) }
-    }
-
-    fn next(&mut self) -> Option<Point> {
-        while !self.is_over() && self.looked_at < MOST_LOOKED_AT {
-            let number = self.looked_at;
-            let mut point = self.plan.point(self.index(number));
-            // A point may run twice. Each run has its own number.
-            point.index = number;
-            self.looked_at += 1;
-            let in_sample = !self.closed;
-            match self.plan.judge(&point.values) {
-                Admission::Runs => {
-                    self.begun += 1;
-                    if in_sample {
-                        self.running.insert(number);
-                    }
-                    self.close();
-                    return Some(point);
-                }
-                Admission::Invalid(invalid) if in_sample => {
-                    self.works.push(0.0);
-                    self.note_invalid(number, invalid.to_string());
-                }
-                Admission::Invalid(_) | Admission::Excluded(_) => {}
-            }
-            self.close();
-        }
-        self.closed = true;
-        None
-    }
-
-    /// Ends the sample if the sample is large enough, has all points, or took long enough.
-    fn close(&mut self) {
-        self.closed |= self.works.len() + self.running.len() >= MOST
-            || self.looked_at >= self.plan.len()
-            || self.started.elapsed() >= LONGEST_BEGIN;
-    }
-
-    fn done(&mut self, number: u64, row: Row) {
-        let work = row.rhs_evals as f64;
-        self.done += 1;
-        self.work += work;
-        let in_sample = self.running.remove(&number);
-        if in_sample {
-            self.works.push(work);
-            if self.is_complete() {
-                self.took = self.started.elapsed();
-            }
-        }
-        if row.status == Status::Invalid {
-            self.note_invalid(number, row.reason.unwrap_or_default());
-        } else {
-            self.valid += 1;
-            if in_sample {
-                self.write(number, row);
-            }
-        }
-    }
-
-    /// Writes the row of point `number` as a sweep does. Derivatives, which are not computed, get numbers of the usual length.
-    fn write(&mut self, number: u64, mut row: Row) {
-        let point = self.plan.point(self.index(number));
-        self.plan.add_own_measures(&point.values, &mut row.measures);
-        if let Some(gradient) = self.plan.gradient().filter(|_| !row.measures.is_empty()) {
-            let stand_ins: Vec<f64> = gradient.pairs().map(|(of, _)| row.measures[of] / 300.0).collect();
-            row.measures.extend(stand_ins);
-            row.measures.push(f64::NAN);
-        }
-        // A vector of bytes takes all rows.
-        let _ = self.rows.write(&self.layout.cells(&point, &row));
-        self.written += 1;
-    }
-
-    /// Records checked point `number` as invalid.
-    fn note_invalid(&mut self, number: u64, reason: String) {
-        let index = self.index(number);
-        self.first_reason.get_or_insert((index, reason));
-    }
-}
-
-/// A thread that runs points of the sample.
-struct Worker<'t, 'a>(&'t Mutex<Trial<'a>>);
-
-impl<'a> Worker<'_, 'a> {
-    fn trial(&self) -> MutexGuard<'_, Trial<'a>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-impl Jobs for Worker<'_, '_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        self.trial().next()
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        self.trial().done(index, row);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.trial().is_over()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use flap_core::simulate::all;
-
     use super::*;
-
-    /// All points of a plan, and the work for each point.
-    struct All<'a> {
-        plan: &'a Plan,
-        next: u64,
-        work: f64,
-    }
-
-    impl Jobs for All<'_> {
-        fn next(&mut self, _idle: bool) -> Option<Point> {
-            (self.next < self.plan.len()).then(|| {
-                self.next += 1;
-                self.plan.point(self.next - 1)
-            })
-        }
-
-        fn done(&mut self, _index: u64, row: Row) {
-            self.work += row.rhs_evals as f64;
-        }
-    }
 
     #[test]
     fn sizes_have_two_digits_or_more() {
@@ -350,42 +93,5 @@ mod tests {
         for (bytes, text) in cases {
             assert_eq!(size(bytes), text);
         }
-    }
-
-    /// Points near hysteresis and points that never settle need up to a hundred times the work of other points.
-    #[test]
-    fn the_mean_work_is_that_of_the_sweep() {
-        let grid = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"0.7486 uN*m/rad\"\n[axes]\n\
-                    drive_voltage_pp = { from = \"100 V\", to = \"240 V\", n = 15 }\n\
-                    drive_frequency = { from = \"60 Hz\", to = \"150 Hz\", n = 80 }\n";
-        let plan =
-            flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
-        let mut whole = All { plan: &plan, next: 0, work: 0.0 };
-        plan.rows().run(Backend::best(), plan.solver(), &mut whole);
-        let truth = whole.work / plan.len() as f64;
-        for threads in [1, 2] {
-            let trial = Trial::run(&plan, threads);
-            let (mean, error) = trial.mean_work(plan.len()).unwrap();
-            println!("{} points: {mean} of {truth}, {error}", trial.works.len());
-            assert!(trial.works.len() >= 32, "{} points", trial.works.len());
-            assert!((mean / truth - 1.0).abs() < 0.3 && error < 0.6, "{mean} {truth} {error}");
-        }
-    }
-
-    /// If the sample contains all points of the plan, the only error of the estimate is the varying speed of the
-    /// machine.
-    #[test]
-    fn a_small_plan_is_run_as_a_whole() {
-        let grid =
-            "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = { from = 90, to = 120, n = 31 }\n";
-        let plan =
-            flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
-        let trial = Trial::run(&plan, 2);
-        if trial.is_complete() && trial.works.len() == 31 {
-            assert_eq!(trial.mean_work(31).unwrap().1, SMALLEST_ERROR);
-        }
-        assert!(trial.seconds(31).is_some());
-        let [low, high] = trial.seconds(31_000).unwrap();
-        assert!(low > 0.0 && high > low && high < 3.0 * low, "{low} {high}");
     }
 }
