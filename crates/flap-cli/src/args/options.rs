@@ -21,6 +21,13 @@ pub(crate) struct PointArgs {
     #[arg(short, long, value_name = "I", default_value_t = 0)]
     pub(crate) point: u64,
 
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
+}
+
+/// Option that changes parameters of designs.
+#[derive(Clone, PartialEq, clap::Args)]
+pub(crate) struct ChangeArgs {
     /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,

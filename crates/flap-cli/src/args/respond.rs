@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::options::{BeginArgs, OutputFormat, SolverArgs};
-use super::values::assignment;
+use super::options::{BeginArgs, ChangeArgs, OutputFormat, SolverArgs};
 
 #[derive(clap::Args)]
 #[command(after_help = RESPOND_HELP)]
@@ -84,9 +83,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "basins", help_heading = BASINS)]
     pub(crate) seed: u64,
 
-    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
-    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
-    pub(crate) set: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
 
     /// File for the rows, one per motion; `-` prints the rows to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet
     #[arg(short, long, value_name = "FILE")]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::value_parser;
 
-use super::options::{OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
+use super::options::{ChangeArgs, OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
 use super::values::assignment;
 
 #[derive(clap::Args)]
@@ -19,9 +19,8 @@ pub(crate) struct RunArgs {
     #[arg(short, long, value_name = "I", default_value_t = 0)]
     point: u64,
 
-    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
-    #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
-    set: Vec<(String, String)>,
+    #[command(flatten)]
+    changes: ChangeArgs,
 
     /// Run each design with each of these values of a parameter. You can repeat --each
     ///
@@ -90,19 +89,22 @@ pub(crate) struct RunArgs {
 impl RunArgs {
     /// Returns the designs: each preset or file with each combination of the values of --each.
     pub(crate) fn designs(&self) -> Vec<PointArgs> {
-        let mut sets = vec![self.set.clone()];
+        let mut all = vec![self.changes.clone()];
         for (name, values) in &self.each {
-            let with = |set: &Vec<(String, String)>, value: &String| {
-                set.iter().cloned().chain([(name.clone(), value.clone())]).collect::<Vec<_>>()
+            let with = |changes: &ChangeArgs, value: &String| {
+                let mut set = changes.set.clone();
+                set.push((name.clone(), value.clone()));
+                ChangeArgs { set }
             };
-            sets = sets.iter().flat_map(|set| values.iter().map(move |value| with(set, value))).collect();
+            all =
+                all.iter().flat_map(|changes| values.iter().map(move |value| with(changes, value))).collect();
         }
-        let of = |what: &String, set: &Vec<(String, String)>| PointArgs {
+        let design = |what: &String, changes: &ChangeArgs| PointArgs {
             what: what.clone(),
             point: self.point,
-            set: set.clone(),
+            changes: changes.clone(),
         };
-        self.what.iter().flat_map(|what| sets.iter().map(move |set| of(what, set))).collect()
+        self.what.iter().flat_map(|what| all.iter().map(move |changes| design(what, changes))).collect()
     }
 
     /// Returns the name of a design among several presets and files: without its folder and ending, if such names are distinct.

@@ -52,7 +52,7 @@ impl Chosen {
         }
         let mut values = plan.point(point.point).values;
         let (mut set, mut set_with_unit) = (Vec::new(), Vec::new());
-        for (name, value) in &point.set {
+        for (name, value) in &point.changes.set {
             let index = find_parameter(plan.parameters(), name)?;
             values[index] = self::value(&plan.parameters()[index], &set_option(name), value)?;
             set.push(index);

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         );
     }
     let (mut plan, along) = along(args, plan)?;
-    for (name, value) in &args.set {
+    for (name, value) in &args.changes.set {
         plan = set(plan, &along, name, value)?;
     }
     if let Some(edge) = &args.edge {

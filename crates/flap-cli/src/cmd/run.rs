@@ -74,8 +74,9 @@ fn check_designs(points: &[PointArgs], args: &RunArgs) -> Result<(), Failure> {
     }
     for (place, (name, _)) in args.each.iter().enumerate() {
         let is_twice = args.each[..place].iter().any(|(other, _)| other == name);
-        let is_set =
-            points.iter().any(|point| point.set.iter().filter(|(other, _)| other == name).count() > 1);
+        let is_set = points
+            .iter()
+            .any(|point| point.changes.set.iter().filter(|(other, _)| other == name).count() > 1);
         if is_twice || is_set {
             return Err(Failure::usage(format!("the command line sets {name} twice"))
                 .help("remove --set or one --each"));
@@ -208,12 +209,12 @@ fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<
 /// Returns a line with the command that runs an unsettled point longer.
 fn longer(design: &Design) -> String {
     let cycles = design.chosen.plan.solver().max_cycles;
-    let PointArgs { what, point, set } = &design.point;
+    let PointArgs { what, point, changes } = &design.point;
     let mut command = format!("flap run {}", shell_word(what));
     if *point > 0 {
         let _ = write!(command, " --point {point}");
     }
-    for (name, value) in set {
+    for (name, value) in &changes.set {
         let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
     }
     let periods = count(cycles.into(), "drive period");
