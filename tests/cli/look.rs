@@ -265,6 +265,21 @@ fn the_best_row_at_the_end_of_an_axis_is_told() {
     assert!(!ended.stderr.contains("at the end"), "one value is no axis: {}", ended.stderr);
 }
 
+/// A row without a periodic motion belongs to the axis too.
+#[test]
+fn rows_of_every_status_belong_to_an_axis() {
+    let folder = Folder::new();
+    let rows = "point,drive_frequency,status,lift_mean_mn\n\
+                0,1,periodic,1\n1,2,periodic,2\n2,3,periodic,3\n3,4,unsettled,\n";
+    fs::write(folder.path("rows.csv"), rows).unwrap();
+    for (options, is_end) in [("", false), ("--where drive_frequency<3.5", true)] {
+        let top = folder.ends(0, &format!("top rows.csv --by lift_mean_mn {options}"));
+        let described = folder.ends(0, &format!("describe rows.csv {options}"));
+        assert_eq!(top.stderr.contains("at the end of drive_frequency"), is_end, "{options}: {}", top.stderr);
+        assert_eq!(described.stdout.contains("at the end"), is_end, "{options}: {}", described.stdout);
+    }
+}
+
 #[test]
 fn the_best_value_of_each_axis_is_told() {
     let folder = periodic();

@@ -9,6 +9,7 @@ use flap_sweep::notation::text::count;
 use super::shown::Shown;
 use crate::args::{Aim, LookArgs, TopArgs};
 use crate::console;
+use crate::data::axes::Ends;
 use crate::data::filter::Filters;
 use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
@@ -27,7 +28,9 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let names: Vec<String> = columns.iter().map(|&column| source.names()[column].clone()).collect();
 
     let aim = aim.unwrap_or_else(|| Aim::of(&ranking));
-    let mut ranges: Vec<Range> = columns.iter().map(|_| Range::default()).collect();
+    // The list begins with the columns of the point, so these columns have the same places in the file and in the list.
+    let axes = source.names().iter().position(|name| name == "status").map_or(0..0, |end| 1..end);
+    let mut ends: Vec<Ends> = axes.clone().map(|_| Ends::default()).collect();
     let mut best = Best { most: args.rows.get(), aim, rows: Vec::new() };
     let mut left_out = LeftOut::default();
     let mut row = StringRecord::new();
@@ -37,6 +40,9 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
             continue;
         }
         kept += 1;
+        for (ends, axis) in ends.iter_mut().zip(axes.clone()) {
+            ends.add(number(row.get(axis).unwrap_or_default()));
+        }
         let value = value(&ranking, row.get(by).unwrap_or_default())?;
         if status.is_some_and(|status| row.get(status) != Some(Status::Periodic.name())) {
             left_out.other_statuses += 1;
@@ -45,7 +51,6 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
         } else {
             let cells: Vec<&str> =
                 columns.iter().map(|&column| row.get(column).unwrap_or_default()).collect();
-            ranges.iter_mut().zip(&cells).for_each(|(range, cell)| range.add(cell));
             best.add(value, cells);
             ranked += 1;
         }
@@ -61,12 +66,11 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     );
     console::say(&format!("{shown} with the {direction} {ranking} of {of}{}", left_out.text()));
     print::table(*format, &names, &rows, || table(&names, &units, &rows))?;
-    let axes = source.names().iter().position(|name| name == "status").map_or(0..0, |end| 1..end);
-    let sampled = source.sample().to_vec();
-    for place in (0..columns.len()).filter(|&place| axes.contains(&columns[place])) {
-        if !sampled.contains(&names[place]) && ranges[place].ends_at(&rows[0][place]) {
-            let shown = Shown::of_column(&names[place], &units[place], rows[0][place].parse::<f64>());
-            let (name, value) = (shown.heading(&names[place]), shown.cell(&rows[0][place]));
+    for (axis, ends) in axes.zip(&ends) {
+        let (name, unit, cell) = (&names[axis], &units[axis], &rows[0][axis]);
+        if !source.sample().contains(name) && ends.contain(number(cell)) {
+            let shown = Shown::of_column(name, unit, [number(cell)]);
+            let (name, value) = (shown.heading(name), shown.cell(cell));
             console::say(&format!(
                 "the best row is at the end of {name}, {value}: rows beyond this value may be better"
             ));
@@ -102,6 +106,11 @@ fn value(by: &str, cell: &str) -> Result<f64, Failure> {
     })
 }
 
+/// Returns the number in a cell; NaN if the cell contains no number.
+fn number(cell: &str) -> f64 {
+    cell.parse().unwrap_or(f64::NAN)
+}
+
 /// The best rows so far.
 struct Best {
     most: usize,
@@ -132,30 +141,6 @@ impl Best {
     fn sorted(mut self) -> Vec<Vec<String>> {
         self.cut();
         self.rows.into_iter().map(|(_, cells)| cells).collect()
-    }
-}
-
-/// The smallest and the largest number of a column.
-#[derive(Default)]
-struct Range {
-    low: Option<f64>,
-    high: Option<f64>,
-    /// True if the column has three or more different numbers.
-    has_inner: bool,
-}
-
-impl Range {
-    fn add(&mut self, cell: &str) {
-        let Ok(number) = cell.parse::<f64>() else { return };
-        let (low, high) = (self.low.unwrap_or(number), self.high.unwrap_or(number));
-        self.has_inner |= low < high && number != low && number != high;
-        (self.low, self.high) = (Some(low.min(number)), Some(high.max(number)));
-    }
-
-    /// Returns true if a cell has the first or the last of at least three numbers.
-    fn ends_at(&self, cell: &str) -> bool {
-        let number = cell.parse().ok();
-        self.has_inner && (number == self.low || number == self.high)
     }
 }
 

@@ -61,6 +61,38 @@ impl Axes {
         let mut listed = [self.columns.as_slice(), &self.members].concat();
         listed.sort_unstable();
         listed.dedup();
+/// The smallest and the largest value of an axis. Beyond these values, there may be better rows.
+#[derive(Default)]
+pub(crate) struct Ends {
+    range: Option<[f64; 2]>,
+    /// True if the axis has three or more different values. Both values of a shorter axis are ends.
+    has_inner: bool,
+}
+
+impl Ends {
+    /// Returns the ends of these values. NaN is ignored.
+    pub(crate) fn of(values: &[f64]) -> Ends {
+        let mut ends = Ends::default();
+        values.iter().for_each(|&value| ends.add(value));
+        ends
+    }
+
+    /// Adds a value to the axis, unless the value is NaN.
+    pub(crate) fn add(&mut self, value: f64) {
+        if value.is_nan() {
+            return;
+        }
+        let [low, high] = self.range.unwrap_or([value; 2]);
+        self.has_inner |= low < high && value != low && value != high;
+        self.range = Some([low.min(value), high.max(value)]);
+    }
+
+    /// Returns true if `value` is an end of an axis with three or more different values.
+    pub(crate) fn contain(&self, value: f64) -> bool {
+        self.has_inner && self.range.is_some_and(|range| range.contains(&value))
+    }
+}
+
         listed
     }
 }
@@ -143,6 +175,14 @@ mod tests {
         assert!(!line.sampled, "one axis is no sample");
         let zip = table(&[("f", &[1.0, 2.0, 3.0, 4.0, 5.0]), ("a", &[3.0, 1.0, 4.0, 5.0, 9.0])]);
         assert!(!Axes::of(&zip, 3).sampled, "an axis with another that moves along");
+    #[test]
+    fn axes_of_three_values_or_more_have_ends() {
+        let ends = Ends::of(&[2.0, 1.0, f64::NAN, 3.0, 2.0]);
+        assert_eq!([1.0, 2.0, 3.0, f64::NAN].map(|value| ends.contain(value)), [true, false, true, false]);
+        assert!(!Ends::of(&[1.0, 2.0, 2.0, f64::NAN]).contain(1.0));
+        assert!(!Ends::of(&[]).contain(0.0));
+    }
+
         let sample = table(&[("a", &[0.3, 0.1, 0.9, 0.7, 0.2]), ("b", &[0.6, 0.5, 0.25, 0.1, 0.8])]);
         assert!(Axes::of(&sample, 3).sampled);
     }

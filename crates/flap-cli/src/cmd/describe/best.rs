@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::args::Aim;
-use crate::data::axes::Axes;
+use crate::data::axes::{Axes, Ends};
 use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
@@ -89,7 +89,9 @@ fn point(table: &Table, row: usize) -> u64 {
 }
 
 impl Axis {
-    /// Returns the axis in this column; `best` has the best rows, the best row first.
+    /// Summarizes the values of a column in all rows of the table and in the best rows.
+    ///
+    /// `best` contains the positions of the best rows in the table. The first position belongs to the best row.
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);
@@ -101,19 +103,22 @@ impl Axis {
         let top = found[0];
         found.sort_unstable();
         found.dedup();
-        let (last, is_number) = (levels.len() - 1, matches!(levels.values, Values::Numbers(_)));
-        if is_number {
-            found = vec![found[0], found[found.len() - 1]];
-        }
+        let at_the_end = match &levels.values {
+            Values::Numbers(values) => {
+                found = vec![found[0], found[found.len() - 1]];
+                !sampled && Ends::of(values).contain(values[top])
+            }
+            Values::Words(_) => false,
+        };
         let described = &table.columns[column];
         Axis {
             name: described.name.clone(),
             unit: described.unit.clone(),
             values: levels.len(),
-            range: [place(0), place(last)],
+            range: [place(0), place(levels.len() - 1)],
             best: place(top),
             best_tenth: found.into_iter().map(place).collect(),
-            at_the_end: is_number && !sampled && last >= 2 && (top == 0 || top == last),
+            at_the_end,
         }
     }
 }
