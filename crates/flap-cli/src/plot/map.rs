@@ -8,10 +8,11 @@ use flap_sweep::picture::colours;
 
 use super::canvas::Size;
 use super::ink;
+use super::kind::Columns;
 use super::nearest::nearest;
 use super::panel::{Axis, Panel};
 use super::scale;
-use super::selection::{Columns, Selection};
+use super::selection::Selection;
 use super::shades::{self, Shades};
 use crate::data::columns::{RefinedAxis, Table};
 use crate::data::levels::{Levels, Values};

@@ -7,9 +7,8 @@ use std::collections::BTreeMap;
 
 use data::{Data, Kind, Start, Value};
 
-use super::selection;
-use super::selection::Request;
-use super::slices;
+use super::request::Request;
+use super::{kind, selection, slices};
 use crate::args::{Aim, PictureKind, PlotArgs};
 use crate::console;
 use crate::data::axes::Axes;
@@ -39,12 +38,10 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
 
 /// Returns the first view of the page: the picture with the same arguments, if there is such a picture.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
-    let filters = (args.values().into_iter())
-        .map(|(name, text)| {
-            Ok((table.columns[table.find(&name)?].name.clone(), filter(table, &name, &text)?))
-        })
+    let filters = (request.filters.iter())
+        .map(|(column, text)| Ok((request.name(*column).to_owned(), filter(table, *column, text)?)))
         .collect::<Result<BTreeMap<_, _>, Failure>>()?;
-    let drawn = selection::columns(request, axes).and_then(|columns| {
+    let drawn = kind::columns(request, axes).and_then(|columns| {
         table.numbers(columns.x)?;
         table.numbers(columns.y)?;
         Ok(columns)
@@ -96,9 +93,8 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
 }
 
 /// Returns the value of a slice in the form of the file.
-fn filter(table: &Table, name: &str, text: &str) -> Result<Value, Failure> {
-    let column = table.find(name)?;
-    let rows = slices::filtered(table, &[(name.to_owned(), text.to_owned())])?;
+fn filter(table: &Table, column: usize, text: &str) -> Result<Value, Failure> {
+    let rows = slices::filtered(table, &[(column, text.to_owned())])?;
     Ok(match &table.columns[column].cells {
         Cells::Numbers(values) => Value::Number(values[rows[0]]),
         _ => Value::Word(text.to_owned()),
