@@ -2,8 +2,7 @@
 
 use std::fs;
 
-use crate::support::Folder;
-use crate::vehicle::HEAD;
+use crate::support::{Folder, VEHICLE};
 
 /// The lines of the matrix: the name of each input, its value, and the change of force and torque.
 fn matrix(folder: &Folder, arguments: &str) -> Vec<(String, f64, [f64; 6])> {
@@ -23,7 +22,7 @@ fn near(found: f64, wanted: f64, share: f64) {
 /// An input that is almost zero is changed by a share of its typical size: its own would be lost in rounding.
 #[test]
 fn inputs_of_almost_nothing_have_the_slopes_of_zero() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     let pitch = |offset: &str| {
         let found = matrix(&folder, &format!("grid.toml --inputs bias --set drive_offset={offset}"));
         found[1].2[4]
@@ -44,7 +43,7 @@ fn inputs_of_almost_nothing_have_the_slopes_of_zero() {
 #[test]
 fn the_matrix_after_a_trim_is_that_without_the_rest() {
     let folder = Folder::with_grid(&format!(
-        "{HEAD}[params]\ndrive_shape = \"harmonics\"\ndrive_second_phase = \"90 deg\"\n"
+        "{VEHICLE}[params]\ndrive_shape = \"harmonics\"\ndrive_second_phase = \"90 deg\"\n"
     ));
     let targets = "--trim force_up=2 --trim torque_roll=0 --trim torque_pitch=0 --trim torque_yaw=0";
     let trimmed = matrix(&folder, &format!("grid.toml {targets}"));
@@ -62,12 +61,12 @@ fn the_matrix_after_a_trim_is_that_without_the_rest() {
 /// A column per per cent is the value times the slope, however small the value is.
 #[test]
 fn per_cents_of_almost_nothing_are_exact() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     let slope = matrix(&folder, "grid.toml --inputs bias")[1].2[4];
     for offset in [1e-9, 1e-3] {
         let gradient = "[gradient]\nof = [\"torque_pitch_unm\"]\nwith_respect_to = [\"drive_offset\"]\n";
         let grid = format!(
-            "{HEAD}[params]\ndrive_offset = {offset}\n{gradient}[output]\ncolumns = [\"torque_pitch_unm\"]\n"
+            "{VEHICLE}[params]\ndrive_offset = {offset}\n{gradient}[output]\ncolumns = [\"torque_pitch_unm\"]\n"
         );
         fs::write(folder.path("tiny.toml"), grid).unwrap();
         folder.ends(0, "sweep tiny.toml --restart");
@@ -83,7 +82,7 @@ fn per_cents_of_almost_nothing_are_exact() {
 #[test]
 fn parameters_of_a_wing_that_are_not_set_have_the_common_value() {
     let folder = Folder::with_grid(&format!(
-        "{HEAD}[sample]\nmethod = \"random\"\nn = 3\n[sample.parameters]\nleft_drive_voltage_pp = {{ relative_sd = \"5 %\" }}\n\
+        "{VEHICLE}[sample]\nmethod = \"random\"\nn = 3\n[sample.parameters]\nleft_drive_voltage_pp = {{ relative_sd = \"5 %\" }}\n\
          [where]\nwide = \"left_wing_area <= wing_area and left_wing_area >= preset.left_wing_area\"\n\
          [gradient]\nof = [\"torque_roll_unm\"]\nwith_respect_to = [\"left_hinge_stiffness\"]\n"
     ));
@@ -104,7 +103,7 @@ fn parameters_of_a_wing_that_are_not_set_have_the_common_value() {
     assert_eq!(rows.lines().count(), 4);
     // Not so where an axis varies the common value: a mean would be of another point.
     let varied = format!(
-        "{HEAD}[axes]\ndrive_voltage_pp = [150, 200]\n[sample]\nmethod = \"random\"\nn = 3\n\
+        "{VEHICLE}[axes]\ndrive_voltage_pp = [150, 200]\n[sample]\nmethod = \"random\"\nn = 3\n\
          [sample.parameters]\nleft_drive_voltage_pp = {{ relative_sd = \"5 %\" }}\n"
     );
     fs::write(folder.path("varied.toml"), varied).unwrap();
@@ -113,7 +112,7 @@ fn parameters_of_a_wing_that_are_not_set_have_the_common_value() {
 
 #[test]
 fn trims_reach_small_targets_too() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     let found =
         matrix(&folder, "grid.toml --inputs amplitude,bias --trim force_up=1 --trim torque_pitch=0.01");
     near(found[0].2[2], 1.0, 1e-6);
@@ -125,7 +124,7 @@ fn trims_reach_small_targets_too() {
 fn usual_inputs_do_something() {
     let folder = Folder::new();
     for preset in ["arabagi2013-75hz", "ozaki2018-large"] {
-        let head = HEAD.replace("jafferis2016", preset);
+        let head = VEHICLE.replace("jafferis2016", preset);
         fs::write(folder.path("grid.toml"), head).unwrap();
         let found = matrix(&folder, "grid.toml");
         assert!(found[1].0 == "amplitude" && found[2].0 == "amplitude_difference", "{found:?}");
@@ -140,7 +139,7 @@ fn usual_inputs_do_something() {
 /// A damping that is zero can only grow, and moves force and torque.
 #[test]
 fn an_input_that_is_zero_has_its_one_sided_derivative() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     // Line 0 has the mean force and torque; components are forward, left, up.
     let lift = |arguments: &str| matrix(&folder, &format!("grid.toml {arguments}"))[1].2[2];
     let slope = lift("--inputs stroke_damping");
@@ -153,7 +152,7 @@ fn an_input_that_is_zero_has_its_one_sided_derivative() {
 
 #[test]
 fn inputs_that_cannot_be_have_help() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     for name in ["phase", "left_phase", "left_drive_phase", "phase_difference"] {
         folder
             .ends(2, &format!("vehicle grid.toml --inputs {name}"))

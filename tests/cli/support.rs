@@ -155,6 +155,23 @@ pub(crate) fn quick(points: u64) -> String {
     frequencies(points) + "\n[solver]\nrtol = 1e-3\nsettle_tol = 1e-3\nmax_cycles = 1\n"
 }
 
+/// The text of [`WINGS`] as a literal, which `concat!` requires.
+macro_rules! wings {
+    () => {
+        "[[vehicle.wings]]\nname = \"left\"\nposition = [0, \"2 mm\", 0]\n\
+         [[vehicle.wings]]\nname = \"right\"\nposition = [0, \"2 mm\", 0]\nmirrored = true\n"
+    };
+}
+
+/// Two wings of a vehicle, the right wing a mirror image of the left.
+pub(crate) const WINGS: &str = wings!();
+
+/// A grid with one point: a vehicle with [`WINGS`].
+pub(crate) const VEHICLE: &str = concat!(
+    "preset = \"jafferis2016\"\n[vehicle]\nabout = [0, 0, \"-3 mm\"]\ntotal_mass = \"85 mg\"\n",
+    wings!()
+);
+
 /// Starts `flap` and does not wait for it. It heeds SIGINT, whatever the parent of the tests does.
 pub(crate) fn start(folder: &Folder, arguments: &[&str]) -> Child {
     let mut command = command(folder, arguments);

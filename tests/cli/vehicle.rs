@@ -3,26 +3,9 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use crate::support::Folder;
+use crate::support::{Folder, VEHICLE};
 #[cfg(unix)]
 use crate::support::{send, sweep_until, wait};
-
-pub(crate) const HEAD: &str = "\
-preset = \"jafferis2016\"
-
-[vehicle]
-about = [0, 0, \"-3 mm\"]
-total_mass = \"85 mg\"
-
-[[vehicle.wings]]
-name = \"left\"
-position = [0, \"2 mm\", 0]
-
-[[vehicle.wings]]
-name = \"right\"
-position = [0, \"2 mm\", 0]
-mirrored = true
-";
 
 const AXES: &str = "\
 [params]
@@ -33,7 +16,7 @@ difference_drive_offset = { from = \"-20 V\", to = \"20 V\", n = 5 }
 ";
 
 fn folder() -> Folder {
-    Folder::with_grid(&format!("{HEAD}{AXES}"))
+    Folder::with_grid(&format!("{VEHICLE}{AXES}"))
 }
 
 /// The column of results as numbers.
@@ -80,7 +63,7 @@ fn rows_have_the_same_bytes_however_they_are_made() {
 #[cfg(unix)]
 fn an_interrupted_sweep_goes_on() {
     let axes = "[axes]\nleft_drive_voltage_pp = { from = 100, to = 200, n = 3000 }\n";
-    let folder = Folder::with_grid(&format!("{HEAD}{axes}"));
+    let folder = Folder::with_grid(&format!("{VEHICLE}{axes}"));
     let mut child = sweep_until(&folder, 1);
     send("INT", &child);
     assert_eq!(wait(&mut child), Some(130));
@@ -99,11 +82,11 @@ fn a_wing_has_a_design_of_its_own() {
         "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"1.3 uN*m/rad\"\n",
     )
     .unwrap();
-    let with = |key: &str| HEAD.replacen("name = \"left\"", &format!("name = \"left\"\n{key}"), 1);
+    let with = |key: &str| VEHICLE.replacen("name = \"left\"", &format!("name = \"left\"\n{key}"), 1);
     for (file, text) in [
         ("device.toml", with("device = \"worn.toml\"")),
         ("params.toml", with("params = { hinge_stiffness = \"1.3 uN*m/rad\" }")),
-        ("flat.toml", format!("{HEAD}[params]\nleft_hinge_stiffness = \"1.3 uN*m/rad\"\n")),
+        ("flat.toml", format!("{VEHICLE}[params]\nleft_hinge_stiffness = \"1.3 uN*m/rad\"\n")),
     ] {
         fs::write(folder.path(file), text).unwrap();
         folder.ends(0, &format!("sweep {file} --out {file}.csv"));
@@ -124,7 +107,7 @@ fn a_wing_has_a_design_of_its_own() {
 #[test]
 fn the_matrix_of_inputs_is_that_of_derivatives() {
     let gradient = "[params]\ndrive_offset = \"5 V\"\n[gradient]\nof = [\"torque_pitch_unm\"]\nwith_respect_to = [\"drive_offset\"]\n";
-    let folder = Folder::with_grid(&format!("{HEAD}{gradient}"));
+    let folder = Folder::with_grid(&format!("{VEHICLE}{gradient}"));
     folder.ends(0, "sweep grid.toml --out rows.csv");
     let slope = column(&folder, "rows.csv", "d_torque_pitch_unm_per_pct_drive_offset")[0] / 0.05;
     let text = folder.ends(0, "vehicle grid.toml --inputs bias --format csv").stdout;
@@ -138,7 +121,7 @@ fn the_matrix_of_inputs_is_that_of_derivatives() {
 
 #[test]
 fn trims_reach_their_targets() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     let inputs = "--inputs amplitude,amplitude_difference,bias";
     let targets = "--trim force_up=2.1 --trim torque_roll_unm=0.3 --trim torque_pitch=-0.2";
     let text = folder.ends(0, &format!("vehicle grid.toml {inputs} {targets} --format csv")).stdout;
@@ -286,7 +269,7 @@ fn seventeen_wings_are_too_many() {
 /// A wing with a preset or a device has all of its numbers but those of the drive, also those that the grid's design has too.
 #[test]
 fn a_wing_keeps_its_design_when_the_grid_changes() {
-    let with = |key: &str| HEAD.replacen("mirrored = true", &format!("mirrored = true\n{key}"), 1);
+    let with = |key: &str| VEHICLE.replacen("mirrored = true", &format!("mirrored = true\n{key}"), 1);
     let set = "[params]\nhinge_stiffness = \"1.2 uN*m/rad\"\ndrive_voltage_pp = 180\n";
     let folder = Folder::with_grid(&format!("{}{set}", with("preset = \"jafferis2016\"")));
     folder.ends(0, "sweep grid.toml --out preset.csv");
@@ -317,7 +300,7 @@ fn a_check_lists_the_wings() {
 
 #[test]
 fn what_a_vehicle_cannot_do_is_told() {
-    let folder = Folder::with_grid(HEAD);
+    let folder = Folder::with_grid(VEHICLE);
     folder.refuses("vehicle jafferis2016", "jafferis2016 describes one wing, not a vehicle");
     folder.refuses("vehicle grid.toml --inputs bais", "the vehicle has no input `bais`");
     folder.refuses("vehicle grid.toml --inputs bias,drive_offset", "`drive_offset` is named twice");

@@ -2,13 +2,12 @@
 
 use serde_json::Value;
 
-use crate::support::Folder;
-use crate::vehicle::HEAD;
+use crate::support::{Folder, VEHICLE};
 
 const MAP: &str = "vehicle grid.toml --wrench-map amplitude=180V:220V,bias=-10V:10V --samples 50";
 
 fn folder() -> Folder {
-    Folder::with_grid(&format!("{HEAD}[params]\ndrive_frequency = \"100 Hz\"\n"))
+    Folder::with_grid(&format!("{VEHICLE}[params]\ndrive_frequency = \"100 Hz\"\n"))
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -108,7 +107,8 @@ fn mistakes_have_a_place_and_help() {
 /// A derived parameter cannot be an input, because its formula would be ignored.
 #[test]
 fn derived_parameters_are_no_inputs() {
-    let folder = Folder::with_grid(&format!("{HEAD}[derived]\ndrive_offset = \"drive_voltage_pp / 20\"\n"));
+    let folder =
+        Folder::with_grid(&format!("{VEHICLE}[derived]\ndrive_offset = \"drive_voltage_pp / 20\"\n"));
     let ended = folder.ends(2, "vehicle grid.toml --wrench-map bias=1V:2V");
     assert!(ended.stderr.contains("`bias` is derived from other parameters"), "{}", ended.stderr);
     assert!(ended.stderr.contains("remove it from [derived]"), "{}", ended.stderr);
