@@ -119,7 +119,9 @@ fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -
     distinct(robots.iter().flat_map(|robot| robot.parameters()).flat_map(candidates))
 }
 
-/// Returns the columns of the results on the command line. Without results, returns all columns of rows of the models.
+/// Returns the columns of the first result file on the command line.
+///
+/// If the command line contains no result file, returns the columns of a sweep with the mentioned models.
 fn columns() -> Vec<CompletionCandidate> {
     if let Some(names) = words().find_map(|word| columns_of(&word)) {
         return names.iter().map(|name| candidate(name, "")).collect();
