@@ -208,12 +208,11 @@ fn a_file_that_grows_too_large_is_an_error() {
     let folder = Folder::with_grid(&quick(2000));
     folder.ends(0, "sweep grid.toml --out rows.csv");
     let before = folder.names();
-    let mut commands =
-        vec!["results convert rows.csv out.csv", "run ozaki2018-large --samples 20000 --trajectory out.csv"];
-    if cfg!(feature = "plots") {
-        commands.push("plot rows.csv --y cycles --html out.html");
-    }
-    for command in commands {
+    for command in [
+        "results convert rows.csv out.csv",
+        "run ozaki2018-large --samples 20000 --trajectory out.csv",
+        "plot rows.csv --y cycles --html out.html",
+    ] {
         let limited = format!("ulimit -f 20; exec {} {command}", env!("CARGO_BIN_EXE_flap"));
         let mut shell = std::process::Command::new("sh");
         let output = shell.args(["-c", &limited]).current_dir(folder.path("")).output().unwrap();

@@ -178,11 +178,8 @@ fn endings_that_stand_for_no_format() {
         ("run ozaki2018-large --trajectory motion.parquet", ".csv"),
         ("test chirp ozaki2018-large --out envelope.tsv", ".csv"),
         ("respond ozaki2018-large --from 90 --to 100 --step 5 --out rows.tsv", rows),
-        #[cfg(feature = "plots")]
         ("plot rows.tsv", rows),
-        #[cfg(feature = "plots")]
         ("plot rows.csv --out picture.pdf", ".svg or .png"),
-        #[cfg(feature = "plots")]
         ("plot rows.csv --html page.txt", ".html or .htm"),
     ] {
         let ended = folder.ends(2, arguments);

@@ -93,9 +93,7 @@ fn no_command_overwrites_what_it_reads() {
         "test track images.csv --force --out hard-images.csv",
         "respond grid.toml --restart --out hard-grid.csv",
         "respond sample.toml --along drive_voltage_pp --from 50 --to 60 --step 5 --restart --out points.csv",
-        #[cfg(feature = "plots")]
         "plot rows.csv --force --out shot.svg",
-        #[cfg(feature = "plots")]
         "plot rows.csv --force --html page.html",
     ] {
         folder.refuses(arguments, " would overwrite ");
@@ -165,9 +163,7 @@ fn a_small_file_does_not_fill_the_memory() {
     assert!(bomb.len() < 1 << 20, "{}", bomb.len());
     fs::write(folder.path("rows.csv.zst"), bomb).unwrap();
     let commands = ["plot rows.csv.zst", "results rerun rows.csv.zst --status unsettled --out again.csv"];
-    let commands =
-        commands.into_iter().filter(|command| cfg!(feature = "plots") || !command.starts_with("plot"));
-    for arguments in commands.clone() {
+    for arguments in commands {
         let ended = folder.flap(&format!("{arguments} --ignore-damage"));
         ended.says("rows.csv.zst is damaged");
     }

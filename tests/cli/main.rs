@@ -21,11 +21,9 @@ mod irregular;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod kills;
 mod lists;
-#[cfg(feature = "live")]
 mod live;
 mod look;
 mod mistakes;
-#[cfg(feature = "plots")]
 mod optimise;
 mod plot;
 mod point;

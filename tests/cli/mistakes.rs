@@ -239,9 +239,6 @@ fn grids_and_sidecars_are_not_results() {
     ] {
         let end = command.find(" --").unwrap_or(command.len());
         let (name, options) = command.split_at(end);
-        if cfg!(not(feature = "plots")) && name == "plot" {
-            continue;
-        }
         let out = if name == "results convert" { "o.csv" } else { "" };
         folder.refuses(
             &format!("{name} grid.toml {out} {options}"),

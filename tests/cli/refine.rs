@@ -82,7 +82,6 @@ fn points_of_a_refinement_are_run_again() {
     folder.refuses("run grid.toml --point 28", "a point of [refine] is in the rows only");
 }
 
-#[cfg(feature = "plots")]
 #[test]
 fn a_map_of_refined_rows_has_no_gaps() {
     let folder = Folder::with_grid(GRID);

@@ -14,6 +14,7 @@ mod args;
 mod cmd;
 mod complete;
 mod console;
+#[cfg_attr(not(feature = "plots"), allow(dead_code, reason = "some functions are only for pictures"))]
 mod data;
 mod duration;
 mod failure;

@@ -13,10 +13,8 @@ pub(crate) struct Axes {
     /// True for a sample: most values differ, so the points form no grid.
     pub(crate) sampled: bool,
     /// Columns among `columns` that stand for a sample.
-    #[cfg(feature = "plots")]
     pub(crate) sample: Vec<usize>,
     /// Columns among `columns` that contain words.
-    #[cfg(feature = "plots")]
     pub(crate) words: Vec<usize>,
     /// All parameters of a sample. Each parameter of a sample has a different value in every row, so the value of one
     /// parameter determines the values of the others.
@@ -44,14 +42,12 @@ impl Axes {
         let sampled = !sample.is_empty() && (kept.len() > 1 || !others.is_empty());
         let members = if sampled { members(table, &sample, &kept, &others) } else { Vec::new() };
         Axes {
-            #[cfg(feature = "plots")]
             words: (kept.iter().map(|(column, _)| *column))
                 .filter(|&column| matches!(table.columns[column].cells, Cells::Words { .. }))
                 .collect(),
             members,
             columns: kept.into_iter().map(|(column, _)| column).collect(),
             sampled,
-            #[cfg(feature = "plots")]
             sample: if sampled { sample } else { Vec::new() },
         }
     }
@@ -61,6 +57,10 @@ impl Axes {
         let mut listed = [self.columns.as_slice(), &self.members].concat();
         listed.sort_unstable();
         listed.dedup();
+        listed
+    }
+}
+
 /// The smallest and the largest value of an axis. Beyond these values, there may be better rows.
 #[derive(Default)]
 pub(crate) struct Ends {
@@ -90,10 +90,6 @@ impl Ends {
     /// Returns true if `value` is an end of an axis with three or more different values.
     pub(crate) fn contain(&self, value: f64) -> bool {
         self.has_inner && self.range.is_some_and(|range| range.contains(&value))
-    }
-}
-
-        listed
     }
 }
 
@@ -175,16 +171,16 @@ mod tests {
         assert!(!line.sampled, "one axis is no sample");
         let zip = table(&[("f", &[1.0, 2.0, 3.0, 4.0, 5.0]), ("a", &[3.0, 1.0, 4.0, 5.0, 9.0])]);
         assert!(!Axes::of(&zip, 3).sampled, "an axis with another that moves along");
+        let sample = table(&[("a", &[0.3, 0.1, 0.9, 0.7, 0.2]), ("b", &[0.6, 0.5, 0.25, 0.1, 0.8])]);
+        assert!(Axes::of(&sample, 3).sampled);
+    }
+
     #[test]
     fn axes_of_three_values_or_more_have_ends() {
         let ends = Ends::of(&[2.0, 1.0, f64::NAN, 3.0, 2.0]);
         assert_eq!([1.0, 2.0, 3.0, f64::NAN].map(|value| ends.contain(value)), [true, false, true, false]);
         assert!(!Ends::of(&[1.0, 2.0, 2.0, f64::NAN]).contain(1.0));
         assert!(!Ends::of(&[]).contain(0.0));
-    }
-
-        let sample = table(&[("a", &[0.3, 0.1, 0.9, 0.7, 0.2]), ("b", &[0.6, 0.5, 0.25, 0.1, 0.8])]);
-        assert!(Axes::of(&sample, 3).sampled);
     }
 
     #[test]

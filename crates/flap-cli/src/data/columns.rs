@@ -21,7 +21,6 @@ pub(crate) struct Table {
 
 /// An axis along which points were added between the values.
 #[derive(Clone)]
-#[cfg_attr(not(feature = "plots"), expect(dead_code, reason = "only pictures use it"))]
 pub(crate) struct RefinedAxis {
     pub(crate) name: String,
     /// True if the values of the axis have a constant ratio.
@@ -54,7 +53,6 @@ pub(crate) const NO_WORD: u32 = u32::MAX;
 
 impl Table {
     /// Returns the position of a column that the user named.
-    #[cfg(feature = "plots")]
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         find(self.columns.iter().map(|column| column.name.as_str()), name)
     }

@@ -11,7 +11,6 @@ use flap_sweep::notation::expression::{
 };
 use flap_sweep::notation::units;
 
-#[cfg(feature = "plots")]
 use super::columns::Table;
 use super::source::Source;
 use super::{columns, quantity};
@@ -166,7 +165,6 @@ impl Filters {
 
     /// Reads the rows of `source` that satisfy the conditions, as [`Source::read_kept`] does. At least one row must
     /// satisfy the conditions.
-    #[cfg(feature = "plots")]
     pub(crate) fn read(
         &self,
         source: Source,

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-#[cfg(feature = "plots")]
 use flap_sweep::notation::text;
 
 use super::columns::{Cells, NO_WORD, Table};
@@ -62,7 +61,6 @@ impl Levels {
     }
 
     /// Returns value number `place` in the form that users type and files contain.
-    #[cfg(feature = "plots")]
     pub(crate) fn typed(&self, place: usize) -> String {
         match &self.values {
             Values::Numbers(values) => text::float(values[place]),

@@ -1,9 +1,6 @@
 //! Numbers with units in comparisons: `drive_frequency > 95 Hz`.
 
-use flap_sweep::notation::quantity;
-#[cfg(feature = "plots")]
-use flap_sweep::notation::quantity::{Quantity, quantities};
-#[cfg(feature = "plots")]
+use flap_sweep::notation::quantity::{self, Quantity, quantities};
 use flap_sweep::table::labels;
 
 use super::columns;
@@ -30,7 +27,6 @@ pub(super) fn without_units(
 }
 
 /// Returns the comparison `text` with printed units, such as `µN·m/rad`.
-#[cfg(feature = "plots")]
 pub(crate) fn printed(text: &str) -> String {
     let mut shown = String::new();
     let mut copied = 0;
@@ -43,7 +39,7 @@ pub(crate) fn printed(text: &str) -> String {
     shown + &text[copied..]
 }
 
-#[cfg(all(test, feature = "plots"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 

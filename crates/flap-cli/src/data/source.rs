@@ -30,7 +30,6 @@ pub(crate) struct Source {
     /// Refined axes, if the sidecar lists refined axes.
     refined: Vec<RefinedAxis>,
     /// The plan of the sidecar.
-    #[cfg_attr(not(feature = "plots"), expect(dead_code, reason = "only pictures use it"))]
     plan: Option<Plan>,
     path: PathBuf,
     tells: bool,
@@ -92,13 +91,11 @@ impl Source {
     }
 
     /// Takes the plan of the sidecar, if there is one.
-    #[cfg(feature = "plots")]
     pub(crate) fn take_plan(&mut self) -> Option<Plan> {
         self.plan.take()
     }
 
     /// Returns the path of the file.
-    #[cfg(feature = "plots")]
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
