@@ -24,8 +24,7 @@ pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     if plan.resonance().is_some() {
         console::say("the page does not search for resonances: it starts at the preset's drive frequency");
     }
-    let default = RunOptions::default();
-    let run = RunOptions { threads: args.threads.unwrap_or(default.threads), ..default };
+    let run = RunOptions::with_threads(args.threads);
     // Before the server starts: an early signal must stop it too.
     let stop = system::stop();
     let started = Server::start(plan, models::all(), &LiveOptions { port: args.port, run });

@@ -64,8 +64,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
 
 /// Prints the summary of each curve without writing rows.
 fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
-    let default = RunOptions::default();
-    let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
+    let options = RunOptions::with_threads(args.begin.work.threads);
     let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Some(&mut verdicts))?;
     if args.format != OutputFormat::Table {
         print::table(args.format, &verdicts.names(), &verdicts.rows, String::new)?;

@@ -45,10 +45,7 @@ pub(crate) fn run_and_summarize(
     origin: Option<Origin>,
     format: OutputFormat,
 ) -> Result<Exit, Failure> {
-    let mut options = RunOptions::default();
-    if let Some(threads) = work.threads {
-        options.threads = threads;
-    }
+    let options = RunOptions::with_threads(work.threads);
     if console::is_stdout(&out) {
         let begun = Instant::now();
         let mut sink = CsvSink::new(Layout::of(plan).names(), io::stdout());

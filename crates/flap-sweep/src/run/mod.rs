@@ -66,6 +66,14 @@ pub struct RunOptions {
 /// including overhead.
 const GRACE: Duration = Duration::from_millis(400);
 
+impl RunOptions {
+    /// Returns the default options with this number of threads, or with a thread per core for `None`.
+    pub fn with_threads(threads: Option<NonZeroUsize>) -> RunOptions {
+        let default = RunOptions::default();
+        RunOptions { threads: threads.unwrap_or(default.threads), ..default }
+    }
+}
+
 impl Default for RunOptions {
     /// Returns the best instruction set of the machine, a thread per core, a window of a few megabytes, and 0.4 s of
     /// grace.

@@ -29,9 +29,8 @@ pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemErr
 
 /// Returns the settings of a search.
 pub(super) fn settings(args: &OptimiseArgs) -> Settings {
-    let run = RunOptions::default();
     Settings {
-        run: RunOptions { threads: args.threads.unwrap_or(run.threads), ..run },
+        run: RunOptions::with_threads(args.threads),
         starts: NonZeroUsize::new(args.starts).unwrap_or(NonZeroUsize::MIN),
         points: args.sample,
     }

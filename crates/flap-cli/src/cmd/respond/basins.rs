@@ -18,8 +18,7 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));
     };
-    let default = RunOptions::default();
-    let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
+    let options = RunOptions::with_threads(args.begin.work.threads);
     let mut rows = Vec::new();
     for outcome in responses.curves(&options, 0) {
         let Outcome::Ran(curve) = outcome? else { continue };

@@ -23,8 +23,7 @@ pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));
     };
-    let default = RunOptions::default();
-    let options = RunOptions { threads: args.begin.work.threads.unwrap_or(default.threads), ..default };
+    let options = RunOptions::with_threads(args.begin.work.threads);
     let output = Output { plan, along, second };
     let mut rows = Vec::new();
     for outcome in responses.curves(&options, 0) {

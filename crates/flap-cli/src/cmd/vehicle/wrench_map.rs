@@ -31,8 +31,7 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
     if chosen.plan.derived().parameters().next().is_some() {
         console::warn("derived parameters ([derived]) are held constant while inputs change");
     }
-    let options = RunOptions::default();
-    let options = RunOptions { threads: args.threads.unwrap_or(options.threads), ..options };
+    let options = RunOptions::with_threads(args.threads);
     let stop = system::stop();
     let mut bar = Bar::new("rows");
     let map = WrenchMap::of(&chosen.plan, &chosen.values, inputs, args.samples, &options, |progress| {
