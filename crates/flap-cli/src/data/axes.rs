@@ -73,7 +73,9 @@ impl Ends {
     /// Returns the ends of these values. NaN is ignored.
     pub(crate) fn of(values: &[f64]) -> Ends {
         let mut ends = Ends::default();
-        values.iter().for_each(|&value| ends.add(value));
+        for &value in values {
+            ends.add(value);
+        }
         ends
     }
 

@@ -49,8 +49,9 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     let mut notes: Vec<String> = (filters.iter())
         .map(|(column, value)| format!("{} {}", table.label(*column).words, shown(table, *column, value)))
         .collect();
-    notes.extend(request.args.comparisons().into_iter().map(|filter| match filter {
-        Filter::Comparison(text) | Filter::Equal(_, text) => quantity::printed(&text),
+    notes.extend(request.args.filters.iter().filter_map(|filter| match filter {
+        Filter::Comparison(text) => Some(quantity::printed(text)),
+        Filter::Equal(..) => None,
     }));
     let mut hidden = hidden(&columns, &axes);
     check_best_over(request, &hidden)?;
