@@ -39,7 +39,7 @@ pub(crate) fn motion(format: OutputFormat, motion: &Trajectory) -> Result<(), Fa
             cells(six_digits).for_each(|row: Vec<String>| table.row(row));
             console::results(&table.text_within(console::width()))?;
         }
-        OutputFormat::Csv => write_csv(motion, io::stdout().lock())?,
+        OutputFormat::Csv => write_motions(&[Keyed { keys: &[], motion }], io::stdout().lock())?,
         OutputFormat::Json => {
             let rows: Vec<Vec<String>> = cells(text::float).collect();
             console::results(&objects(&motion.columns, &rows)?)?;
@@ -84,11 +84,6 @@ fn json(cell: &str) -> Value {
             whole().or_else(number).unwrap_or_else(|| Value::from(cell))
         }
     }
-}
-
-/// Writes a CSV table with one line per row.
-pub(crate) fn write_csv(motion: &Trajectory, target: impl Write) -> io::Result<()> {
-    write_motions(&[Keyed { keys: &[], motion }], target)
 }
 
 /// A motion with columns, each with one value, that distinguish it from other motions.

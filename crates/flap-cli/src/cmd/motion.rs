@@ -6,11 +6,13 @@ use std::path::Path;
 use flap_core::simulate::Trajectory;
 use flap_sweep::notation::text::count;
 
+use crate::console::{self, is_stdout};
 use crate::failure::Failure;
+use crate::job;
 use crate::print::{Keyed, write_motions};
-use crate::{console, job};
 
 /// Writes a complete CSV file or no file, and prints the number of rows. `row` is the noun for a row, such as `sample`.
+/// For `-`, writes to stdout.
 ///
 /// # Errors
 ///
@@ -31,6 +33,9 @@ pub(crate) fn write_motions_file(
     overwrite: bool,
     row: &str,
 ) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return Ok(write_motions(motions, io::stdout().lock())?);
+    }
     let written = job::make(path, overwrite, |file| write_motions(motions, file).map(|()| None))?;
     written.map_err(|error: io::Error| Failure::cannot_write(path, &error))?;
     let rows: usize = motions.iter().map(|keyed| keyed.motion.rows.len()).sum();

@@ -1,7 +1,6 @@
 //! `flap run`: one design point, or a few.
 
 use std::fmt::Write as _;
-use std::io;
 use std::path::Path;
 
 use flap_core::parameter::Parameter;
@@ -20,7 +19,7 @@ use super::{far, outputs, samples};
 use crate::args::{OutputFormat, PointArgs, RunArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::print::{self, Keyed, write_motions};
+use crate::print::{self, Keyed};
 use crate::table::{self, Table, six_digits, wrapped};
 
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
@@ -142,10 +141,6 @@ fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), F
     let motions = motions.collect::<Result<Vec<Trajectory>, Failure>>()?;
     let keyed = designs.iter().zip(&motions).map(|(design, motion)| Keyed { keys: &design.keys, motion });
     let keyed: Vec<Keyed> = keyed.collect();
-    if console::is_stdout(path) {
-        write_motions(&keyed, io::stdout().lock())?;
-        return Ok(());
-    }
     write_motions_file(&keyed, path, args.overwrite.force, "sample")
 }
 

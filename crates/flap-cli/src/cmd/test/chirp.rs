@@ -1,7 +1,5 @@
 //! `flap test chirp`: the motion while the drive frequency changes.
 
-use std::io;
-
 use flap_core::simulate::ChirpRequest;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::study::experiment;
@@ -12,7 +10,7 @@ use crate::cmd::outputs;
 use crate::cmd::point::{Chosen, check_one_wing};
 use crate::console::is_stdout;
 use crate::failure::{Exit, Failure};
-use crate::print::{self, write_csv};
+use crate::print;
 
 pub(super) fn run(args: &ChirpArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &args.solver)?;
@@ -29,16 +27,16 @@ pub(super) fn run(args: &ChirpArgs) -> Result<Exit, Failure> {
         samples_per_cycle: if args.trajectory.is_some() { args.samples } else { 0 },
     };
     let response = experiment::chirp(plan.simulator().experiments()?, &chosen.run(), &request)?;
-    if let Some(path) = args.trajectory.as_deref().filter(|path| !is_stdout(path)) {
+    if let Some(path) = &args.trajectory {
         write_file(&response.motion, path, args.overwrite.force, "sample")?;
     }
-    if let Some(path) = args.out.as_deref().filter(|path| !is_stdout(path)) {
-        write_file(&response.envelope, path, args.overwrite.force, "cycle")?;
-    }
-    if args.trajectory.as_deref().is_some_and(is_stdout) {
-        write_csv(&response.motion, io::stdout().lock())?;
-    } else if args.out.as_deref().is_none_or(is_stdout) {
-        print::motion(args.format, &response.envelope)?;
+    match &args.out {
+        Some(path) if !is_stdout(path) => {
+            write_file(&response.envelope, path, args.overwrite.force, "cycle")?;
+        }
+        // Stdout has the motion.
+        _ if args.trajectory.as_deref().is_some_and(is_stdout) => {}
+        _ => print::motion(args.format, &response.envelope)?,
     }
     Ok(Exit::Done)
 }

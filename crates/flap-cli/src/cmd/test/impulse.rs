@@ -1,7 +1,5 @@
 //! `flap test impulse`: the free motion after an impulse on the stroke.
 
-use std::io;
-
 use flap_core::modes::Mode;
 use flap_core::simulate::{Experiments, ImpulseRequest, Trajectory};
 use flap_experiments::free::{first, intervals, stroke_rate};
@@ -14,7 +12,7 @@ use crate::cmd::outputs;
 use crate::cmd::point::{Chosen, check_one_wing};
 use crate::console::{self, is_stdout};
 use crate::failure::{Exit, Failure};
-use crate::print::{self, write_csv};
+use crate::print;
 use crate::table::{Table, six_digits};
 
 /// Default duration, in periods of the first mode.
@@ -39,12 +37,11 @@ pub(super) fn run(args: &ImpulseArgs) -> Result<Exit, Failure> {
     };
     let motion = experiments.free_response(&chosen.run(), &request)?;
 
-    if args.trajectory.as_deref().is_some_and(is_stdout) {
-        write_csv(&motion, io::stdout().lock())?;
-        return Ok(Exit::Done);
-    }
     if let Some(path) = &args.trajectory {
         write_file(&motion, path, args.overwrite.force, "sample")?;
+        if is_stdout(path) {
+            return Ok(Exit::Done);
+        }
     }
     let rows = |number| summary((args.amplitude, stroke_rate), &first, experiments, &motion, number);
     print::table(args.format, &NAMES, &rows(text::float), || {

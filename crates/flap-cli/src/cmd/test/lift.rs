@@ -1,7 +1,5 @@
 //! `flap test lift`: forces on a wing with a given motion.
 
-use std::io;
-
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
 use flap_sweep::files::inputs::Inputs;
@@ -16,7 +14,7 @@ use crate::cmd::outputs;
 use crate::cmd::point::Chosen;
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
-use crate::print::{self, write_csv};
+use crate::print;
 use crate::table::{Table, six_digits};
 
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
@@ -34,13 +32,11 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
     let forces = experiment::forces(plan.simulator().experiments()?, &values, &motion)?;
 
-    match &args.trajectory {
-        Some(path) if console::is_stdout(path) => {
-            write_csv(&forces, io::stdout().lock())?;
+    if let Some(path) = &args.trajectory {
+        write_file(&forces, path, args.overwrite.force, "sample")?;
+        if console::is_stdout(path) {
             return Ok(Exit::Done);
         }
-        Some(path) => write_file(&forces, path, args.overwrite.force, "sample")?,
-        None => {}
     }
     print::table(args.format, &NAMES, &summary(&forces, text::float), || {
         Table::of(&NAMES, summary(&forces, six_digits)).text_within(console::width())
