@@ -181,11 +181,17 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
         rows.push(std::iter::once(section.to_owned()).chain(cells).collect());
     };
     let none = String::new;
-    let plain = |name: &str, value: String| [name.to_owned(), value, none(), none(), none(), none()];
+    let with_unit = |name: &str, value: String, unit: &str| {
+        [name.to_owned(), value, unit.to_owned(), none(), none(), none()]
+    };
+    let plain = |name: &str, value: String| with_unit(name, value, "");
+    let goal = |value: f64| with_unit(problem.goal(), text::float(value), unit(plan, problem.goal()));
+    let parameter = |index: usize, value: f64| {
+        let parameter = &plan.parameters()[index];
+        with_unit(parameter.name, text::value(parameter, value), parameter.unit)
+    };
     put("answer", plain("status", best.status.name().to_owned()));
-    let unit = unit(plan, problem.goal());
-    let goal = [problem.goal().to_owned(), text::float(best.goal), unit.to_owned(), none(), none(), none()];
-    put("answer", goal);
+    put("answer", goal(best.goal));
     let numbers = [
         ("starts", best.starts as u64),
         ("starts_at_optimum", same(best) as u64),
@@ -198,13 +204,10 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
         put("answer", plain(name, number.to_string()));
     }
     for index in plan.differing() {
-        let parameter = &plan.parameters()[index];
-        let value = text::value(parameter, best.values[index]);
-        let name = parameter.name.to_owned();
-        put("parameter", [name, value, parameter.unit.to_owned(), none(), none(), none()]);
+        put("parameter", parameter(index, best.values[index]));
     }
     for (name, value, unit) in measures(plan, best) {
-        put("measure", [name.to_owned(), text::float(value), unit.to_owned(), none(), none(), none()]);
+        put("measure", with_unit(name, text::float(value), unit));
     }
     for limit in &best.limits {
         let [less, more] = limit.sides.map(text::float);
@@ -218,16 +221,11 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     }
     for (number, other) in (1..).zip(&best.optima) {
         let section = format!("optimum_{number}");
-        let goal =
-            [problem.goal().to_owned(), text::float(other.goal), unit.to_owned(), none(), none(), none()];
-        put(&section, goal);
+        put(&section, goal(other.goal));
         put(&section, plain("starts", other.starts.to_string()));
         put(&section, plain("feasible", other.is_feasible.to_string()));
         for (index, value) in &other.varied {
-            let parameter = &plan.parameters()[*index];
-            let value = text::value(parameter, *value);
-            let name = parameter.name.to_owned();
-            put(&section, [name, value, parameter.unit.to_owned(), none(), none(), none()]);
+            put(&section, parameter(*index, *value));
         }
     }
     rows
@@ -277,23 +275,21 @@ fn page(problem: &Problem, best: &Optimum) -> String {
     page
 }
 
-/// Returns the conditions, and the effect of the active conditions.
+/// Returns a table of the conditions; empty without conditions.
 fn conditions(best: &Optimum) -> String {
-    let mut page = String::new();
-    if !best.limits.is_empty() {
-        page.push('\n');
-        let mut table = Table::with_headings(&["condition", "smaller side", "larger side", "holds"]);
-        for limit in &best.limits {
-            let [less, more] = limit.sides.map(six_digits);
-            let holds = match limit.excess {
-                0.0 => "yes".to_owned(),
-                excess => format!("no, by {} %", six_digits(100.0 * excess)),
-            };
-            table.row([limit.text.clone(), less, more, holds]);
-        }
-        page += &table.text_within(console::width());
+    if best.limits.is_empty() {
+        return String::new();
     }
-    page
+    let mut table = Table::with_headings(&["condition", "smaller side", "larger side", "holds"]);
+    for limit in &best.limits {
+        let [less, more] = limit.sides.map(six_digits);
+        let holds = match limit.excess {
+            0.0 => "yes".to_owned(),
+            excess => format!("no, by {} %", six_digits(100.0 * excess)),
+        };
+        table.row([limit.text.clone(), less, more, holds]);
+    }
+    format!("\n{}", table.text_within(console::width()))
 }
 
 /// The active bounds and limits, and the optima at which the searches end.
