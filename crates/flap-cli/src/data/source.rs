@@ -64,6 +64,11 @@ impl Source {
         self.reader.names()
     }
 
+    /// Returns the position of the column `name`, if the file has this column.
+    pub(crate) fn place(&self, name: &str) -> Option<usize> {
+        self.names().iter().position(|known| known == name)
+    }
+
     /// Returns the position of a column that the user named.
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         columns::find(self.names().iter().map(String::as_str), name)
@@ -81,9 +86,10 @@ impl Source {
 
     /// Reads the next row into `row`; returns false after the last row.
     pub(crate) fn next(&mut self, row: &mut StringRecord) -> Result<bool, Failure> {
-        let found = self.reader.next(row).map_err(|error| {
-            Failure::System(format!("cannot read {}: {error}", self.path.display()), Vec::new())
-        })?;
+        let found = self
+            .reader
+            .next(row)
+            .map_err(|error| Failure::system(format!("cannot read {}: {error}", self.path.display())))?;
         if !found && self.tells {
             job::tell_missed(&self.path, &self.reader);
         }

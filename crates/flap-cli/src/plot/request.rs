@@ -45,8 +45,7 @@ impl<'a> Request<'a> {
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
         let names = source.names().to_vec();
-        let place = |name: &str| names.iter().position(|known| known == name);
-        let measures = place("status").map_or(names.len(), |status| status + 1);
+        let measures = source.place("status").map_or(names.len(), |status| status + 1);
         let behind: Vec<&str> = names[measures..].iter().map(String::as_str).collect();
         let mut taken = Vec::new();
         let three = [Role::Benefit, Role::Cost, Role::Motion].map(|role| {
@@ -65,7 +64,7 @@ impl<'a> Request<'a> {
             response: usual(Role::Response, &behind, &[]).map(|found| measures + found),
             three,
             args,
-            end: place("branch").or_else(|| place("status")).unwrap_or(0),
+            end: source.place("branch").or_else(|| source.place("status")).unwrap_or(0),
             names,
         })
     }
