@@ -65,6 +65,11 @@ impl Failure {
         Failure::Usage(message.into(), Vec::new())
     }
 
+    /// Returns the failure for an operation of the operating system that failed, and for damaged results.
+    pub(crate) fn system(message: impl Into<String>) -> Failure {
+        Failure::System(message.into(), Vec::new())
+    }
+
     /// Returns the failure for an input file that does not exist.
     pub(crate) fn missing(path: &Path) -> Failure {
         Failure::usage(format!("{}: {}", path.display(), InputError::Missing))
@@ -72,12 +77,12 @@ impl Failure {
 
     /// Returns the failure for a file that cannot be written.
     pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-        Failure::System(format!("cannot write {}: {error}", path.display()), Vec::new())
+        Failure::system(format!("cannot write {}: {error}", path.display()))
     }
 
     /// Returns the failure for results that another program has changed.
     pub(crate) fn damaged(message: String) -> Failure {
-        Failure::System(message, Vec::new()).help("replace the file by an undamaged copy")
+        Failure::system(message).help("replace the file by an undamaged copy")
     }
 
     /// Returns the failure if `path` is a grid file or a sidecar instead of results; `None` for other names.
@@ -122,7 +127,7 @@ impl Failure {
             return failure;
         }
         let failure = failure.help(format!("`flap results resume {}` continues the run", out.display()));
-        still_kept(out).into_iter().fold(failure, Failure::help)
+        failure.helps(still_kept(out))
     }
 
     /// Adds a help line.
@@ -131,6 +136,11 @@ impl Failure {
             help.push(line.into());
         }
         self
+    }
+
+    /// Adds help lines.
+    pub(crate) fn helps<L: Into<String>>(self, lines: impl IntoIterator<Item = L>) -> Failure {
+        lines.into_iter().fold(self, Failure::help)
     }
 
     /// Adds a question with the name among `names` that is closest to `name`. If no name is close, adds the line
@@ -214,7 +224,7 @@ impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            _ => Failure::System(format!("cannot write to stdout: {error}"), Vec::new()),
+            _ => Failure::system(format!("cannot write to stdout: {error}")),
         }
     }
 }
@@ -236,17 +246,15 @@ impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {
         match error {
             ReadError::Grid(mistakes) => Failure::Grid(mistakes),
-            ReadError::Input { error: InputError::Unreadable(_), .. } => {
-                Failure::System(error.to_string(), Vec::new())
-            }
-            _ => error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help),
+            ReadError::Input { error: InputError::Unreadable(_), .. } => Failure::system(error.to_string()),
+            _ => Failure::usage(error.to_string()).helps(error.help()),
         }
     }
 }
 
 impl From<ExperimentError> for Failure {
     fn from(error: ExperimentError) -> Failure {
-        error.help().into_iter().fold(Failure::usage(error.to_string()), Failure::help)
+        Failure::usage(error.to_string()).helps(error.help())
     }
 }
 
@@ -267,9 +275,7 @@ impl From<CreateError> for Failure {
             )),
             CreateError::InTheWay { .. } => Failure::usage(error.to_string())
                 .help("rename or remove that file, or choose another name for the results"),
-            CreateError::Busy { .. } | CreateError::Io { .. } => {
-                Failure::System(error.to_string(), Vec::new())
-            }
+            CreateError::Busy { .. } | CreateError::Io { .. } => Failure::system(error.to_string()),
         }
     }
 }
@@ -282,7 +288,7 @@ impl From<OpenError> for Failure {
             OpenError::Read { path, source } if source.kind() == io::ErrorKind::NotFound => {
                 Failure::missing(&path)
             }
-            OpenError::Read { .. } => Failure::System(error.to_string(), Vec::new()),
+            OpenError::Read { .. } => Failure::system(error.to_string()),
             OpenError::Damaged { ref path, ref damage } => {
                 let failure = Failure::damaged(error.to_string());
                 let failure = if damage.lost > 0 {
@@ -323,7 +329,7 @@ impl From<MergeError> for Failure {
             MergeError::Builds(_) => Failure::usage(message)
                 .help("sweep all shards with the same build, or use --mixed-builds to merge these shards"),
             MergeError::Write(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            MergeError::Read { .. } | MergeError::Write(_) => Failure::System(message, Vec::new()),
+            MergeError::Read { .. } | MergeError::Write(_) => Failure::system(message),
         }
     }
 }
@@ -335,7 +341,7 @@ impl From<sidecar::SidecarError> for Failure {
             sidecar::SidecarError::Io { path, source } if source.kind() == io::ErrorKind::NotFound => {
                 Failure::missing(path)
             }
-            sidecar::SidecarError::Io { .. } => Failure::System(error.to_string(), Vec::new()),
+            sidecar::SidecarError::Io { .. } => Failure::system(error.to_string()),
             sidecar::SidecarError::Format { .. } => Failure::usage(error.to_string()),
         }
     }
@@ -346,7 +352,7 @@ impl From<RunError> for Failure {
         match error {
             RunError::Sink(source) if source.kind() == io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
             RunError::Sink(_) | RunError::Threads(_) | RunError::Chunk(_) | RunError::Fetch(_) => {
-                Failure::System(error.to_string(), Vec::new())
+                Failure::system(error.to_string())
             }
             RunError::Model(_) | RunError::Panic(_) => Failure::Bug(error.to_string()),
         }

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     let mut server = started.map_err(|error| match error {
         StartError::Design(mistakes) => Failure::Grid(mistakes),
         StartError::Port(..) => Failure::usage(error.to_string()).help("choose another port, or omit --port"),
-        StartError::System(_) => Failure::System(error.to_string(), Vec::new()),
+        StartError::System(_) => Failure::system(error.to_string()),
     })?;
     console::results(&format!("{}\n", server.address()))?;
     if !args.no_open

@@ -11,9 +11,9 @@ impl LookArgs {
         if self.filters.is_empty() {
             return Failure::usage(format!("{file} has no rows"));
         }
-        let failure = Failure::usage(format!("no row of {file} satisfies --where"));
-        let failure = filters.advice().into_iter().fold(failure, Failure::help);
-        failure.help("`flap describe` shows the range of each column")
+        Failure::usage(format!("no row of {file} satisfies --where"))
+            .helps(filters.advice())
+            .help("`flap describe` shows the range of each column")
     }
 
     /// Returns the failure if no selected row has a value in the column `name`.

@@ -223,6 +223,6 @@ pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f
             ValueError::NoQuantity(_) => format!("{option} {text}: {message}"),
             ValueError::NoOption { .. } | ValueError::OutOfRange { .. } => message,
         });
-        error.help().into_iter().fold(failure, Failure::help)
+        failure.helps(error.help())
     })
 }

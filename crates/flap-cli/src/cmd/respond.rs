@@ -134,7 +134,7 @@ fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Fa
     let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
     let number = number.map_err(|error| {
         let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));
-        error.help().into_iter().fold(failure, Failure::help)
+        failure.helps(error.help())
     })?;
     if number > 0.0 {
         return Ok(number);

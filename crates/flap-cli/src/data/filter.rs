@@ -179,7 +179,7 @@ impl Filters {
         })?;
         if table.rows == 0 && rows > 0 {
             let failure = Failure::usage(format!("no row of {name} satisfies --where"));
-            return Err(self.advice().into_iter().fold(failure, Failure::help));
+            return Err(failure.helps(self.advice()));
         }
         if table.rows == 0 {
             return Err(Failure::usage(format!("{name} has no rows: there is nothing to draw")));
@@ -232,7 +232,7 @@ pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, 
         Err(error) if error.problem == units::UnitProblem::NoNumber => Ok(None),
         Err(error) => {
             let failure = Failure::usage(format!("--where {name}={text}: {}", error.message(name)));
-            Err(error.help().into_iter().fold(failure, Failure::help))
+            Err(failure.helps(error.help()))
         }
     }
 }
@@ -278,7 +278,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
             ExpressionProblem::Mismatch(_) => {
                 failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1")
             }
-            _ => error.help().into_iter().fold(failure, Failure::help),
+            _ => failure.helps(error.help()),
         }
     };
     let expression = Expression::parse(plain, &Names(names)).map_err(|errors| {

@@ -20,7 +20,7 @@ pub(super) fn without_units(
     quantity::without_units(text, unit).map_err(|error| match error.explained() {
         Ok((message, help)) => {
             let failure = Failure::usage(format!("--where {text}: {message}"));
-            help.into_iter().fold(failure, Failure::help)
+            failure.helps(help)
         }
         Err(failure) => failure,
     })

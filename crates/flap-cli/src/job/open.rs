@@ -126,8 +126,7 @@ pub(crate) fn with_refinement(
         return Ok(plan);
     };
     let done = sidecar.summary.as_ref().map_or(point + 1, Summary::done);
-    let unreadable =
-        |error| Failure::System(format!("cannot read {}: {error}", results.display()), Vec::new());
+    let unreadable = |error| Failure::system(format!("cannot read {}: {error}", results.display()));
     let mut reader = integrity::open(results, OnDamage::Refuse)?.reader;
     let rows = std::iter::from_fn(|| {
         let mut row = StringRecord::new();

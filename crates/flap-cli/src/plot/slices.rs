@@ -31,7 +31,7 @@ pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec
             let message = format!("no row has {name} = {text}");
             let levels = Levels::of(table, column, &rows);
             let failure = Failure::usage(message).help(listed(table, column, &levels));
-            return Err(slip(table, column, text).into_iter().fold(failure, Failure::help));
+            return Err(failure.helps(slip(table, column, text)));
         }
         rows = kept;
     }

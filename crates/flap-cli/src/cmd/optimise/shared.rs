@@ -24,7 +24,7 @@ pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemErr
             format!("--where {}", args.conditions.get(number).map_or("", String::as_str))
         }
     };
-    error.help.iter().fold(Failure::usage(format!("{place}: {error}")), Failure::help)
+    Failure::usage(format!("{place}: {error}")).helps(&error.help)
 }
 
 /// Returns the settings of a search.

@@ -60,12 +60,12 @@ fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
 fn failure(args: &ConvertArgs, error: &ConvertError) -> Failure {
     match error {
         ConvertError::Write(source) if source.kind() == ErrorKind::BrokenPipe => Failure::ClosedPipe,
-        ConvertError::Write(_) => Failure::System(format!("{}: {error}", args.to.display()), Vec::new()),
+        ConvertError::Write(_) => Failure::system(format!("{}: {error}", args.to.display())),
         ConvertError::Rows(RowsError::Read(source)) => {
-            Failure::System(format!("{}: cannot read rows: {source}", args.from.display()), Vec::new())
+            Failure::system(format!("{}: cannot read rows: {source}", args.from.display()))
         }
         ConvertError::Rows(RowsError::Columns) => {
-            Failure::System(format!("{}: {error}", args.from.display()), Vec::new())
+            Failure::system(format!("{}: {error}", args.from.display()))
         }
         ConvertError::Rows(RowsError::Row(_)) => {
             Failure::damaged(format!("{} is damaged: {error}", args.from.display())).help(IGNORE_HELP)

@@ -22,7 +22,7 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     let unreadable = |error: RerunError| match error {
         RerunError::NoEstimate => Failure::usage(format!("{of}: {error}"))
             .help("add the column to `columns` and sweep again, or choose points with --status"),
-        _ => Failure::System(format!("cannot read {of}: {error}"), Vec::new()),
+        _ => Failure::system(format!("cannot read {of}: {error}")),
     };
     let rows = sidecar.rows();
     let accuracy = args.inaccurate.then_some(plan.solver().accuracy);

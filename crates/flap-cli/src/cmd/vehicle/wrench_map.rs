@@ -81,7 +81,7 @@ fn refused(place: &str, error: WrenchMapError) -> Failure {
         WrenchMapError::Run(error) => return error.into(),
         error => Failure::usage(format!("{place}: {error}")),
     };
-    help.into_iter().fold(failure, Failure::help)
+    failure.helps(help)
 }
 
 /// Returns the name of a term, such as `bias^2`; `1` for the constant.
