@@ -19,12 +19,11 @@ use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic::{self, Mistakes};
 use flap_sweep::input::InputError;
-use flap_sweep::notation::nearest;
 use flap_sweep::notation::text::shortened;
+use flap_sweep::notation::{UserError, nearest};
 use flap_sweep::plan::ChangeError;
 use flap_sweep::resonance::SearchError;
 use flap_sweep::run::RunError;
-use flap_sweep::study::experiment::ExperimentError;
 
 use crate::console;
 
@@ -252,9 +251,9 @@ impl From<ReadError> for Failure {
     }
 }
 
-impl From<ExperimentError> for Failure {
-    fn from(error: ExperimentError) -> Failure {
-        Failure::usage(error.to_string()).helps(error.help())
+impl From<UserError> for Failure {
+    fn from(error: UserError) -> Failure {
+        Failure::usage(error.message).helps(error.help)
     }
 }
 

@@ -11,8 +11,8 @@ use flap_sweep::files::sidecar;
 use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic;
 use flap_sweep::input::InputError;
+use flap_sweep::notation::UserError;
 use flap_sweep::run::RunError;
-use flap_sweep::study::experiment::ExperimentError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
     PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyValueError,
@@ -65,8 +65,8 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
 }
 
 /// Returns a `ValueError` for an experiment without results.
-pub(crate) fn experiment(error: &ExperimentError) -> PyErr {
-    let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
+pub(crate) fn experiment(error: &UserError) -> PyErr {
+    let help = error.help.as_ref().map_or_else(String::new, |help| format!("\n{help}"));
     PyValueError::new_err(format!("{error}{help}"))
 }
 

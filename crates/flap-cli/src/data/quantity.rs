@@ -1,5 +1,6 @@
 //! Numbers with units in comparisons: `drive_frequency > 95 Hz`.
 
+use flap_sweep::notation::UserError;
 use flap_sweep::notation::quantity::{self, Quantity, quantities};
 use flap_sweep::table::labels;
 
@@ -17,12 +18,9 @@ pub(super) fn without_units(
     unit_of: impl Fn(usize) -> String,
 ) -> Result<String, Failure> {
     let unit = |name: &str| columns::find(names.iter().map(String::as_str), name).map(&unit_of);
-    quantity::without_units(text, unit).map_err(|error| match error.explained() {
-        Ok((message, help)) => {
-            let failure = Failure::usage(format!("--where {text}: {message}"));
-            failure.helps(help)
-        }
-        Err(failure) => failure,
+    quantity::without_units(text, unit, |error| {
+        let message = format!("--where {text}: {error}");
+        Failure::from(UserError { message, ..error })
     })
 }
 

@@ -1,76 +1,38 @@
 //! Wing outlines from CSV files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use flap_core::aero::{Outline, OutlineError, Station};
+use flap_core::aero::{Outline, Station};
 
-use crate::input::{self, InputError, MOST_BYTES};
-use crate::notation::units;
+use crate::input::{self, MOST_BYTES};
+use crate::notation::{UserError, units};
 
 /// Column names, in the order of [`Station`].
 const COLUMNS: [&str; 3] = ["span", "leading_edge", "trailing_edge"];
 
-/// Error in an outline file.
-#[derive(Debug, thiserror::Error)]
-pub enum OutlineFileError {
-    /// The file cannot be read as text.
-    #[error("{}: {cause}", path.display())]
-    Input {
-        /// Path of the file.
-        path: PathBuf,
-        /// The reason.
-        #[source]
-        cause: InputError,
-    },
-    /// A line is not a row of the table.
-    #[error("{}:{line}: {reason}", path.display())]
-    Line {
-        /// Path of the file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: u64,
-        /// Mistake in the line.
-        reason: String,
-    },
-    /// The stations do not form an outline.
-    #[error("{}: {cause}", path.display())]
-    Outline {
-        /// Path of the file.
-        path: PathBuf,
-        /// Description of the mistake. Stations are counted from 1.
-        #[source]
-        cause: OutlineError,
-    },
-}
-
-impl OutlineFileError {
-    /// Returns advice for the user, if there is advice for this mistake.
-    pub fn help(&self) -> Option<&'static str> {
-        let columns = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
-         `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
-        (!matches!(self, OutlineFileError::Input { .. })).then_some(columns)
-    }
-}
+const HELP: &str = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
+     `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
 
 /// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`. Each heading has its
 /// unit in brackets.
 ///
 /// # Errors
-/// [`OutlineFileError`] if the file cannot be read or contains no outline.
-pub fn read(path: &Path) -> Result<Outline, OutlineFileError> {
+/// An error if the file cannot be read or contains no outline.
+pub fn read(path: &Path) -> Result<Outline, UserError> {
     let text = input::text(path, MOST_BYTES)
-        .map_err(|cause| OutlineFileError::Input { path: path.to_owned(), cause })?;
+        .map_err(|cause| UserError { message: format!("{}: {cause}", path.display()), help: None })?;
     parse(path, &text)
 }
 
 /// Parses an outline from the text of a CSV file. `path` is the name of the file in messages.
 ///
 /// # Errors
-/// [`OutlineFileError`] if the text contains no outline.
-pub fn parse(path: &Path, text: &str) -> Result<Outline, OutlineFileError> {
+/// An error if the text contains no outline.
+pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
-    let wrong = |line: u64, reason: String| OutlineFileError::Line { path: path.to_owned(), line, reason };
+    let refused = |message: String| UserError { message, help: Some(HELP.to_owned()) };
+    let wrong = |line: u64, reason: String| refused(format!("{}:{line}: {reason}", path.display()));
     let headings = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
     let columns = COLUMNS.map(|name| find(&headings, name));
     let [Some(span), Some(leading), Some(trailing)] = columns else {
@@ -99,7 +61,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, OutlineFileError> {
             trailing: number(&trailing)?,
         });
     }
-    Outline::new(stations).map_err(|cause| OutlineFileError::Outline { path: path.to_owned(), cause })
+    Outline::new(stations).map_err(|cause| refused(format!("{}: {cause}", path.display())))
 }
 
 /// Returns position and unit of the column called `name`. The unit is empty if the heading has none.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use super::units::{self, UnitError};
+use super::{UserError, units};
 
 /// Words after a number that are not units.
 const WORDS: [&str; 3] = ["and", "or", "not"];
@@ -18,51 +18,29 @@ pub struct Quantity<'t> {
     pub with: Option<&'t str>,
 }
 
-/// The reason why a comparison cannot contain a number with a unit. `E` is the reason why a name is unknown.
-#[derive(Debug)]
-pub enum QuantityError<E> {
-    /// The quantity is compared with no column.
-    Alone(String),
-    /// The rows have no column with the contained name.
-    Unknown(E),
-    /// The quantity does not fit the column with the contained name.
-    Unit(String, Box<UnitError>),
-}
-
-impl<E> QuantityError<E> {
-    /// Message and help. The caller gives the message and help for unknown names.
-    ///
-    /// # Errors
-    /// The reason why a name is unknown.
-    pub fn explained(self) -> Result<(String, Option<String>), E> {
-        match self {
-            QuantityError::Alone(quantity) => Ok((
-                format!("`{quantity}` is not compared with a column"),
-                Some("a number with a unit stands beside a column: drive_frequency > 95 Hz".to_owned()),
-            )),
-            QuantityError::Unknown(reason) => Err(reason),
-            QuantityError::Unit(name, error) => Ok((error.message(&name), error.help())),
-        }
-    }
-}
-
 /// The comparison `text` without units: each number is converted to the unit of the column with which the number is
 /// compared. `unit_of` finds the unit of a column by its name.
 ///
 /// # Errors
-/// [`QuantityError`] for a number with a unit that is compared with no column, or with a column of another dimension.
+/// `refused` for a number with a unit that is compared with no column, or with a column of another dimension. The error
+/// of `unit_of` for an unknown name.
 pub fn without_units<E>(
     text: &str,
     unit_of: impl Fn(&str) -> Result<String, E>,
-) -> Result<String, QuantityError<E>> {
+    refused: impl Fn(UserError) -> E,
+) -> Result<String, E> {
     let mut plain = String::new();
     let mut copied = 0;
     for Quantity { number, unit, with } in quantities(text) {
         let quantity = &text[number.start..unit.end];
-        let name = with.ok_or_else(|| QuantityError::Alone(quantity.to_owned()))?;
-        let column_unit = unit_of(name).map_err(QuantityError::Unknown)?;
+        let name = with.ok_or_else(|| {
+            let message = format!("`{quantity}` is not compared with a column");
+            let help = "a number with a unit stands beside a column: drive_frequency > 95 Hz";
+            refused(UserError { message, help: Some(help.to_owned()) })
+        })?;
+        let column_unit = unit_of(name)?;
         let value = units::parse_as(quantity, &column_unit)
-            .map_err(|error| QuantityError::Unit(name.to_owned(), Box::new(error)))?;
+            .map_err(|error| refused(UserError { message: error.message(name), help: error.help() }))?;
         // The cells of a measure are in its own unit, such as mN, and not in SI units.
         let value = value / units::parse_as(&format!("1 {column_unit}"), &column_unit).unwrap_or(1.0);
         plain += &text[copied..number.start];
@@ -169,9 +147,7 @@ mod tests {
             let found = names.iter().find(|(known, _)| *known == name);
             found.map(|(_, unit)| (*unit).to_owned()).ok_or_else(|| format!("there is no column `{name}`"))
         };
-        without_units(text, unit).map_err(|error| match error.explained() {
-            Ok((message, _)) | Err(message) => message,
-        })
+        without_units(text, unit, |error| error.message)
     }
 
     #[test]

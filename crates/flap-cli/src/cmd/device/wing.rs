@@ -21,8 +21,7 @@ const CLOSE: f64 = 5e-3;
 
 pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     let plan = point::plan(&args.preset)?;
-    let outline = outline::read(&args.outline)
-        .map_err(|error| Failure::usage(error.to_string()).helps(error.help()))?;
+    let outline = outline::read(&args.outline)?;
     let air = Parameter::index(plan.parameters(), "air_density").and_then(|index| plan.base()[index].given());
     let wing = Wing {
         outline,

@@ -7,9 +7,8 @@ use super::answer::Optimum;
 use super::limit::Limit;
 use super::region::Region;
 use crate::notation::expression::{Expression, ExpressionError, Kind, Meaning, Scope};
-use crate::notation::nearest;
 use crate::notation::quantity::without_units;
-use crate::notation::text;
+use crate::notation::{UserError, nearest, text};
 use crate::plan::formula::{Condition, OwnMeasure};
 use crate::plan::{Plan, Value};
 
@@ -169,10 +168,8 @@ fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Express
     let names = Names { plan };
     let refused = |message: String, help: Option<String>| ProblemError { which, message, help };
     let unit = |name: &str| names.unit(name).ok_or_else(|| unknown(&names, name));
-    let plain = without_units(text, unit).map_err(|error| {
-        let (message, help) = error.explained().unwrap_or_else(|unknown| unknown);
-        refused(message, help)
-    })?;
+    let plain =
+        without_units(text, unit, |error| error).map_err(|error| refused(error.message, error.help))?;
     let expression = Expression::parse(&plain, &names).map_err(|errors| {
         let explained = |error: &ExpressionError| {
             let help = error.help().or_else(|| {
@@ -198,10 +195,11 @@ fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Express
     })
 }
 
-fn unknown(names: &Names<'_>, name: &str) -> (String, Option<String>) {
+fn unknown(names: &Names<'_>, name: &str) -> UserError {
     let known = names.names();
     let near = nearest(name, known.iter().map(String::as_str));
-    (format!("there is no measure or parameter `{name}`"), near.map(|near| format!("did you mean `{near}`?")))
+    let message = format!("there is no measure or parameter `{name}`");
+    UserError { message, help: near.map(|near| format!("did you mean `{near}`?")) }
 }
 
 /// The names that a problem may use: parameters, measures of the model, and measures of the plan.
