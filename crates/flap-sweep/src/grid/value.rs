@@ -231,8 +231,8 @@ fn integer_as_float(integer: &DeInteger<'_>) -> Result<f64, UnitError> {
 }
 
 fn decimal(text: &str) -> Result<f64, UnitError> {
-    let (number, length) = units::scan(text)?;
-    number.shifted(0).map_err(|problem| UnitError { span: 0..length, problem })
+    let (number, _) = units::scan(text)?;
+    number.shifted(0)
 }
 
 /// Returns the bytes of the file for the bytes `part` in the text of a TOML string.

@@ -27,20 +27,22 @@ use unit::Unit;
 /// float. Spans are bytes of `text`.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let start = text.len() - text.trim_start().len();
-    let trimmed = text.trim();
-    let (number, length) = scan(trimmed).map_err(|error| offset(error, start))?;
+    parse_trimmed(text.trim(), si_unit).map_err(|error| offset(error, start))
+}
 
-    let unit_text = trimmed[length..].trim_start();
-    let unit_start = start + trimmed.len() - unit_text.len();
-    let unit_span = unit_start..unit_start + unit_text.len();
+fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
+    let (number, length) = scan(text)?;
+    let unit_text = text[length..].trim_start();
+    let unit_start = text.len() - unit_text.len();
+    let unit_span = unit_start..text.len();
     if unit_text.is_empty() && !si_unit.is_empty() {
-        number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem })?;
+        number.shifted(0)?;
         let problem = UnitProblem::NoUnit { wanted: si_unit.to_owned(), usual: unit::usual(si_unit) };
-        return Err(UnitError { span: start..start + length, problem });
+        return Err(UnitError { span: 0..length, problem });
     }
     let Ok(wanted) = unit::parse(si_unit) else {
         if unit_text == si_unit {
-            return number.shifted(0).map_err(|problem| UnitError { span: start..start + length, problem });
+            return number.shifted(0);
         }
         let (unit, wanted) = (unit_text.to_owned(), si_unit.to_owned());
         return Err(UnitError { span: unit_span, problem: UnitProblem::NotConverted { unit, wanted } });
@@ -57,14 +59,12 @@ pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
         return Err(UnitError { span: unit_span, problem });
     }
 
-    let at_number = |problem| UnitError { span: start..start + length, problem };
-    let decimal = number.shifted(unit.shift).map_err(at_number)?;
     // Multiplication and division by 1 are exact, so decimal units stay exact.
-    let value = decimal * unit.above / unit.below;
+    let value = number.shifted(unit.shift)? * unit.above / unit.below;
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(at_number(UnitProblem::TooLarge(text[start..unit_span.end].to_owned())))
+        Err(UnitError { span: 0..length, problem: UnitProblem::TooLarge(text.to_owned()) })
     }
 }
 

@@ -197,16 +197,18 @@ impl Number<'_> {
     /// Returns the float nearest to the decimal number times ten to the power `shift`.
     ///
     /// # Errors
-    /// An error if the result is too large for a float, or if a result other than zero is too small for a float.
-    pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitProblem> {
+    /// An error if the result is too large for a float, or if a result other than zero is too small for a float. The
+    /// span is the whole number.
+    pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitError> {
+        let refused = |problem| Err(UnitError { span: 0..self.text.len(), problem });
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
-        let value: f64 = text.parse().map_err(|_| UnitProblem::BadNumber(self.mantissa.to_owned()))?;
-        if value.is_infinite() {
-            Err(UnitProblem::TooLarge(self.text.to_owned()))
-        } else if value == 0.0 && self.mantissa.contains(|c: char| ('1'..='9').contains(&c)) {
-            Err(UnitProblem::TooSmall(self.text.to_owned()))
-        } else {
-            Ok(value)
+        match text.parse::<f64>() {
+            Err(_) => refused(UnitProblem::BadNumber(self.mantissa.to_owned())),
+            Ok(value) if value.is_infinite() => refused(UnitProblem::TooLarge(self.text.to_owned())),
+            Ok(0.0) if self.mantissa.contains(|c: char| ('1'..='9').contains(&c)) => {
+                refused(UnitProblem::TooSmall(self.text.to_owned()))
+            }
+            Ok(value) => Ok(value),
         }
     }
 }
@@ -258,7 +260,8 @@ mod tests {
 
     #[test]
     fn ends_of_the_float_range() {
-        let shifted = |text: &str, shift| scan(text).expect(text).0.shifted(shift);
+        let shifted =
+            |text: &str, shift| scan(text).expect(text).0.shifted(shift).map_err(|error| error.problem);
         assert_eq!(shifted("1e400", 0), Err(UnitProblem::TooLarge("1e400".to_owned())));
         assert_eq!(shifted("1e400", -100), Ok(1e300));
         assert_eq!(shifted("1e-400", 0), Err(UnitProblem::TooSmall("1e-400".to_owned())));
