@@ -54,7 +54,10 @@ fn seeds_are_good() {
         assert!(parsed.is_ok(), "{text}: {:?}", parsed.err());
     }
     for input in corpus("sidecar") {
-        let parsed = flap_sweep::files::sidecar::Sidecar::parse(&targets::with_checksum(&input));
+        let parsed = flap_sweep::files::sidecar::Sidecar::parse(
+            Path::new("rows.csv.meta.toml"),
+            &targets::with_checksum(&input),
+        );
         assert!(parsed.is_ok(), "{:?}", parsed.err());
     }
     for input in corpus("journal") {

@@ -148,10 +148,10 @@ pub(crate) fn journal(bytes: &[u8]) {
 /// Any bytes are a sidecar that can be written again, or an error. Its plan has only points of its grid. They are given their
 /// checksum, or few would be.
 pub(crate) fn sidecar(bytes: &[u8]) {
-    let _ = Sidecar::parse(bytes);
-    let Ok(sidecar) = Sidecar::parse(&with_checksum(bytes)) else { return };
+    let _ = Sidecar::parse(Path::new("rows.csv.meta.toml"), bytes);
+    let Ok(sidecar) = Sidecar::parse(Path::new("rows.csv.meta.toml"), &with_checksum(bytes)) else { return };
     if let Ok(again) = sidecar.text() {
-        assert!(Sidecar::parse(again.as_bytes()).is_ok(), "{again}");
+        assert!(Sidecar::parse(Path::new("rows.csv.meta.toml"), again.as_bytes()).is_ok(), "{again}");
     }
     if let Ok(plan) = sidecar.plan(all())
         && plan.selected() > 0

@@ -58,7 +58,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
             PlanError::PointsFile { .. } => {
                 failure.help("restore the file of points, or sweep the grid file again")
             }
-            PlanError::Points | PlanError::Parameters | PlanError::Solver => failure,
+            PlanError::Changed(_) => failure,
         }
     })
 }

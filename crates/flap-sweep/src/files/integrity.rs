@@ -190,20 +190,12 @@ pub enum Note {
         /// The file.
         path: PathBuf,
         /// The reason.
-        why: Unverified,
+        why: &'static str,
     },
 }
 
-/// Reason for results that cannot be checked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Unverified {
-    /// The results have no sidecar.
-    #[error("there is no sidecar beside the file")]
-    NoSidecar,
-    /// The sidecar has no checksums.
-    #[error("the sidecar has no checksums")]
-    NoChecksums,
-}
+const NO_SIDECAR: &str = "there is no sidecar beside the file";
+const NO_CHECKSUMS: &str = "the sidecar has no checksums";
 
 fn so_far(done: Option<u64>) -> String {
     match done {
@@ -227,23 +219,20 @@ pub fn check(
     sidecar: &Sidecar,
     on_damage: OnDamage,
 ) -> Result<Option<Damage>, OpenError> {
-    match find(path, format, sidecar) {
-        Ok(Some(damage)) if on_damage == OnDamage::Refuse => {
-            Err(OpenError::Damaged { path: path.to_owned(), damage: Box::new(damage) })
-        }
-        Ok(damage) => Ok(damage),
-        Err(source) => Err(OpenError::Read { path: path.to_owned(), source }),
-    }
-}
-
-fn find(path: &Path, format: Format, sidecar: &Sidecar) -> io::Result<Option<Damage>> {
     let Some(checksums) = sidecar.checksums.as_ref() else { return Ok(None) };
+    let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     let bytes = match &checksums.file {
-        Some(sum) if FileSum::of(File::open(path)?)? == *sum => return Ok(None),
+        Some(sum) if File::open(path).and_then(FileSum::of).map_err(unreadable)? == *sum => return Ok(None),
         sum => sum.is_some(),
     };
-    let damage = Damage { bytes, ..locate(path, format, sidecar, checksums)? };
-    Ok(Some(damage).filter(|damage| !damage.is_none()))
+    let damage = Damage { bytes, ..locate(path, format, sidecar, checksums).map_err(unreadable)? };
+    if damage.is_none() {
+        return Ok(None);
+    }
+    match on_damage {
+        OnDamage::Refuse => Err(OpenError::Damaged { path: path.to_owned(), damage: Box::new(damage) }),
+        OnDamage::Tolerate => Ok(Some(damage)),
+    }
 }
 
 /// Returns the damage of the rows. All rows are read from the file to locate the damage.
@@ -315,7 +304,7 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
         unfinished(path, format, &recorded, &mut sidecar, (on_damage, &mut notes))?
     } else if let Some(sidecar) = &sidecar {
         notes.extend(match &sidecar.checksums {
-            None => Some(Note::Unverified { path: path.to_owned(), why: Unverified::NoChecksums }),
+            None => Some(Note::Unverified { path: path.to_owned(), why: NO_CHECKSUMS }),
             Some(_) => check(path, format, sidecar, on_damage)?
                 .map(|damage| Note::Damaged { path: path.to_owned(), damage }),
         });
@@ -328,7 +317,7 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
         }
     } else {
         if notes.is_empty() {
-            notes.push(Note::Unverified { path: path.to_owned(), why: Unverified::NoSidecar });
+            notes.push(Note::Unverified { path: path.to_owned(), why: NO_SIDECAR });
         }
         Reader::new(File::open(path).map_err(unreadable)?, format).map_err(unreadable)?
     };
@@ -431,8 +420,8 @@ pub enum Integrity {
         /// Number of finished points, if the number is known.
         done: Option<u64>,
     },
-    /// The results cannot be checked.
-    Unverified(Unverified),
+    /// The results cannot be checked. Contains the reason.
+    Unverified(&'static str),
     /// Another program has changed the results.
     Damaged(Damage),
 }
@@ -455,13 +444,13 @@ pub fn verify(path: &Path) -> Result<Integrity, OpenError> {
     for note in &opened.notes {
         match note {
             Note::Unfinished { done, .. } => return Ok(Integrity::Unfinished { done: *done }),
-            Note::Unverified { why, .. } => return Ok(Integrity::Unverified(*why)),
+            Note::Unverified { why, .. } => return Ok(Integrity::Unverified(why)),
             Note::Damaged { .. } | Note::Sidecar(_) => {}
         }
     }
-    let Some(sidecar) = opened.sidecar else { return Ok(Integrity::Unverified(Unverified::NoSidecar)) };
+    let Some(sidecar) = opened.sidecar else { return Ok(Integrity::Unverified(NO_SIDECAR)) };
     let Some(checksums) = &sidecar.checksums else {
-        return Ok(Integrity::Unverified(Unverified::NoChecksums));
+        return Ok(Integrity::Unverified(NO_CHECKSUMS));
     };
     let unreadable = |source| OpenError::Read { path: path.to_owned(), source };
     // The file's bytes are unchanged. This checks that reading them gives the computed rows.

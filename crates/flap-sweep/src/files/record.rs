@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io;
 use std::path::Path;
 
-use flap_core::drive::{Repeat, Samples, SamplesError};
+use flap_core::drive::{Repeat, Samples};
 
 use crate::files::csv_sink::cause;
 use crate::input::{self, MOST_BYTES};
@@ -39,97 +39,12 @@ pub enum RecordError {
         /// The reason.
         source: io::Error,
     },
-    /// Two columns have the same heading.
-    #[error("{name}: two columns are called {heading}: keep one of them")]
-    Twice {
-        /// The file.
-        name: String,
-        /// The heading.
-        heading: String,
-    },
-    /// A column is longer or shorter than the first column.
-    #[error("{name}: columns differ in length: {first} has {other} numbers, {heading} has {length}")]
-    Lengths {
-        /// Name of the record.
-        name: String,
-        /// Heading of the column.
-        heading: String,
-        /// Length of the column.
-        length: usize,
-        /// Heading of the first column.
-        first: String,
-        /// Length of the first column.
-        other: usize,
-    },
-    /// A cell is not a finite number.
-    #[error("{name}, line {line}, column {heading}: `{cell}` is not a number")]
-    Cell {
-        /// The file.
-        name: String,
-        /// Number of the line, counted from 1. For a record in memory, number of the row.
-        line: u64,
-        /// Heading of the column.
-        heading: String,
-        /// The cell.
-        cell: String,
-    },
-    /// A number is too large.
-    #[error("{name}: {heading} is {number:?} in row {row}, and must be from -{most} to {most}")]
-    TooLarge {
-        /// The file.
-        name: String,
-        /// The heading.
-        heading: String,
-        /// Number of the row, counted from 1.
-        row: usize,
-        /// The number, in the unit of the heading.
-        number: f64,
-        /// Largest accepted magnitude, in the unit of the heading.
-        most: String,
-    },
-    /// Two samples are too close in time.
-    #[error("{name}: rows {row} and {} are {step:e} s apart, and must be at least {least:e} s", row + 1)]
-    TooClose {
-        /// The file.
-        name: String,
-        /// Number of the earlier row, counted from 1.
-        row: usize,
-        /// Time between the two samples (s).
-        step: f64,
-        /// Smallest accepted time between samples of a record of this kind (s).
-        least: f64,
-    },
-    /// The samples do not define a smooth function of time.
-    #[error("{name}: {error}")]
-    Samples {
-        /// The file.
-        name: String,
-        /// The reason.
-        #[source]
-        error: SamplesError,
-    },
-    /// No column has one of the expected headings.
-    #[error("{name}: there is no column {}; {}", wanted.join(" or "), known(headings))]
-    Missing {
-        /// The file.
-        name: String,
-        /// Expected headings.
-        wanted: Vec<String>,
-        /// Headings in the file.
-        headings: Vec<String>,
-    },
-    /// Two columns of the same quantity have different values.
-    #[error("{name}: columns {first} and {second} contradict each other in row {row}: keep one of them")]
-    Contradiction {
-        /// The file.
-        name: String,
-        /// Heading of one column.
-        first: String,
-        /// Heading of the other column.
-        second: String,
-        /// Number of the row, counted from 1.
-        row: usize,
-    },
+    /// No column has one of the expected headings. Contains the message.
+    #[error("{0}")]
+    Missing(String),
+    /// The numbers cannot be used. Contains the message.
+    #[error("{0}")]
+    Wrong(String),
 }
 
 impl Record {
@@ -137,8 +52,7 @@ impl Record {
     ///
     /// # Errors
     /// - [`RecordError::Read`] if the file cannot be read, or a line has more or fewer cells than there are headings
-    /// - [`RecordError::Twice`] if two columns have the same heading
-    /// - [`RecordError::Cell`] if a cell is not a finite number
+    /// - [`RecordError::Wrong`] if two columns have the same heading, or a cell is not a finite number
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
         match input::text(path, MOST_BYTES) {
@@ -156,7 +70,8 @@ impl Record {
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
         let headings: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
         if let Some(twice) = repeated(&headings) {
-            return Err(RecordError::Twice { heading: twice.clone(), name });
+            let message = format!("{name}: two columns are called {twice}: keep one of them");
+            return Err(RecordError::Wrong(message));
         }
         let mut columns = vec![Vec::new(); headings.len()];
         let mut row = csv::StringRecord::new();
@@ -164,12 +79,7 @@ impl Record {
             let line = row.position().map_or(0, csv::Position::line);
             for ((cell, heading), column) in row.iter().zip(&headings).zip(&mut columns) {
                 let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-                column.push(number.ok_or_else(|| RecordError::Cell {
-                    name: name.clone(),
-                    line,
-                    heading: heading.clone(),
-                    cell: cell.to_owned(),
-                })?);
+                column.push(number.ok_or_else(|| not_a_number(&name, line, heading, cell))?);
             }
         }
         Ok(Record { name, headings, columns })
@@ -178,23 +88,19 @@ impl Record {
     /// Returns a record of columns in memory, each with a heading. `name` is the name of the record in messages.
     ///
     /// # Errors
-    /// - [`RecordError::Lengths`] if columns differ in length
-    /// - [`RecordError::Cell`] if a number is not finite
+    /// [`RecordError::Wrong`] if columns differ in length, or a number is not finite.
     pub fn of(name: &str, columns: Vec<(String, Vec<f64>)>) -> Result<Record, RecordError> {
         let length = columns.first().map_or(0, |(_, numbers)| numbers.len());
         for (heading, numbers) in &columns {
             if numbers.len() != length {
-                return Err(RecordError::Lengths {
-                    name: name.to_owned(),
-                    heading: heading.clone(),
-                    length: numbers.len(),
-                    first: columns[0].0.clone(),
-                    other: length,
-                });
+                return Err(RecordError::Wrong(format!(
+                    "{name}: columns differ in length: {} has {length} numbers, {heading} has {}",
+                    columns[0].0,
+                    numbers.len()
+                )));
             }
             if let Some(row) = numbers.iter().position(|number| !number.is_finite()) {
-                let (heading, cell) = (heading.clone(), numbers[row].to_string());
-                return Err(RecordError::Cell { name: name.to_owned(), line: row as u64 + 1, heading, cell });
+                return Err(not_a_number(name, row as u64 + 1, heading, &numbers[row].to_string()));
             }
         }
         let (headings, columns) = columns.into_iter().unzip();
@@ -206,8 +112,7 @@ impl Record {
     ///
     /// # Errors
     /// - [`RecordError::Missing`] if no column has the requested quantity
-    /// - [`RecordError::TooLarge`] if a number in the column is too large
-    /// - [`RecordError::Contradiction`] if two columns differ
+    /// - [`RecordError::Wrong`] if a number in the column is too large, or two columns differ
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
         let found = quantity.headings.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
@@ -215,32 +120,31 @@ impl Record {
         });
         let mut found = found.map(|(name, factor, numbers)| {
             if let Some(row) = numbers.iter().position(|number| (number * factor).abs() > quantity.most) {
-                return Err(RecordError::TooLarge {
-                    name: self.name.clone(),
-                    heading: name.to_owned(),
-                    row: row + 1,
-                    number: numbers[row],
-                    most: text::float((quantity.most / factor).round()),
-                });
+                let (row, number) = (row + 1, numbers[row]);
+                let most = text::float((quantity.most / factor).round());
+                let reason = format!("{name} is {number:?} in row {row}, and must be from -{most} to {most}");
+                return Err(self.wrong(&reason));
             }
             Ok((name, numbers.iter().map(|number| number * factor).collect::<Vec<f64>>()))
         });
-        let (first, column) = found.next().ok_or_else(|| RecordError::Missing {
-            name: self.name.clone(),
-            wanted: quantity.headings.iter().map(|(name, _)| (*name).to_owned()).collect(),
-            headings: self.headings.clone(),
+        let (first, column) = found.next().ok_or_else(|| {
+            let wanted: Vec<&str> = quantity.headings.iter().map(|(name, _)| *name).collect();
+            let known = known(&self.headings);
+            RecordError::Missing(format!(
+                "{}: there is no column {}; {known}",
+                self.name,
+                wanted.join(" or ")
+            ))
         })??;
         for other in found {
             let (second, numbers) = other?;
             let largest = column.iter().fold(0.0_f64, |largest, number| largest.max(number.abs()));
             let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * largest;
             if let Some(row) = column.iter().zip(&numbers).position(differs) {
-                return Err(RecordError::Contradiction {
-                    name: self.name.clone(),
-                    first: first.to_owned(),
-                    second: second.to_owned(),
-                    row: row + 1,
-                });
+                let row = row + 1;
+                return Err(self.wrong(&format!(
+                    "columns {first} and {second} contradict each other in row {row}: keep one of them"
+                )));
             }
         }
         Ok(column)
@@ -260,20 +164,29 @@ impl Record {
     /// Returns a quantity as a smooth function of the record's time.
     ///
     /// # Errors
-    /// - [`RecordError::TooClose`] if two samples are too close in time
-    /// - [`RecordError::Samples`] if the samples do not define a smooth function
+    /// - [`RecordError::Wrong`] if two samples are too close in time, or the samples define no smooth function
     /// - the errors of [`Record::column`], for the time and for the quantity
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
-        let name = || self.name.clone();
         let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let least = LEAST_STEP * duration.max(1.0);
         let mut steps = times.windows(2).map(|two| two[1] - two[0]).enumerate();
         if let Some((at, step)) = steps.find(|(_, step)| *step > 0.0 && *step < least) {
-            return Err(RecordError::TooClose { name: name(), row: at + 1, step, least });
+            let (row, next) = (at + 1, at + 2);
+            return Err(self.wrong(&format!(
+                "rows {row} and {next} are {step:e} s apart, and must be at least {least:e} s"
+            )));
         }
-        Samples::new(&times, &values, repeat).map_err(|error| RecordError::Samples { name: name(), error })
+        Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
     }
+
+    fn wrong(&self, reason: &str) -> RecordError {
+        RecordError::Wrong(format!("{}: {reason}", self.name))
+    }
+}
+
+fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError {
+    RecordError::Wrong(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
 }
 
 /// Smallest time between two samples, in seconds and relative to the duration.

@@ -30,7 +30,7 @@ impl Format {
     pub fn of(path: &Path) -> Result<Format, FormatError> {
         match Format::named(path) {
             Some(Format::Parquet) if !cfg!(feature = "parquet") => {
-                Err(FormatError::WithoutParquet(path.display().to_string()))
+                Err(FormatError(format!("{}: this flap was built without Parquet", path.display())))
             }
             Some(format) => Ok(format),
             None if is_stream(path) => Ok(Format::Csv),
@@ -66,24 +66,13 @@ impl Format {
     }
 }
 
-/// Error of a name whose format is unknown or unavailable.
+/// Error of a file name whose ending belongs to no format. Contains the message.
 #[derive(Debug, thiserror::Error)]
-pub enum FormatError {
-    /// The name has another ending or no ending.
-    #[error("{name}: the file name must end in {allowed}")]
-    Unknown {
-        /// The file.
-        name: String,
-        /// Allowed endings.
-        allowed: &'static str,
-    },
-    /// The format is not part of this build of flap.
-    #[error("{0}: this flap was built without Parquet")]
-    WithoutParquet(String),
-}
+#[error("{0}")]
+pub struct FormatError(String);
 
-fn unknown(path: &Path, allowed: &'static str) -> FormatError {
-    FormatError::Unknown { name: path.display().to_string(), allowed }
+fn unknown(path: &Path, allowed: &str) -> FormatError {
+    FormatError(format!("{}: the file name must end in {allowed}", path.display()))
 }
 
 /// Returns true if `path` is something other than a file, such as a device or a pipe.

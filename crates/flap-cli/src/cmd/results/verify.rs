@@ -46,7 +46,7 @@ fn verdict(results: &Path) -> (&'static str, String, Exit) {
             "the file has no journal, so flap could not verify anything".to_owned(),
             Exit::NotAll,
         ),
-        Ok(Integrity::Unverified(why)) => ("unverified", why.to_string(), Exit::NotAll),
+        Ok(Integrity::Unverified(why)) => ("unverified", why.to_owned(), Exit::NotAll),
         Ok(Integrity::Damaged(damage)) => ("damaged", damage.to_string(), Exit::System),
         Err(error @ integrity::OpenError::Format(_)) => ("unreadable", error.to_string(), Exit::Usage),
         Err(integrity::OpenError::Read { source, .. }) if source.kind() == ErrorKind::NotFound => {

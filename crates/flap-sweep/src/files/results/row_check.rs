@@ -27,72 +27,10 @@ pub struct RowCheck {
     is_repeated: bool,
 }
 
-/// Error of a row that is not the next row of the plan. Rows count from 1.
+/// Error of a row that is not the next row of the plan. Contains the message, in which rows count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RowError {
-    /// The number of cells differs from the number of columns.
-    #[error("row {row} has {cells} cells instead of {columns}")]
-    Width {
-        /// Number of the row.
-        row: u64,
-        /// Number of cells in the row.
-        cells: usize,
-        /// Number of columns.
-        columns: usize,
-    },
-    /// A cell does not match the type of its column.
-    #[error("row {row}: `{cell}` does not fit column {column}")]
-    Cell {
-        /// Number of the row.
-        row: u64,
-        /// The cell.
-        cell: String,
-        /// Name of the column.
-        column: String,
-    },
-    /// The row has an unknown status.
-    #[error("row {row}: `{status}` is not a status")]
-    Status {
-        /// Number of the row.
-        row: u64,
-        /// Cell of the status.
-        status: String,
-    },
-    /// The plan does not select the point.
-    #[error("row {row} belongs to point `{point}`, which was not run")]
-    Point {
-        /// Number of the row.
-        row: u64,
-        /// Contents of the cell with the index of the point.
-        point: String,
-    },
-    /// The point does not follow the point of the previous row.
-    #[error("row {row} belongs to point {point}: it is repeated or out of order")]
-    Order {
-        /// Number of the row.
-        row: u64,
-        /// Index of the point.
-        point: u64,
-    },
-    /// A point between the previous row and the next row has no row.
-    #[error("row {row} belongs to point {point}: the row of point {missing} is missing")]
-    Gap {
-        /// Number of the row.
-        row: u64,
-        /// Index of the point of the row.
-        point: u64,
-        /// Index of the point without a row.
-        missing: u64,
-    },
-    /// The number of rows differs from the number of written rows.
-    #[error("it contains {found} rows, but {written} were written")]
-    Count {
-        /// Number of rows in the file.
-        found: u64,
-        /// Number of rows that were written.
-        written: u64,
-    },
-}
+#[error("{0}")]
+pub struct RowError(String);
 
 impl RowCheck {
     /// Returns a check of the rows of `plan`. `rows` is the number of written rows, if known.
@@ -117,11 +55,6 @@ impl RowCheck {
         }
     }
 
-    /// Returns true if the plan's columns have these names.
-    pub(crate) fn has_columns(&self, names: &[String]) -> bool {
-        names.iter().eq(self.columns.iter().map(|column| &column.name))
-    }
-
     /// Allows missing rows after this call, for a reader that leaves out unreadable rows.
     pub fn allow_gaps(&mut self) {
         self.is_dense = false;
@@ -136,29 +69,34 @@ impl RowCheck {
         let row = self.seen + 1;
         let columns = self.columns.len();
         if cells.len() != columns {
-            return Err(RowError::Width { row, cells: cells.len(), columns });
+            let cells = cells.len();
+            return Err(RowError(format!("row {row} has {cells} cells instead of {columns}")));
         }
         for (column, cell) in self.columns.iter().zip(cells) {
             if !cell.is_empty() && Cell::parse(column.kind, cell).is_none() {
-                let (cell, column) = (cell.to_owned(), column.name.clone());
-                return Err(RowError::Cell { row, cell, column });
+                let message = format!("row {row}: `{cell}` does not fit column {}", column.name);
+                return Err(RowError(message));
             }
         }
         let status = cells.get(self.status).unwrap_or_default();
         if !Status::ALL.iter().any(|known| known.name() == status) {
-            return Err(RowError::Status { row, status: status.to_owned() });
+            return Err(RowError(format!("row {row}: `{status}` is not a status")));
         }
         let cell = cells.get(0).unwrap_or_default();
         let place = cell.parse().ok().and_then(|point| Some((point, self.position(point)?)));
         let Some((point, position)) = place else {
-            return Err(RowError::Point { row, point: cell.to_owned() });
+            return Err(RowError(format!("row {row} belongs to point `{cell}`, which was not run")));
         };
         let goes_on = self.is_repeated && position + 1 == self.next;
         if position < self.next && !goes_on {
-            return Err(RowError::Order { row, point });
+            let message = format!("row {row} belongs to point {point}: it is repeated or out of order");
+            return Err(RowError(message));
         }
         if self.is_dense && position > self.next {
-            return Err(RowError::Gap { row, point, missing: self.selection.index(self.next) });
+            let missing = self.selection.index(self.next);
+            let message =
+                format!("row {row} belongs to point {point}: the row of point {missing} is missing");
+            return Err(RowError(message));
         }
         self.next = position + 1;
         self.seen += 1;
@@ -168,10 +106,12 @@ impl RowCheck {
     /// Checks after the last row that no row is missing.
     ///
     /// # Errors
-    /// [`RowError::Count`] if the number of rows differs from the number of written rows.
+    /// [`RowError`] if the number of rows differs from the number of written rows.
     pub fn end(&self) -> Result<(), RowError> {
         match self.rows {
-            Some(written) if written != self.seen => Err(RowError::Count { found: self.seen, written }),
+            Some(written) if written != self.seen => {
+                Err(RowError(format!("it contains {} rows, but {written} were written", self.seen)))
+            }
             _ => Ok(()),
         }
     }
@@ -216,7 +156,7 @@ impl<'a> Checked<'a> {
     /// # Errors
     /// [`RowsError::Columns`] if the file's columns differ from the plan's columns.
     pub(crate) fn new(reader: &'a mut Reader, mut check: RowCheck) -> Result<Checked<'a>, RowsError> {
-        if !check.has_columns(reader.names()) {
+        if !reader.names().iter().eq(check.columns.iter().map(|column| &column.name)) {
             return Err(RowsError::Columns);
         }
         if reader.is_tolerant() {

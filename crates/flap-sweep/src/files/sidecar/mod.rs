@@ -249,17 +249,6 @@ pub enum SidecarError {
     },
 }
 
-/// Error of a text that is not a sidecar.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ParseError {
-    /// The text does not have the format of a sidecar.
-    #[error("{0}")]
-    Format(String),
-    /// The text is not the text that flap wrote.
-    #[error("{0}")]
-    Damaged(&'static str),
-}
-
 impl Sidecar {
     /// Returns the text of the file.
     ///
@@ -277,7 +266,7 @@ impl Sidecar {
     /// - [`SidecarError::Format`] if the file is not a sidecar
     /// - [`SidecarError::Damaged`] if the file does not match its checksum
     pub fn read(path: &Path) -> Result<Sidecar, SidecarError> {
-        Sidecar::read_as(path, Sidecar::parse)
+        Sidecar::parse(path, &bytes(path)?)
     }
 
     /// Reads the file without requiring a correct checksum.
@@ -286,50 +275,36 @@ impl Sidecar {
     /// - [`SidecarError::Io`] if the file cannot be read
     /// - [`SidecarError::Format`] if the file is not a sidecar
     pub fn read_damaged(path: &Path) -> Result<Sidecar, SidecarError> {
-        Sidecar::read_as(path, Sidecar::parse_damaged)
+        Sidecar::parse_damaged(path, &bytes(path)?)
     }
 
-    fn read_as(
-        path: &Path,
-        parse: impl Fn(&[u8]) -> Result<Sidecar, ParseError>,
-    ) -> Result<Sidecar, SidecarError> {
-        let path = || path.to_owned();
-        let bytes = input::bytes(&path(), MOST_LISTED).map_err(|error| match error {
-            InputError::Missing | InputError::Unreadable(_) => {
-                SidecarError::Io { path: path(), source: error.into() }
-            }
-            _ => SidecarError::Format { path: path(), reason: error.to_string() },
-        })?;
-        parse(&bytes).map_err(|error| match error {
-            ParseError::Format(reason) => SidecarError::Format { path: path(), reason },
-            ParseError::Damaged(reason) => SidecarError::Damaged { path: path(), reason },
-        })
-    }
-
-    /// Parses the bytes of the file.
+    /// Parses the bytes of the file at `path`, which is named in errors.
     ///
     /// # Errors
-    /// - [`ParseError::Format`] if the bytes are not a sidecar
-    /// - [`ParseError::Damaged`] if the bytes do not match their checksum
-    pub fn parse(bytes: &[u8]) -> Result<Sidecar, ParseError> {
+    /// - [`SidecarError::Format`] if the bytes are not a sidecar
+    /// - [`SidecarError::Damaged`] if the bytes do not match their checksum
+    pub fn parse(path: &Path, bytes: &[u8]) -> Result<Sidecar, SidecarError> {
+        let damaged = |reason| SidecarError::Damaged { path: path.to_owned(), reason };
         if let Some(rest) = bytes.strip_prefix(CHECKSUM.as_bytes())
             && let Some(end) = memmem::find(rest, b"\"\n")
         {
             let (checksum, contents) = (&rest[..end], &rest[end + 2..]);
             if checksum != text::digits(xxh3_64(contents)).as_bytes() {
-                return Err(ParseError::Damaged("its first line is not the checksum of the others"));
+                return Err(damaged("its first line is not the checksum of the others"));
             }
-            return Sidecar::parse_damaged(contents);
+            return Sidecar::parse_damaged(path, contents);
         }
-        Sidecar::parse_damaged(bytes)?;
-        Err(ParseError::Damaged("its first line is not its checksum"))
+        Sidecar::parse_damaged(path, bytes)?;
+        Err(damaged("its first line is not its checksum"))
     }
 
     /// Parses the bytes of the file without its checksum line, or with any checksum line. Bytes that are not UTF-8
     /// become U+FFFD.
-    fn parse_damaged(bytes: &[u8]) -> Result<Sidecar, ParseError> {
-        toml::from_str(&String::from_utf8_lossy(bytes))
-            .map_err(|error| ParseError::Format(error.message().to_owned()))
+    fn parse_damaged(path: &Path, bytes: &[u8]) -> Result<Sidecar, SidecarError> {
+        toml::from_str(&String::from_utf8_lossy(bytes)).map_err(|error| SidecarError::Format {
+            path: path.to_owned(),
+            reason: error.message().to_owned(),
+        })
     }
 
     /// Writes the file, which replaces an earlier sidecar.
@@ -347,4 +322,16 @@ impl Sidecar {
         whole.file().write_all(text.as_bytes())?;
         Ok(whole)
     }
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, SidecarError> {
+    input::bytes(path, MOST_LISTED).map_err(|error| {
+        let path = path.to_owned();
+        match error {
+            InputError::Missing | InputError::Unreadable(_) => {
+                SidecarError::Io { path, source: error.into() }
+            }
+            _ => SidecarError::Format { path, reason: error.to_string() },
+        }
+    })
 }

@@ -22,19 +22,17 @@ pub enum PlanError {
     /// The recorded grid file and the recorded hash differ.
     #[error("the recorded grid was edited after the sweep")]
     GridText,
-    /// The recorded points are not points of the grid.
-    #[error("the recorded points are not points of the recorded grid")]
-    Points,
-    /// The recorded solver settings are outside the limits of a grid file.
-    #[error("the recorded solver settings are outside the limits of a grid file")]
-    Solver,
     /// The file of points has changed.
     #[error("{} has changed since the points were run", .0.as_deref().unwrap_or("its file of points"))]
     PointsFile(Option<String>),
-    /// The model does not have a recorded parameter or option.
-    #[error("the recorded parameters are not parameters of the model")]
-    Parameters,
+    /// The grid file does not have the recorded points, solver settings or parameters. Contains the reason.
+    #[error("the recorded {0}")]
+    Changed(&'static str),
 }
+
+const POINTS: PlanError = PlanError::Changed("points are not points of the recorded grid");
+const SOLVER: PlanError = PlanError::Changed("solver settings are outside the limits of a grid file");
+const PARAMETERS: PlanError = PlanError::Changed("parameters are not parameters of the model");
 
 impl Sidecar {
     /// Returns the plan of the recorded rows, with the presets of `models`.
@@ -42,10 +40,9 @@ impl Sidecar {
     /// # Errors
     /// - [`PlanError::GridText`] if the recorded grid file was edited
     /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap
-    /// - [`PlanError::Solver`] if the solver settings are outside the limits of a grid file
     /// - [`PlanError::PointsFile`] if the file of points has changed
-    /// - [`PlanError::Parameters`] if the model of a response does not have a recorded parameter or option
-    /// - [`PlanError::Points`] if the points that were run are not points of the grid
+    /// - [`PlanError::Changed`] if the solver settings are outside the limits of a grid file, the model of a response
+    ///   does not have a recorded parameter or option, or the points that were run are not points of the grid
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let Identity { grid, devices, points_file, solver, .. } = &self.identity;
         if *grid != text::hash(&self.grid.text) || *devices != identity::devices(&self.devices) {
@@ -53,21 +50,21 @@ impl Sidecar {
         }
         let plan = grid::parse_recorded(&self.grid.name, &self.grid.text, &self.devices, models)
             .map_err(PlanError::Grid)?;
-        let plan = plan.with_solver(*solver).map_err(|_| PlanError::Solver)?;
+        let plan = plan.with_solver(*solver).map_err(|_| SOLVER)?;
         if plan.points_file().map(PointsFile::hash) != *points_file {
             return Err(PlanError::PointsFile(self.points_file.clone()));
         }
         let plan = match &self.followed {
-            Some(followed) => self.follow(followed, plan).ok_or(PlanError::Parameters)?,
+            Some(followed) => self.follow(followed, plan).ok_or(PARAMETERS)?,
             None => plan,
         };
         if let Some(rerun) = &self.rerun {
-            let plan = plan.with_added(rerun.added.clone()).map_err(|_| PlanError::Points)?;
-            let list = selection::read_list(&rerun.points, plan.len()).ok_or(PlanError::Points)?;
-            return plan.with_points(list).map_err(|_| PlanError::Points);
+            let plan = plan.with_added(rerun.added.clone()).map_err(|_| POINTS)?;
+            let list = selection::read_list(&rerun.points, plan.len()).ok_or(POINTS)?;
+            return plan.with_points(list).map_err(|_| POINTS);
         }
         match &self.shard {
-            Some(shard) => Ok(plan.with_shard(shard.parse().map_err(|_| PlanError::Points)?)),
+            Some(shard) => Ok(plan.with_shard(shard.parse().map_err(|_| POINTS)?)),
             None => Ok(plan),
         }
     }
