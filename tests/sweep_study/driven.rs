@@ -2,8 +2,8 @@
 
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, SolverSettings, Status, Unfinished, preset};
-use flap_sweep::resonance::SearchError;
-use flap_sweep::resonance::driven::{DrivenPeaks, PeakSearch, search};
+use flap_sweep::resonance::driven::{DrivenPeaks, search};
+use flap_sweep::resonance::{Range, SearchError};
 
 /// The values of a preset with some of them set.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -23,7 +23,7 @@ fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
 
 fn driven(name: &str, set: &[(&str, f64)], from: f64, to: f64) -> DrivenPeaks {
     let (model, _) = preset(name).expect("a preset");
-    let range = PeakSearch { from: Some(from), to: Some(to), tolerance: 0.05 };
+    let range = Range { from: Some(from), to: Some(to), tolerance: 0.05, ..Range::default() };
     let found = search(
         model,
         &PointRun::new(Backend::best(), &SolverSettings::default(), &values(name, set)),
@@ -59,7 +59,7 @@ fn motions_that_do_not_settle_are_named() {
     // A soft hinge, which flutters: at 240 V there is no motion of the drive's period from 64.5 to 80 Hz.
     let (model, _) = preset("jafferis2016").unwrap();
     let values = values("jafferis2016", &[("hinge_stiffness", 0.7486e-6), ("drive_voltage_pp", 240.0)]);
-    let range = PeakSearch { from: Some(55.0), to: Some(95.0), tolerance: 0.5 };
+    let range = Range { from: Some(55.0), to: Some(95.0), tolerance: 0.5, ..Range::default() };
     let solver = SolverSettings { max_cycles: 100, settle_tol: 1e-4, ..SolverSettings::default() };
     let found = search(model, &PointRun::new(Backend::best(), &solver, &values), &range).unwrap();
     let unsettled: usize = found.gaps.iter().map(|gap| gap.points).sum();
@@ -76,14 +76,14 @@ fn motions_that_do_not_settle_are_named() {
 fn searches_that_mean_nothing_are_refused() {
     let (model, _) = preset("ozaki2018-large").unwrap();
     let values = values("ozaki2018-large", &[]);
-    let good = PeakSearch { from: Some(100.0), to: Some(120.0), tolerance: 0.5 };
+    let good = Range { from: Some(100.0), to: Some(120.0), tolerance: 0.5, ..Range::default() };
     for range in [
-        PeakSearch { from: Some(0.0), ..good },
-        PeakSearch { to: Some(100.0), ..good },
-        PeakSearch { to: Some(f64::INFINITY), ..good },
-        PeakSearch { from: Some(f64::NAN), ..good },
-        PeakSearch { tolerance: 0.0, ..good },
-        PeakSearch { tolerance: f64::NAN, ..good },
+        Range { from: Some(0.0), ..good },
+        Range { to: Some(100.0), ..good },
+        Range { to: Some(f64::INFINITY), ..good },
+        Range { from: Some(f64::NAN), ..good },
+        Range { tolerance: 0.0, ..good },
+        Range { tolerance: f64::NAN, ..good },
     ] {
         let refused =
             search(model, &PointRun::new(Backend::best(), &SolverSettings::default(), &values), &range);
@@ -109,7 +109,7 @@ fn a_peak_is_a_motion_from_rest() {
 #[test]
 fn an_interrupted_search_says_so() {
     let (model, _) = preset("ozaki2018-small").unwrap();
-    let range = PeakSearch { from: Some(90.0), to: Some(110.0), tolerance: 0.1 };
+    let range = Range { from: Some(90.0), to: Some(110.0), tolerance: 0.1, ..Range::default() };
     let endless = SolverSettings {
         newton: false,
         max_cycles: 1_000_000_000,

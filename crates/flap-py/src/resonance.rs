@@ -4,8 +4,8 @@ use flap_core::modes::Mode;
 use flap_core::num::Backend;
 use flap_core::simulate::PointRun;
 use flap_experiments::free::{self, FreeRequest};
-use flap_sweep::resonance::SearchError;
-use flap_sweep::resonance::driven::{self, PeakSearch};
+use flap_sweep::resonance::driven;
+use flap_sweep::resonance::{Range, SearchError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
@@ -84,14 +84,15 @@ pub(crate) fn resonance<'py>(
     let backend = Backend::best();
     let experiments = simulator.experiments().map_err(|reason| error::unfinished(&reason))?;
     let modes = experiments.modes(values).map_err(|reason| error::unfinished(&reason))?;
-    let search = PeakSearch {
+    let range = Range {
         from: frequency("start", start)?,
         to: frequency("stop", stop)?,
         tolerance: convert::quantity("tolerance", "Hz", true, tolerance)?,
+        ..Range::default()
     };
     let found = interruptible(py, |interrupted| {
         let run = PointRun::new(backend, solver, values).until(interrupted);
-        Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &search)?))
+        Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &range)?))
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
 

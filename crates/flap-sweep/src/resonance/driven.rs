@@ -12,17 +12,6 @@ use super::target::{Objective, Range, SearchError, Target, has_prescribed_stroke
 /// Largest number of reported peaks.
 const PEAKS: usize = 2;
 
-/// Range and accuracy of a search for peaks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PeakSearch {
-    /// Lowest drive frequency (Hz); half of the lower natural frequency if `None`.
-    pub from: Option<f64>,
-    /// Highest drive frequency (Hz); one and a half times the upper natural frequency if `None`.
-    pub to: Option<f64>,
-    /// Largest error of a peak's frequency (Hz); must be more than zero.
-    pub tolerance: f64,
-}
-
 /// A local maximum of the stroke over the drive frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivenPeak {
@@ -64,7 +53,7 @@ pub struct Gap {
 
 /// Computes the drive frequencies at which the stroke of a design point is largest.
 ///
-/// Stroke and pitch of a peak belong to the motion from rest.
+/// Stroke and pitch of a peak belong to the motion from rest. `range.of` is ignored.
 ///
 /// # Errors
 /// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible
@@ -72,21 +61,22 @@ pub struct Gap {
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
-    search: &PeakSearch,
+    range: &Range,
 ) -> Result<DrivenPeaks, SearchError> {
     let PointRun { backend, solver, values, interrupted } = *run;
-    let PeakSearch { from, to, tolerance } = *search;
+    let tolerance = range.tolerance;
     if tolerance.is_nan() || tolerance <= 0.0 {
-        return Err(SearchError::Tolerance(tolerance));
+        let message = format!("the tolerance must be more than zero, not {tolerance} Hz");
+        return Err(SearchError::Impossible(message));
     }
     if has_prescribed_stroke(model.parameters(), values) {
-        return Err(SearchError::Prescribed("set stroke_mode to free"));
+        return Err(SearchError::prescribed("set stroke_mode to free"));
     }
-    let range = Range { of: Objective::Stroke, from, to, tolerance };
-    let target = Target::new(model, range)
-        .ok_or(SearchError::Model("has no drive frequency or measures no stroke"))?;
+    let lacks = |what: &str| SearchError::Impossible(format!("the model {what}"));
+    let target = Target::new(model, Range { of: Objective::Stroke, ..*range })
+        .ok_or_else(|| lacks("has no drive frequency or measures no stroke"))?;
     let pitch = model.columns().iter().position(|column| column.name == "pitch_amplitude_deg");
-    let pitch = pitch.ok_or(SearchError::Model("measures no pitch"))?;
+    let pitch = pitch.ok_or_else(|| lacks("measures no pitch"))?;
     let mut design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
     loop {
         let probes = design.probes();

@@ -144,15 +144,14 @@ impl<'a> Search<'a> {
     /// Returns the result of the search and all points that were run.
     ///
     /// # Errors
-    /// - [`SearchError::Range`] or [`SearchError::Prescribed`] if the design has no range of frequencies to search
-    /// - [`SearchError::Design`] if the design is impossible
+    /// - [`SearchError::Impossible`] if the design is impossible, or has no range of frequencies to search
     /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
         let ends = self.ends?;
         let peaks = match self.stage {
             Stage::Done { tops } if !tops.is_empty() => tops.into_iter().zip(self.rows).collect(),
             _ => match self.rows.into_iter().find_map(|row| row.reason) {
-                Some(reason) => return Err(SearchError::Design(reason)),
+                Some(reason) => return Err(SearchError::Impossible(reason)),
                 None => Vec::new(),
             },
         };

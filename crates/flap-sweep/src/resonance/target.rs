@@ -83,7 +83,7 @@ impl Target {
     pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], SearchError> {
         let Range { of, from, to, .. } = self.range;
         if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
-            return Err(SearchError::Prescribed("so it has no resonance"));
+            return Err(SearchError::prescribed("so it has no resonance"));
         }
         let [from, to] = match (from, to) {
             (Some(from), Some(to)) => [from, to],
@@ -99,7 +99,11 @@ impl Target {
             }
         };
         let is_range = from > 0.0 && from < to && to.is_finite();
-        if is_range { Ok([from, to]) } else { Err(SearchError::Range { from, to }) }
+        if is_range {
+            return Ok([from, to]);
+        }
+        let rule = "the first must be more than zero and less than the last";
+        Err(SearchError::Impossible(format!("there are no drive frequencies from {from} to {to} Hz: {rule}")))
     }
 }
 
@@ -121,31 +125,20 @@ pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) ->
 /// Reason for an impossible or failed search for resonances.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SearchError {
-    /// The tolerance (Hz) is not more than zero.
-    #[error("the tolerance must be more than zero, not {0} Hz")]
-    Tolerance(f64),
-    /// The stroke is prescribed.
-    #[error("stroke_mode is \"prescribed\": the stroke is the same at every frequency, {0}")]
-    Prescribed(&'static str),
-    /// The model lacks a parameter or a measure.
-    #[error("the model {0}")]
-    Model(&'static str),
-    /// The range contains no frequencies.
-    #[error(
-        "there are no drive frequencies from {from} to {to} Hz: the first must be more than zero and less than the last"
-    )]
-    Range {
-        /// Lowest frequency (Hz).
-        from: f64,
-        /// Highest frequency (Hz).
-        to: f64,
-    },
-    /// No motion of the design is periodic. Contains the reason for one of the motions.
+    /// The search is impossible, or no motion of the design is periodic. Contains the reason.
     #[error("{0}")]
-    Design(String),
+    Impossible(String),
     /// The natural frequencies cannot be computed, or the search was interrupted.
     #[error(transparent)]
     Unfinished(#[from] Unfinished),
+}
+
+impl SearchError {
+    /// Returns the error of a prescribed stroke. `end` is the end of the message.
+    pub(super) fn prescribed(end: &str) -> SearchError {
+        let begin = "stroke_mode is \"prescribed\": the stroke is the same at every frequency";
+        SearchError::Impossible(format!("{begin}, {end}"))
+    }
 }
 
 impl From<Invalid> for SearchError {

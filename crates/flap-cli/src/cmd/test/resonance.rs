@@ -3,7 +3,8 @@
 use flap_experiments::free::{self, FreeMotion, FreeRequest};
 use flap_experiments::spectrum::SpectrumPeak;
 use flap_sweep::notation::text;
-use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap, PeakSearch};
+use flap_sweep::resonance::Range;
+use flap_sweep::resonance::driven::{self, DrivenPeaks, Gap};
 
 use crate::args::ResonanceArgs;
 use crate::cmd::point::{Chosen, check_one_wing};
@@ -34,9 +35,9 @@ pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
         spectrum_window: args.spectrum_window,
         samples_per_cycle: SAMPLES,
     };
-    let search = PeakSearch { from: args.from, to: args.to, tolerance: args.tolerance };
+    let range = Range { from: args.from, to: args.to, tolerance: args.tolerance, ..Range::default() };
     let free = free::examine(experiments, &chosen.run(), &request)?;
-    let driven = driven::search(simulator, &chosen.run(), &search)?;
+    let driven = driven::search(simulator, &chosen.run(), &range)?;
 
     let mut lines: Vec<Line> = Vec::new();
     for mode in &modes {
