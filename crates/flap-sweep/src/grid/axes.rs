@@ -6,8 +6,8 @@ use flap_core::parameter::Parameter;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::diagnostic::Problems;
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{range, value};
 use crate::plan::axes::{Axis, TooManyPoints, Values};
@@ -94,7 +94,7 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
             let fixed = || other(set).map(|place| (place, both, "the axis would override it", "set here"));
             if let Some((place, mistake, label, related)) = varied.or_else(fixed) {
                 let message = format!("`{name}` is {mistake}");
-                let diagnostic = lookup.problems.report(key.clone(), message).label(label);
+                let diagnostic = lookup.report(key.clone(), message).label(label);
                 diagnostic.related(place, related).help("keep one of them");
             }
             seen.push((*parameter, key.clone()));
@@ -137,17 +137,13 @@ fn report_not_tables(value: &Spanned<DeValue<'_>>, lookup: &mut Lookup<'_>) {
         DeValue::Table(_) => "`zip` must have double brackets, because there may be several".to_owned(),
         other => format!("`zip` must be a table of parameters, not {}", table::kind(other)),
     };
-    lookup
-        .problems
-        .report(value.span(), message)
-        .help("write [[zip]] above the parameters that move together");
+    lookup.report(value.span(), message).help("write [[zip]] above the parameters that move together");
 }
 
 fn axis(table: &DeTable<'_>, span: Range<usize>, lookup: &mut Lookup<'_>) -> Option<Placed> {
     let entries = table::entries(table);
     if entries.is_empty() {
         lookup
-            .problems
             .report(span, "this zip has no parameters")
             .help("list the parameters that move together below it, or remove it");
         return None;
@@ -181,7 +177,6 @@ fn report_unequal(entry: &Entry<'_>, length: u64, first: &Entry<'_>, wanted: u64
         entry.key, first.key
     );
     lookup
-        .problems
         .report(entry.value.span(), message)
         .label(format!("values: {length}"))
         .related(first.value.span(), format!("values: {wanted}"))

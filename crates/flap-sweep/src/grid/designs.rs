@@ -9,7 +9,7 @@ use toml::de::DeValue;
 
 use super::axes::Placed;
 use super::device::{self, Base, Reader};
-use super::problems::Problems;
+use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::vehicle::{self, VehicleSettings};
 use crate::plan::axes::{Axis, Values};

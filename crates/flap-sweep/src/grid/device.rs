@@ -1,15 +1,15 @@
 //! The design at the start of a grid: a preset, or a device with its `[params]`; and the section `[params]`.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use flap_core::parameter::Preset;
 use flap_core::simulate::Simulator;
 use toml::de::DeTable;
 
+use super::diagnostic::{self, Problems};
 use super::lookup::Lookup;
-use super::problems::{self, Problems};
 use super::table::{self, Entry};
 use super::{resonance, uncertainty, value};
 use crate::input::{self, MOST_BYTES};
@@ -33,34 +33,12 @@ pub(super) struct Base {
     pub(super) devices: Vec<Source>,
 }
 
-/// Source of device files.
-#[derive(Clone, Copy)]
-pub(super) enum DeviceSource<'s> {
-    /// The disk.
-    Disk,
-    /// Devices recorded with results, by name.
-    Recorded(&'s [Source]),
-}
-
-impl DeviceSource<'_> {
-    /// Returns the text of a device, or the reason why the device cannot be read.
-    fn text(self, path: &Path) -> Result<String, String> {
-        match self {
-            DeviceSource::Disk => input::text(path, MOST_BYTES).map_err(|error| error.to_string()),
-            DeviceSource::Recorded(devices) => {
-                let name = path.display().to_string();
-                let found = devices.iter().find(|device| device.name == name);
-                found.map(|device| device.text.clone()).ok_or_else(|| "it was not recorded".to_owned())
-            }
-        }
-    }
-}
-
 /// Reader of devices.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'r> {
     pub(super) models: &'r [&'static dyn Simulator],
-    pub(super) source: DeviceSource<'r>,
+    /// Devices recorded with results, by name; `None` to read files.
+    pub(super) recorded: Option<&'r [Source]>,
 }
 
 impl Reader<'_> {
@@ -105,18 +83,26 @@ impl Reader<'_> {
                 .help("start one of them from a preset");
             return None;
         }
-        let text = match self.source.text(&path) {
+        let name = path.display().to_string();
+        let text = match self.recorded {
+            None => input::text(&path, MOST_BYTES).map_err(|error| error.to_string()),
+            Some(devices) => {
+                let found = devices.iter().find(|device| device.name == name);
+                found.map(|device| device.text.clone()).ok_or_else(|| "it was not recorded".to_owned())
+            }
+        };
+        let text = match text {
             Ok(text) => text,
             Err(reason) => {
                 problems
-                    .report(entry.value.span(), format!("{}: {reason}", path.display()))
+                    .report(entry.value.span(), format!("{name}: {reason}"))
                     .note("the path is relative to the folder of the file that names it")
                     .help("`flap device new PRESET > mybee.toml` writes a device");
                 return None;
             }
         };
-        chain.push(path.clone());
-        let source = Source { name: path.display().to_string(), text };
+        chain.push(path);
+        let source = Source { name, text };
         let mut own = Problems::new(Arc::new(source.clone()));
         let base = self.device(&source.text, chain, &mut own);
         problems.absorb(own);
@@ -129,7 +115,7 @@ impl Reader<'_> {
     fn device(self, text: &str, chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         let (root, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
-            problems::report_syntax(&errors, problems);
+            diagnostic::report_syntax(&errors, problems);
             return None;
         }
         let root = table::entries(root.get_ref());
@@ -152,54 +138,36 @@ pub(super) fn check_description(root: &[Entry<'_>], problems: &mut Problems) {
 
 impl Base {
     /// Applies `[params]` and `[[correlation]]` of a file.
+    ///
+    /// Returns the parameters in `[params]`, with the positions of the parameters in the file.
     pub(super) fn set(
         &mut self,
         root: &[Entry<'_>],
         models: &[&'static dyn Simulator],
         problems: &mut Problems,
-    ) -> Vec<(usize, std::ops::Range<usize>)> {
+    ) -> Vec<(usize, Range<usize>)> {
         let mut lookup = Lookup { simulator: &*self.robot, models, problems };
-        let set = read(
-            table::find(root, "params"),
-            &mut self.values,
-            &mut self.with_units,
-            &mut self.uncertainty,
-            &mut lookup,
-        );
+        let mut set = Vec::new();
+        let params = table::find(root, "params").map(|entry| table::section(entry, lookup.problems));
+        for entry in params.unwrap_or_default() {
+            let Some((index, parameter)) = lookup.parameter(&entry) else {
+                continue;
+            };
+            set.push((index, entry.key_span.clone()));
+            // No value: the resonance is computed later.
+            if resonance::is_asked_for(&entry) {
+                continue;
+            }
+            let (number, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);
+            if let Some(number) = number {
+                self.values[index] = Value::Given(number);
+                self.with_units.note(index, value::has_units(entry.value));
+            }
+            self.uncertainty.set(index, error);
+        }
         uncertainty::correlations(table::find(root, "correlation"), &mut self.uncertainty, &mut lookup);
         set
     }
-}
-
-/// Reads the values of `[params]` into `base`, and standard errors into `errors`. `with_units` gets the parameters
-/// whose values have units.
-///
-/// Returns the parameters in the section, with the positions of the parameters in the file.
-pub(super) fn read(
-    entry: Option<&Entry<'_>>,
-    base: &mut [Value],
-    with_units: &mut WithUnits,
-    errors: &mut Uncertainty,
-    lookup: &mut Lookup<'_>,
-) -> Vec<(usize, Range<usize>)> {
-    let mut set = Vec::new();
-    for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
-        let Some((index, parameter)) = lookup.parameter(&entry) else {
-            continue;
-        };
-        set.push((index, entry.key_span.clone()));
-        // No value: the resonance is computed later.
-        if resonance::is_asked_for(&entry) {
-            continue;
-        }
-        let (number, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);
-        if let Some(number) = number {
-            base[index] = Value::Given(number);
-            with_units.note(index, value::has_units(entry.value));
-        }
-        errors.set(index, error);
-    }
-    set
 }
 
 type Chosen = (&'static dyn Simulator, &'static Preset);

@@ -1,7 +1,9 @@
-//! Positions, causes and remedies of mistakes in a grid file.
+//! Mistakes in a grid file, with positions, causes and remedies, and the list of all mistakes found so far.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::ops::{Deref, Range};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
@@ -41,20 +43,6 @@ pub struct Related {
 }
 
 impl Diagnostic {
-    /// Returns a diagnostic with a message only. Use the methods below to complete it.
-    pub(crate) fn new(source: Arc<Source>, span: Range<usize>, message: &str) -> Diagnostic {
-        Diagnostic {
-            source,
-            message: shortened(message).into_owned(),
-            span,
-            label: String::new(),
-            related: Vec::new(),
-            notes: Vec::new(),
-            help: Vec::new(),
-            is_only_counted: false,
-        }
-    }
-
     /// Sets the words that are shown at the mistake.
     pub(crate) fn label(&mut self, label: impl Into<String>) -> &mut Diagnostic {
         self.label = shortened(&label.into()).into_owned();
@@ -125,14 +113,6 @@ impl Mistakes {
     /// Largest number of mistakes that are shown. A file with more mistakes usually repeats one mistake.
     pub const MOST_SHOWN: usize = 20;
 
-    /// Returns the first mistakes of `found`, which has the order of the file, and the number `more` of further
-    /// mistakes.
-    pub(crate) fn new(mut found: Vec<Diagnostic>, more: usize) -> Mistakes {
-        let more = more + found.len().saturating_sub(Mistakes::MOST_SHOWN);
-        found.truncate(Mistakes::MOST_SHOWN);
-        Mistakes { shown: found, more }
-    }
-
     /// Returns the number of mistakes that are not shown.
     pub fn more(&self) -> usize {
         self.more
@@ -183,4 +163,143 @@ fn group(diagnostic: &Diagnostic) -> Group<'_> {
     let notes = diagnostic.notes.iter().map(|note| Element::from(Level::NOTE.message(note.as_str())));
     let help = diagnostic.help.iter().map(|help| Element::from(Level::HELP.message(help.as_str())));
     Level::ERROR.primary_title(diagnostic.message.as_str()).element(snippet).elements(notes.chain(help))
+}
+
+/// Largest number of stored diagnostics. Further diagnostics are counted, so that a file with millions of mistakes
+/// takes little time and memory.
+const MOST_KEPT: usize = 1000;
+
+/// Collector of diagnostics about one file.
+pub(super) struct Problems {
+    source: Arc<Source>,
+    found: Vec<Diagnostic>,
+    /// Latest diagnostic that was counted but not stored.
+    last: Option<Diagnostic>,
+    only_counted: usize,
+}
+
+impl Problems {
+    pub(super) fn new(source: Arc<Source>) -> Problems {
+        Problems { source, found: Vec::new(), last: None, only_counted: 0 }
+    }
+
+    /// Returns the text of the file.
+    pub(super) fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// Returns the number of mistakes.
+    pub(super) fn count(&self) -> usize {
+        self.found.len() + self.only_counted
+    }
+
+    /// Adds the mistakes of another file.
+    pub(super) fn absorb(&mut self, other: Problems) {
+        self.only_counted += other.only_counted;
+        for diagnostic in other.found {
+            self.add(diagnostic);
+        }
+    }
+
+    /// Adds a diagnostic, and returns it for labels, notes and help.
+    pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        let source = Arc::clone(&self.source);
+        self.report_in(&source, span, message)
+    }
+
+    /// Adds a diagnostic about another file, and returns it.
+    pub(super) fn report_in(
+        &mut self,
+        source: &Arc<Source>,
+        span: Range<usize>,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        self.add(Diagnostic {
+            source: Arc::clone(source),
+            message: shortened(&message.into()).into_owned(),
+            span,
+            label: String::new(),
+            related: Vec::new(),
+            notes: Vec::new(),
+            help: Vec::new(),
+            is_only_counted: false,
+        })
+    }
+
+    /// Returns the last mistake, for more help.
+    pub(super) fn newest(&mut self) -> Option<&mut Diagnostic> {
+        self.last.as_mut().or(self.found.last_mut())
+    }
+
+    fn add(&mut self, diagnostic: Diagnostic) -> &mut Diagnostic {
+        if self.found.len() == MOST_KEPT {
+            self.only_counted += 1;
+            return self.last.insert(Diagnostic { is_only_counted: true, ..diagnostic });
+        }
+        let place = self.found.len();
+        self.found.push(diagnostic);
+        &mut self.found[place]
+    }
+
+    /// Returns the path of a file that the grid file names, relative to the folder of the grid file.
+    pub(super) fn beside(&self, path: &str) -> PathBuf {
+        Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// Returns all diagnostics: first about the file, in the order of the file, then about other files.
+    pub(super) fn into_mistakes(mut self) -> Mistakes {
+        let source = Arc::clone(&self.source);
+        self.found
+            .sort_by_key(|diagnostic| (!Arc::ptr_eq(&diagnostic.source, &source), diagnostic.span.start));
+        let more = self.only_counted + self.found.len().saturating_sub(Mistakes::MOST_SHOWN);
+        self.found.truncate(Mistakes::MOST_SHOWN);
+        Mistakes { shown: self.found, more }
+    }
+}
+
+/// Reports the errors of the TOML parser, at most one per line, because one mistake often causes several errors.
+pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems) {
+    let newlines: Vec<usize> = problems.text().match_indices('\n').map(|(newline, _)| newline).collect();
+    let mut lines = HashSet::new();
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        let line = newlines.partition_point(|newline| *newline < span.start);
+        if !lines.insert(line) {
+            continue;
+        }
+        let text = problems.text().get(span.clone()).unwrap_or_default().to_owned();
+        let (message, help) = explain(error.message(), &text);
+        let diagnostic = problems.report(span, message);
+        if let Some(help) = help {
+            diagnostic.help(help);
+        }
+    }
+}
+
+/// Returns a clearer form of the parser's message about `text`, and advice.
+///
+/// Messages without a clearer form are returned unchanged.
+fn explain(message: &str, text: &str) -> (String, Option<String>) {
+    let said = |begins: &str| message.starts_with(begins);
+    if message == "duplicate key" {
+        (format!("`{text}` is defined twice"), Some("keep one of them".into()))
+    } else if said("string values must be quoted") && text.is_empty() {
+        ("a value is missing".into(), Some("write a number, text in quotes, a list or a range".into()))
+    } else if said("string values must be quoted") {
+        (format!("`{text}` needs quotes"), Some(format!("write \"{}\"", text.escape_default())))
+    } else if said("invalid basic string, expected `\"`") || said("invalid literal string, expected `'`") {
+        ("a closing quote is missing".into(), Some("end text with the quote it begins with".into()))
+    } else if said("missing comma between array elements") {
+        let help = "put commas between the values of a list, and ] after the last";
+        (format!("not valid TOML: {message}"), Some(help.into()))
+    } else if said("unexpected key or value") {
+        let help = "start each key on a new line; numbers have a decimal point, not a comma";
+        (format!("not valid TOML: {message}"), Some(help.into()))
+    } else {
+        (format!("not valid TOML: {message}"), None)
+    }
 }

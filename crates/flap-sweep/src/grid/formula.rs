@@ -7,9 +7,8 @@ use flap_core::simulate::Column;
 use flap_core::vehicle::of_all_wings;
 
 use super::axes::Placed;
-use super::diagnostic::Diagnostic;
+use super::diagnostic::{Diagnostic, Problems};
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::notation::expression::{
@@ -209,11 +208,8 @@ pub(super) fn report<'p>(
 /// A parameter that is set, and the position of its entry in the file.
 pub(super) type Place = (usize, Range<usize>);
 
-/// An entry of the section for a parameter.
-pub(super) struct Draft<'t> {
-    pub(super) parameter: usize,
-    entry: Entry<'t>,
-}
+/// A derived parameter and its entry in the section.
+type Draft<'t> = (usize, Entry<'t>);
 
 /// Returns the parameters in the section, each with its entry.
 pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> Vec<Draft<'t>> {
@@ -224,12 +220,11 @@ pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<
         };
         if let ParameterKind::Choice(_) = parameter.kind {
             lookup
-                .problems
                 .report(entry.key_span, format!("`{}` is a choice and cannot be derived", parameter.name))
                 .help("expressions are numbers: set it under [params], or vary it under [axes]");
             continue;
         }
-        drafts.push(Draft { parameter: index, entry });
+        drafts.push((index, entry));
     }
     drafts
 }
@@ -242,7 +237,7 @@ pub(super) fn report_derived_twice(
     set: &[(&str, &[Place])],
     problems: &mut Problems,
 ) {
-    for Draft { parameter, entry } in drafts {
+    for (parameter, entry) in drafts {
         let varied = axes.iter().flat_map(|placed| placed.axis.parameters().iter().zip(&placed.keys));
         let varied = varied.filter(|((other, _), _)| other == parameter).map(|(_, key)| (key, "varied"));
         let fixed = set.iter().flat_map(|(how, set)| set.iter().map(move |(other, key)| (other, key, *how)));
@@ -261,7 +256,7 @@ pub(super) fn report_derived_twice(
 pub(super) fn read_derived(drafts: &[Draft<'_>], names: &Names<'_>, problems: &mut Problems) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
-    for Draft { parameter, entry } in drafts {
+    for (parameter, entry) in drafts {
         if let Some(expression) = read(entry, names, Kind::Number, problems) {
             formulas.push((*parameter, expression));
             entries.push(entry);

@@ -5,8 +5,8 @@ use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::diagnostic::Problems;
 use super::formula::Names;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::derivative::Per;

@@ -6,7 +6,7 @@ use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator;
 use flap_core::vehicle::{DIFFERENCE, Vehicle, of_all_wings};
 
-use super::problems::Problems;
+use super::diagnostic::{Diagnostic, Problems};
 use super::table::Entry;
 
 /// Model in which parameters are looked up, and the list of mistakes for unknown parameters.
@@ -40,10 +40,8 @@ impl<'l> Lookup<'l> {
             .filter(|other| Parameter::index(other.parameters(), name).is_some())
             .map(|other| other.name())
             .collect();
-        let diagnostic = self
-            .problems
-            .report(span, format!("model `{model}` has no parameter `{name}`"))
-            .label("unknown parameter");
+        let message = format!("model `{model}` has no parameter `{name}`");
+        let diagnostic = self.report(span, message).label("unknown parameter");
         if let Some(reason) = why_absent(known, name) {
             diagnostic.help(reason);
             return;
@@ -56,6 +54,11 @@ impl<'l> Lookup<'l> {
         if diagnostic.help.is_empty() {
             diagnostic.help("`flap models` lists the parameters of every model");
         }
+    }
+
+    /// Reports a mistake, as [`Problems::report`] does.
+    pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
+        self.problems.report(span, message)
     }
 
     /// Returns the name of parameter number `index`.

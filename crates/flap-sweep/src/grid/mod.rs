@@ -12,7 +12,6 @@ mod gradient;
 mod lookup;
 mod output;
 mod parse;
-mod problems;
 mod range;
 mod refine;
 mod resonance;

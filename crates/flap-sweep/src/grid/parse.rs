@@ -10,11 +10,10 @@ use flap_core::vehicle::of_all_wings;
 use toml::de::DeTable;
 
 use super::designs::{self, Start};
-use super::device::{Base, DeviceSource, Reader};
-use super::diagnostic::Mistakes;
+use super::device::{Base, Reader};
+use super::diagnostic::{self, Mistakes, Problems};
 use super::formula::{self, Names};
 use super::lookup::Lookup;
-use super::problems::{self, Problems};
 use super::table::{self, Entry};
 use super::vehicle::{self, VehicleSettings};
 use super::{axes, gradient, output, refine, resonance, sample, solver};
@@ -30,7 +29,7 @@ use crate::vehicle::BodyRows;
 /// # Errors
 /// The mistakes, in the order of the file. For a file that is not TOML, only syntax errors are reported.
 pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
-    plan(name, text, Reader { models, source: DeviceSource::Disk })
+    plan(name, text, Reader { models, recorded: None })
 }
 
 /// Returns the plan of a grid that was recorded with results, with the recorded devices in place of files.
@@ -43,7 +42,7 @@ pub fn parse_recorded(
     devices: &[Source],
     models: &[&'static dyn Simulator],
 ) -> Result<Plan, Mistakes> {
-    plan(name, text, Reader { models, source: DeviceSource::Recorded(devices) })
+    plan(name, text, Reader { models, recorded: Some(devices) })
 }
 
 fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
@@ -51,7 +50,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     let mut problems = Problems::new(Arc::clone(&source));
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        problems::report_syntax(&errors, &mut problems);
+        diagnostic::report_syntax(&errors, &mut problems);
         return Err(problems.into_mistakes());
     }
 
@@ -179,12 +178,12 @@ fn read_points<'n>(
             base.with_units.note(*parameter, *has_units);
         }
     }
-    for draft in &drafts {
-        base.with_units.note(draft.parameter, Some(false));
+    for (parameter, _) in &drafts {
+        base.with_units.note(*parameter, Some(false));
     }
     let moved = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
     let varied: Vec<usize> = moved.collect();
-    let derived: Vec<usize> = drafts.iter().map(|draft| draft.parameter).collect();
+    let derived: Vec<usize> = drafts.iter().map(|(parameter, _)| *parameter).collect();
     let moved = [varied.as_slice(), &derived].concat();
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();

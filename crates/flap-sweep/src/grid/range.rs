@@ -3,7 +3,7 @@
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
-use super::problems::Problems;
+use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::axes::{Axes, Values};

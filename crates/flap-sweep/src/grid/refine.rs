@@ -5,15 +5,15 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::axes::Placed;
+use super::diagnostic::Problems;
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::notation::expression;
 use crate::notation::text::count;
 use crate::plan::Output;
 use crate::plan::formula::OwnMeasure;
-use crate::plan::refine::{Error, Limit, NotRefined, Refine, not_refined};
+use crate::plan::refine::{Error, Limit, Refine, not_refined};
 use crate::table::layout::split_unit;
 
 pub(super) const KEYS: [&str; 5] = ["measure", "error", "max_points", "along", "halvings"];
@@ -37,7 +37,6 @@ pub(super) fn read(
     table::check_keys(&entries, &KEYS, "in [refine]", lookup.problems);
     if let Some(sample) = sample {
         lookup
-            .problems
             .report(section.key_span.clone(), "[refine] adds points between axes, but the grid has a sample")
             .related(sample.key_span.clone(), "the sample")
             .help("vary the parameters of the sample under [axes], or remove [refine]");
@@ -51,10 +50,7 @@ pub(super) fn read(
                 _ => "max_points = 2000",
             };
             let message = format!("[refine] lacks `{key}`");
-            lookup
-                .problems
-                .report(section.key_span.clone(), message)
-                .help(format!("write {example} under [refine]"));
+            lookup.report(section.key_span.clone(), message).help(format!("write {example} under [refine]"));
         }
     }
     let along = along(section, table::find(&entries, "along"), axes, lookup);
@@ -91,7 +87,6 @@ fn along(
     let span = listed.map_or(section.key_span.clone(), |entry| entry.value.span());
     if along.is_empty() && listed.is_none() {
         lookup
-            .problems
             .report(span, "[refine] has no axis along which it can add points")
             .note("it needs an axis of one numeric parameter, with two or more rising or falling values")
             .help("add such an axis under [axes], or remove [refine]");
@@ -101,7 +96,7 @@ fn along(
         let message =
             format!("[refine] adds points along at most {} axes, not {}", Refine::MOST_AXES, along.len());
         let help = "list fewer parameters: along = [\"drive_voltage_pp\", \"drive_frequency\"]";
-        lookup.problems.report(span, message).help(help);
+        lookup.report(span, message).help(help);
         return None;
     }
     Some(along)
@@ -111,7 +106,6 @@ fn along(
 fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> Vec<usize> {
     let Some(list) = entry.value.get_ref().as_array().filter(|list| !list.is_empty()) else {
         lookup
-            .problems
             .report(entry.value.span(), "`along` must be a list of parameters under [axes]")
             .help("remove `along` to add points along all axes of numbers");
         return Vec::new();
@@ -124,41 +118,23 @@ fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> V
         let varies = |placed: &Placed| placed.axis.parameters().iter().any(|(varied, _)| *varied == index);
         let Some(place) = axes.iter().position(varies) else {
             lookup
-                .problems
                 .report(item.span(), format!("`{name}` has no axis"))
                 .help(format!("vary `{name}` under [axes]"));
             continue;
         };
         if along.contains(&place) {
             let message = format!("`{name}` is listed twice");
-            lookup.problems.report(item.span(), message).help("keep one of them");
+            lookup.report(item.span(), message).help("keep one of them");
         }
         if let Some(reason) = not_refined(&axes[place].axis, lookup.simulator.parameters()) {
-            report_not_refined(name, item, &axes[place], reason, lookup.problems);
+            lookup
+                .report(item.span(), format!("no points can be added along `{name}`: {reason}"))
+                .related(axes[place].span.clone(), "its axis")
+                .help(format!("remove `{name}`: each of its values then gets a separate map"));
         }
         along.push(place);
     }
     along
-}
-
-fn report_not_refined(
-    name: &str,
-    item: &Spanned<DeValue<'_>>,
-    placed: &Placed,
-    reason: NotRefined,
-    problems: &mut Problems,
-) {
-    let why = match reason {
-        NotRefined::Zip => "it varies together with other parameters",
-        NotRefined::Choice => "its values are options",
-        NotRefined::Whole => "its values are whole numbers",
-        NotRefined::Order => "its axis needs two or more values that rise or fall",
-        NotRefined::Sample => "it is sampled",
-    };
-    problems
-        .report(item.span(), format!("no points can be added along `{name}`: {why}"))
-        .related(placed.span.clone(), "its axis")
-        .help(format!("remove `{name}`: each of its values then gets a separate map"));
 }
 
 /// Returns the largest number of points, which must be more than the axes have.
@@ -182,7 +158,7 @@ fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<
         DeValue::String(_) => vec![entry.value],
         _ => {
             let message = "`measure` must be the name of a measure, or a list of names";
-            lookup.problems.report(entry.value.span(), message);
+            lookup.report(entry.value.span(), message);
             return Vec::new();
         }
     };
@@ -191,7 +167,7 @@ fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<
         let Some(name) = value::text("measure", item, lookup.problems) else { continue };
         if names.iter().any(|known| known == name) {
             let message = format!("`{name}` is listed twice");
-            lookup.problems.report(item.span(), message).help("keep one of them");
+            lookup.report(item.span(), message).help("keep one of them");
         }
         check_measure(name, item, rows, lookup);
         names.push(name.to_owned());

@@ -4,7 +4,7 @@ use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::problems::Problems;
+use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Value;

@@ -9,8 +9,8 @@ use toml::de::DeInteger;
 
 use super::axes::{self, Placed};
 use super::device::Base;
+use super::diagnostic::Problems;
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::axes::{Axis, Values};
@@ -38,7 +38,6 @@ pub(super) fn read(
     let Some(method) = table::find(&entries, "method") else {
         let methods = METHODS.map(|method| format!("\"{method}\"")).join(", ");
         lookup
-            .problems
             .report(section.key_span.clone(), "the sample has no `method`")
             .note(format!("methods: {methods}"))
             .help("start with `method = \"sobol\"`, `n`, and the parameters under [sample.parameters]");
@@ -64,7 +63,7 @@ pub(super) fn read(
     let parameters = below.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default();
     if parameters.is_empty() {
         let place = below.unwrap_or(section).key_span.clone();
-        let diagnostic = lookup.problems.report(place, "the sample has no parameters").help(
+        let diagnostic = lookup.report(place, "the sample has no parameters").help(
             "list them under [sample.parameters]: wing_area = { from = \"50 mm^2\", to = \"60 mm^2\" }",
         );
         if below.is_some() {
@@ -78,7 +77,7 @@ pub(super) fn read(
         .collect();
     if let Some((.., entry)) = found.get(Design::MAX_DIMENSIONS) {
         let most = Design::MAX_DIMENSIONS;
-        lookup.problems.report(entry.key_span.clone(), format!("a sample has at most {most} parameters"));
+        lookup.report(entry.key_span.clone(), format!("a sample has at most {most} parameters"));
         return None;
     }
     let design = Arc::new(Design::new(method, seed.unwrap_or(0), count.unwrap_or(1), found.len()));
@@ -112,7 +111,6 @@ fn of_device(
     value::option("of", &OF, of.value, lookup.problems)?;
     if let Some(below) = below {
         lookup
-            .problems
             .report(below.key_span.clone(), "a sample is of the device or of parameters, not of both")
             .related(of.key_span.clone(), "of the device")
             .help("keep one of them");
@@ -120,7 +118,6 @@ fn of_device(
     }
     if let Robot::Designs(_) = base.robot {
         lookup
-            .problems
             .report(of.value.span(), "a sample draws builds of one device, but the grid has several designs")
             .help("write a grid file for each device");
         return None;
@@ -137,7 +134,7 @@ fn of_device(
                 "leave out standard errors with little effect",
             )
         };
-        lookup.problems.report(of.value.span(), message).help(help);
+        lookup.report(of.value.span(), message).help(help);
         return None;
     }
     // Contradicting correlations are reported at their positions.

@@ -5,8 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::problems::Problems;
-use crate::grid::diagnostic::Diagnostic;
+use super::diagnostic::{Diagnostic, Problems};
 
 /// Keys at the top of a grid file.
 pub(super) const KEYS: [&str; 17] = [

@@ -4,8 +4,8 @@ use flap_core::parameter::{Kind, Parameter};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::diagnostic::Problems;
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::uncertainty::{Correlation, Uncertainty};
@@ -113,9 +113,7 @@ pub(super) fn correlations(
         }
     }
     if lookup.problems.count() == before && uncertainty.factor().is_none() {
-        lookup
-            .problems
-            .report(entry.key_span.clone(), "the correlations contradict each other")
+        lookup.report(entry.key_span.clone(), "the correlations contradict each other")
             .note("no parameters can have all these correlations at once: the correlation matrix is not positive definite")
             .help("take all correlations from one fit, with enough digits");
     }
@@ -144,7 +142,7 @@ fn correlation(
     else {
         let message = "a correlation has two parameters and a coefficient";
         let help = "write between = [\"hinge_stiffness\", \"wing_area\"] and coefficient = 0.4";
-        lookup.problems.report(place.span(), message).help(help);
+        lookup.report(place.span(), message).help(help);
         return None;
     };
     let number = value::number("coefficient", coefficient.value, lookup.problems);
@@ -152,13 +150,13 @@ fn correlation(
     let number = number?;
     if number.abs() >= 1.0 {
         let message = format!("`coefficient` must be between -1 and 1, not {}", value::shown(number));
-        lookup.problems.report(coefficient.value.span(), message);
+        lookup.report(coefficient.value.span(), message);
         return None;
     }
     let [one, other] = pair;
     if earlier.contains(&pair) || earlier.contains(&[other, one]) {
         let message = "the correlation of these two parameters is given twice";
-        lookup.problems.report(between.value.span(), message).help("remove one of them");
+        lookup.report(between.value.span(), message).help("remove one of them");
         return None;
     }
     uncertainty.correlate(Correlation { between: pair, coefficient: number });
@@ -170,7 +168,6 @@ fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -
     let names = entry.value.get_ref().as_array().filter(|names| names.len() == 2);
     let Some(names) = names else {
         lookup
-            .problems
             .report(entry.value.span(), "`between` must be a list of two parameters")
             .help("write between = [\"hinge_stiffness\", \"wing_area\"]");
         return None;
@@ -181,7 +178,6 @@ fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -
         let (index, parameter) = lookup.named(text, name.span())?;
         if uncertainty.error(index).is_none() {
             lookup
-                .problems
                 .report(name.span(), format!("`{}` has no standard error", parameter.name))
                 .help(format!("write {} = {{ value = ..., sd = ... }} under [params]", parameter.name));
             return None;
@@ -189,7 +185,7 @@ fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -
         pair.push(index);
     }
     if pair[0] == pair[1] {
-        lookup.problems.report(entry.value.span(), "`between` names one parameter twice");
+        lookup.report(entry.value.span(), "`between` names one parameter twice");
         return None;
     }
     Some([pair[0], pair[1]])

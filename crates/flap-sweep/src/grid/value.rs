@@ -6,7 +6,7 @@ use flap_core::parameter::{Kind, Parameter};
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
-use super::problems::Problems;
+use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use crate::notation::units::{self, UnitError, UnitProblem};
 use crate::notation::value::{self, UnitOf, ValueError};

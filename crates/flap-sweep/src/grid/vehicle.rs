@@ -12,8 +12,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::device::{Base, Reader};
+use super::diagnostic::Problems;
 use super::lookup::Lookup;
-use super::problems::Problems;
 use super::table::{self, Entry};
 use super::{uncertainty, value};
 use crate::plan::{Robot, Value};

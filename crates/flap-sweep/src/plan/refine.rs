@@ -50,39 +50,27 @@ pub enum Error {
     Absolute(f64),
 }
 
-/// Reason why points cannot be added along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotRefined {
-    /// The axis varies several parameters together.
-    Zip,
-    /// The values of the axis are options.
-    Choice,
-    /// The values of the axis are whole numbers.
-    Whole,
-    /// The values of the axis do not form intervals: there is only one value, or the values neither rise nor fall.
-    Order,
-    /// The axis is a sample.
-    Sample,
-}
-
-/// Returns the reason why points cannot be added along an axis; `None` if points can be added.
-pub fn not_refined(axis: &Axis, parameters: &[Parameter<'_>]) -> Option<NotRefined> {
-    let [(parameter, values)] = axis.parameters() else { return Some(NotRefined::Zip) };
+/// Returns the reason why no points can be added along an axis, in words; `None` if points can be added.
+pub fn not_refined(axis: &Axis, parameters: &[Parameter<'_>]) -> Option<&'static str> {
+    const ORDER: &str = "its axis needs two or more values that rise or fall";
+    let [(parameter, values)] = axis.parameters() else {
+        return Some("it varies together with other parameters");
+    };
     match parameters[*parameter].kind {
-        Kind::Choice(_) => return Some(NotRefined::Choice),
+        Kind::Choice(_) => return Some("its values are options"),
         Kind::Number(Range::Whole(..)) | Kind::Following(Range::Whole(..), _) => {
-            return Some(NotRefined::Whole);
+            return Some("its values are whole numbers");
         }
         Kind::Number(_) | Kind::Following(..) => {}
     }
     match values {
-        Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_) => Some(NotRefined::Sample),
+        Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_) => Some("it is sampled"),
         Values::List(list) => {
             let ordered = list.is_sorted_by(|a, b| a < b) || list.is_sorted_by(|a, b| a > b);
-            (list.len() < 2 || !ordered).then_some(NotRefined::Order)
+            (list.len() < 2 || !ordered).then_some(ORDER)
         }
         Values::Linear { .. } | Values::Step { .. } | Values::Log { .. } => {
-            (values.len() < 2).then_some(NotRefined::Order)
+            (values.len() < 2).then_some(ORDER)
         }
     }
 }

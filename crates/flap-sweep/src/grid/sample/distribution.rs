@@ -3,7 +3,7 @@
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
 
-use crate::grid::problems::Problems;
+use crate::grid::diagnostic::Problems;
 use crate::grid::table::{self, Entry};
 use crate::grid::{axes, value};
 use crate::plan::Value;

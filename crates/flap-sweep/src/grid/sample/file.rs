@@ -30,7 +30,6 @@ pub(super) fn read(
 ) -> Option<(Placed, PointsFile)> {
     let Some(entry) = table::find(entries, "path") else {
         lookup
-            .problems
             .report(section.key_span.clone(), "the sample has no `path`")
             .help("name the file of points: write `path = \"points.csv\"`");
         return None;
@@ -41,7 +40,6 @@ pub(super) fn read(
         Ok(text) => text,
         Err(reason) => {
             lookup
-                .problems
                 .report(entry.value.span(), format!("{}: {reason}", path.display()))
                 .note("the path is relative to the folder of the grid file");
             return None;
@@ -54,7 +52,7 @@ pub(super) fn read(
     let with_units = columns.iter().map(|(.., has_unit)| Some(*has_unit)).collect();
     let axis = Axis::new(columns.into_iter().map(|(index, values, _)| (index, values)).collect());
     if is_sound && axis.is_empty() {
-        lookup.problems.report(entry.value.span(), format!("{}: the file has no points", path.display()));
+        lookup.report(entry.value.span(), format!("{}: the file has no points", path.display()));
     }
     Some((Placed { axis, span: section.key_span.clone(), keys, with_units }, file))
 }
