@@ -24,18 +24,8 @@ pub struct Layout<'p> {
     pub varied: Vec<(usize, &'p Parameter<'p>)>,
     /// Followed parameter, if the plan follows a parameter.
     pub followed: Option<&'p Parameter<'p>>,
-    /// Columns after `status`.
-    behind: Vec<Behind>,
-}
-
-/// A column after `status`.
-#[derive(Clone, Debug)]
-enum Behind {
-    Measure(Measure),
-    /// A column about the run.
-    Run(&'static Fixed),
-    /// A component of the state at the beginning of the motion's period, with the index of the component.
-    State(usize, String),
+    /// Columns, from left to right.
+    entries: Vec<Entry<'p>>,
 }
 
 /// Position of a motion on a curve.
@@ -81,7 +71,7 @@ impl<'p> Layout<'p> {
     /// Returns the columns of `plan`.
     pub fn of(plan: &'p Plan) -> Layout<'p> {
         let parameters = plan.parameters();
-        let varied = plan.differing().map(|index| (index, &parameters[index])).collect();
+        let varied: Vec<_> = plan.differing().map(|index| (index, &parameters[index])).collect();
         let columns = plan.rows().columns();
         let models = columns
             .iter()
@@ -91,39 +81,44 @@ impl<'p> Layout<'p> {
             Column::new(&own.name, "", kind, "measure of the table [measure] in the grid file")
         });
         let measures = models.chain(own).enumerate();
-        let measures = measures.map(|(index, column)| Behind::Measure(Measure { index, column }));
-        let measures: Vec<Behind> = measures.collect();
+        let measures = measures.map(|(index, column)| Entry::Measure(Measure { index, column }));
+        let measures: Vec<Entry<'p>> = measures.collect();
         let derivatives = derivatives(plan, measures.len());
-        let run = RUN.iter().map(Behind::Run);
-        let mut behind: Vec<Behind> = match &plan.output().columns {
-            Some(chosen) => {
-                let all: Vec<Behind> = measures.into_iter().chain(run).collect();
-                chosen.iter().map(|&index| all[index].clone()).chain(derivatives).collect()
-            }
-            None => measures.into_iter().chain(derivatives).chain(run).collect(),
-        };
-        behind
-            .extend(plan.states().iter().enumerate().map(|(place, name)| Behind::State(place, name.clone())));
+        let run = RUN.iter().map(Entry::Fixed);
         let followed = plan.followed().map(|along| &parameters[along.parameter]);
-        Layout { varied, followed, behind }
+        let mut entries = vec![Entry::Fixed(if followed.is_some() { &CURVE } else { &POINT })];
+        entries.extend(varied.iter().map(|&(index, parameter)| Entry::Parameter(index, parameter)));
+        entries
+            .extend(followed.into_iter().flat_map(|parameter| [Entry::Branch, Entry::Followed(parameter)]));
+        entries.push(Entry::Fixed(&STATUS));
+        entries.extend(followed.map(|_| Entry::Bistable));
+        match &plan.output().columns {
+            Some(chosen) => {
+                let all: Vec<Entry<'p>> = measures.into_iter().chain(run).collect();
+                entries.extend(chosen.iter().map(|&index| all[index].clone()).chain(derivatives));
+            }
+            None => entries.extend(measures.into_iter().chain(derivatives).chain(run)),
+        }
+        entries.extend(plan.states().iter().enumerate().map(|(place, name)| Entry::State(place, name)));
+        Layout { varied, followed, entries }
     }
 
     /// Returns the selected measures.
     pub fn measures(&self) -> impl Iterator<Item = &Measure> {
-        self.behind.iter().filter_map(|behind| match behind {
-            Behind::Measure(measure) => Some(measure),
-            Behind::Run(_) | Behind::State(..) => None,
+        self.entries.iter().filter_map(|entry| match entry {
+            Entry::Measure(measure) => Some(measure),
+            _ => None,
         })
     }
 
     /// Returns true if rows have a column with the given name.
     pub fn has(&self, name: &str) -> bool {
-        self.entries().any(|entry| entry.column().name == name)
+        self.entries.iter().any(|entry| entry.column().name == name)
     }
 
     /// Returns the columns, from left to right.
     pub fn columns(&self) -> Vec<Column> {
-        self.entries().map(|entry| entry.column()).collect()
+        self.entries.iter().map(Entry::column).collect()
     }
 
     /// Returns the column names.
@@ -142,33 +137,12 @@ impl<'p> Layout<'p> {
 
     /// Returns the cells of a motion on a curve of the design `point`, in the form of [`Layout::cells`].
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'p>> {
-        // `curve` or `point`, `branch`, the followed parameter, `status`, and `bistable`.
-        let mut cells = Vec::with_capacity(5 + self.varied.len() + self.behind.len());
-        cells.extend(self.entries().map(|entry| entry.cell(point, place, row)));
-        cells
-    }
-
-    /// Returns the columns with their cells.
-    fn entries(&self) -> impl Iterator<Item = Entry<'_, 'p>> {
-        let first = if self.followed.is_some() { &CURVE } else { &POINT };
-        let followed =
-            self.followed.into_iter().flat_map(|parameter| [Entry::Branch, Entry::Followed(parameter)]);
-        [Entry::Fixed(first)]
-            .into_iter()
-            .chain(self.varied.iter().map(|&(index, parameter)| Entry::Parameter(index, parameter)))
-            .chain(followed)
-            .chain([Entry::Fixed(&STATUS)])
-            .chain(self.followed.map(|_| Entry::Bistable))
-            .chain(self.behind.iter().map(|behind| match behind {
-                Behind::Measure(measure) => Entry::Measure(measure),
-                Behind::Run(fixed) => Entry::Fixed(fixed),
-                Behind::State(place, name) => Entry::State(*place, name),
-            }))
+        self.entries.iter().map(|entry| entry.cell(point, place, row)).collect()
     }
 }
 
 /// Returns the columns of derivatives, which follow `before` measures in a row.
-fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
+fn derivatives(plan: &Plan, before: usize) -> Vec<Entry<'_>> {
     let Some(gradient) = plan.gradient() else { return Vec::new() };
     let models = plan.rows().columns();
     let name = |of: usize| match of.checked_sub(models.len()) {
@@ -182,7 +156,7 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Behind> {
         Column::new(&column_name(of, by.name, gradient.per), per, CellKind::Number, &doc)
     });
     let columns = columns.chain([gradient_gap()]).enumerate();
-    columns.map(|(place, column)| Behind::Measure(Measure { index: before + place, column })).collect()
+    columns.map(|(place, column)| Entry::Measure(Measure { index: before + place, column })).collect()
 }
 
 /// Returns the column with the reasons for missing derivatives of a row.
@@ -236,7 +210,8 @@ pub fn special_columns() -> [Column; 3] {
 }
 
 /// A column of a layout.
-enum Entry<'l, 'p> {
+#[derive(Clone, Debug)]
+enum Entry<'p> {
     Fixed(&'static Fixed),
     /// A varied or derived parameter, with its index in the model's table.
     Parameter(usize, &'p Parameter<'p>),
@@ -246,12 +221,12 @@ enum Entry<'l, 'p> {
     Followed(&'p Parameter<'p>),
     /// Flag that is true where a curve is bistable.
     Bistable,
-    Measure(&'l Measure),
+    Measure(Measure),
     /// A component of the state at the beginning of the motion's period, with the index of the component.
-    State(usize, &'l str),
+    State(usize, &'p str),
 }
 
-impl<'p> Entry<'_, 'p> {
+impl<'p> Entry<'p> {
     fn column(&self) -> Column {
         match self {
             Entry::Fixed(Fixed { name, kind, doc, .. }) => Column::new(name, "", *kind, doc),
