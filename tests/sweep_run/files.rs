@@ -20,9 +20,9 @@ fn an_existing_file_is_kept_unless_asked() {
     let error = create(&path, false).unwrap_err();
     assert!(matches!(error, CreateError::Exists { .. }), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), "precious");
-    let file = create(&path, true).unwrap();
+    let (file, _lock) = create(&path, true).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "precious", "kept until it is emptied");
-    empty(&file.file).unwrap();
+    empty(&file).unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap(), "");
 }
 

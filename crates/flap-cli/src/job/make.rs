@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use flap_sweep::files::disk;
-use flap_sweep::files::output::{self, ResultFile};
+use flap_sweep::files::output;
 use flap_sweep::files::sidecar::Sidecar;
 
 use crate::console;
@@ -20,7 +20,7 @@ pub(crate) fn make<E: From<io::Error>>(
     write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,
 ) -> Result<Result<(), E>, Failure> {
     // Reserves the name while the rows are written beside it.
-    let ResultFile { file, lock } = output::create(results, overwrite)?;
+    let (file, lock) = output::create(results, overwrite)?;
     let Some(lock) = lock else {
         // A device or a pipe is written directly.
         return Ok(write(file).map(drop));

@@ -1,8 +1,7 @@
 //! Rows as comma-separated values.
 
-use std::io;
+use std::io::{self, Write};
 
-use crate::files::disk::Durable;
 use crate::run::Sink;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
@@ -11,12 +10,12 @@ use crate::table::lines::Lines;
 ///
 /// Numbers are written by [`crate::notation::text::float`], choices by the name of their option. The cell of an
 /// unknown value is empty.
-pub struct CsvSink<W: Durable> {
+pub struct CsvSink<W: Write> {
     names: Vec<String>,
     lines: Lines<W>,
 }
 
-impl<W: Durable> CsvSink<W> {
+impl<W: Write> CsvSink<W> {
     /// Returns a sink that writes to `target` rows with the columns `names`.
     pub fn new(names: Vec<String>, target: W) -> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
@@ -28,7 +27,7 @@ impl<W: Durable> CsvSink<W> {
     }
 }
 
-impl<W: Durable> Sink for CsvSink<W> {
+impl<W: Write> Sink for CsvSink<W> {
     fn begin(&mut self) -> io::Result<()> {
         self.lines.texts(&self.names)
     }
@@ -42,8 +41,7 @@ impl<W: Durable> Sink for CsvSink<W> {
     }
 
     fn finish(&mut self) -> io::Result<()> {
-        self.lines.flush()?;
-        self.lines.target().sync()
+        self.lines.flush()
     }
 }
 

@@ -1,36 +1,21 @@
 //! Operations that make files durable, replace files as a whole, compare files, and remove files.
 
 use std::fs::{self, File};
-use std::io::{self, Stdout, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use atomic_write_file::AtomicWriteFile;
 
 use crate::system;
 
-/// A target for writing that can be made durable.
-pub trait Durable: Write {
-    /// Waits until the written bytes would survive a crash of the machine.
-    ///
-    /// By default, the method does nothing. The default is for targets that a crash cannot damage.
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    fn sync(&self) -> io::Result<()> {
-        Ok(())
-    }
+/// Waits until the written bytes would survive a crash of the machine. Does nothing for devices and pipes, which may not
+/// support synchronisation and cannot lose data.
+///
+/// # Errors
+/// The error of the operating system.
+pub(crate) fn sync(file: &File) -> io::Result<()> {
+    if file.metadata()?.is_file() { file.sync_all() } else { Ok(()) }
 }
-
-impl Durable for File {
-    fn sync(&self) -> io::Result<()> {
-        // Devices and pipes may not support synchronisation, and cannot lose data.
-        if self.metadata()?.is_file() { self.sync_all() } else { Ok(()) }
-    }
-}
-
-impl Durable for Stdout {}
-
-impl Durable for Vec<u8> {}
 
 /// A file that gets its name, in place of an earlier file, when the file is complete and durable.
 ///

@@ -117,12 +117,6 @@ fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     T::deserialize(ValueDeserializer::parse(contents).ok()?).ok()
 }
 
-fn line(contents: &impl Serialize) -> io::Result<String> {
-    let mut text = String::new();
-    contents.serialize(ValueSerializer::new(&mut text)).map_err(io::Error::other)?;
-    Ok(format!("{} {text}\n", text::hash(&text)))
-}
-
 /// A journal that is open for writing.
 #[derive(Debug)]
 pub struct Journal(File);
@@ -160,7 +154,9 @@ impl Journal {
     }
 
     fn add_line(&mut self, contents: &impl Serialize) -> io::Result<()> {
-        self.0.write_all(line(contents)?.as_bytes())?;
+        let mut text = String::new();
+        contents.serialize(ValueSerializer::new(&mut text)).map_err(io::Error::other)?;
+        self.0.write_all(format!("{} {text}\n", text::hash(&text)).as_bytes())?;
         self.0.sync_data()
     }
 }

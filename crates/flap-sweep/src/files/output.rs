@@ -50,16 +50,9 @@ impl CreateError {
     }
 }
 
-/// An open result file, and its lock.
-#[derive(Debug)]
-pub struct ResultFile {
-    /// The file.
-    pub file: File,
-    /// Lock against other runs that write to the file; `None` for a device or a pipe.
-    pub lock: Option<Lock>,
-}
-
 /// Opens a result file for writing from its beginning.
+///
+/// Returns the file, and its lock against other runs that write to the file; `None` for a device or a pipe.
 ///
 /// A file with contents is an error. If `overwrite` is true, the file is opened and the contents are kept. The lock of
 /// the file keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
@@ -71,11 +64,11 @@ pub struct ResultFile {
 ///   lock file. If `overwrite` is true, a sidecar is allowed, and a file of another program with its name is not
 /// - [`CreateError::Busy`] if another run has locked it
 /// - [`CreateError::Io`] if it cannot be opened
-pub fn create(path: &Path, overwrite: bool) -> Result<ResultFile, CreateError> {
+pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {
     let refused = CreateError::io(path);
     let open = || OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(&refused);
     if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
-        return Ok(ResultFile { file: open()?, lock: None });
+        return Ok((open()?, None));
     }
     let lock = lock(path)?;
     if overwrite {
@@ -89,7 +82,7 @@ pub fn create(path: &Path, overwrite: bool) -> Result<ResultFile, CreateError> {
         let is_begun = |sidecar: Sidecar| path.exists() && sidecar.state == State::Running;
         check_sidecar(path, Sidecar::read(&sidecar_of(path)).is_ok_and(is_begun))?;
     }
-    Ok(ResultFile { file: open()?, lock: Some(lock) })
+    Ok((open()?, Some(lock)))
 }
 
 /// Checks that there is no sidecar, or that the sidecar `may` be replaced.

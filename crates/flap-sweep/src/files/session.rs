@@ -165,8 +165,9 @@ impl Session {
         summed.map_err(refused)?;
         let rows = TextRows::after(rows_file, format, (hash, bytes), text).map_err(refused)?;
         let mut session = Session::new(results, (path, format), rows, plan, options, journal);
-        session.add_seconds(checkpoint.seconds);
-        session.earlier = Some((rows_path, session.text_format(), bytes));
+        session.seconds_before += checkpoint.seconds;
+        let text_format = if format.is_columnar() { Format::CsvZstd } else { format };
+        session.earlier = Some((rows_path, text_format, bytes));
         Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, lock })
     }
 
@@ -196,16 +197,6 @@ impl Session {
         }
     }
 
-    /// Adds the running time of earlier sessions.
-    fn add_seconds(&mut self, seconds: f64) {
-        self.seconds_before += seconds;
-    }
-
-    /// Returns the format of the file that contains unfinished rows.
-    fn text_format(&self) -> Format {
-        if self.format.is_columnar() { Format::CsvZstd } else { self.format }
-    }
-
     /// Writes all rows of the complete results at `path`, which belong to the same plan, as the first rows. `summary`
     /// counts the copied rows.
     ///
@@ -219,7 +210,7 @@ impl Session {
         while reader.next(&mut row)? {
             self.rows.row(&row)?;
         }
-        self.add_seconds(seconds);
+        self.seconds_before += seconds;
         self.earlier = Some((path.to_owned(), format, u64::MAX));
         if self.rows.may_be_cut() { self.note(summary) } else { Ok(()) }
     }

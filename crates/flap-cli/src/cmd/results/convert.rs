@@ -4,9 +4,7 @@ use std::io::ErrorKind;
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::integrity::Note;
-use flap_sweep::files::results::{
-    Checksums, ConvertError, Converted, Format, Provenance, RowCheck, RowsError, convert,
-};
+use flap_sweep::files::results::{Checksums, ConvertError, Format, Provenance, RowCheck, RowsError, convert};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::notation::text::count;
 
@@ -33,9 +31,9 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     }
     let mut rows = 0;
     let made = job::make(&args.to, args.overwrite.force, |target| {
-        let converted = convert(&mut source.reader, (target, to), &provenance, check)?;
-        rows = converted.rows;
-        note(&mut sidecar, converted, is_damaged);
+        let (written, checksums) = convert(&mut source.reader, (target, to), &provenance, check)?;
+        rows = written;
+        note(&mut sidecar, written, checksums, is_damaged);
         Ok::<_, ConvertError>(Some(sidecar))
     });
     made?.map_err(|error| failure(args, &error))?;
@@ -45,15 +43,15 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
 }
 
 /// Records the number and the checksums of the written rows in the sidecar.
-fn note(sidecar: &mut Sidecar, written: Converted, is_damaged: bool) {
+fn note(sidecar: &mut Sidecar, rows: u64, checksums: Checksums, is_damaged: bool) {
     if is_damaged {
         // Damaged rows remain damaged in another format: the checksums are for the rows that were computed.
         sidecar.checksums = sidecar.checksums.take().map(|computed| Checksums { file: None, ..computed });
         return;
     }
-    sidecar.checksums = Some(written.checksums);
+    sidecar.checksums = Some(checksums);
     if let Some(summary) = &mut sidecar.summary {
-        summary.rows = written.rows;
+        summary.rows = rows;
     }
 }
 

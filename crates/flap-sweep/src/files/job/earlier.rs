@@ -108,7 +108,10 @@ impl<'a> Job<'a> {
             let changed = self.changed_line(sidecar);
             return Err(JobError::Exists { path: self.out.clone(), changes, changed });
         }
-        sound(rows, sidecar)
+        let format = Format::of(rows)?;
+        integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
+        let all_periodic = sidecar.summary.as_ref().is_some_and(Summary::all_periodic);
+        Ok(Begun::Complete { all_periodic })
     }
 
     /// Returns true if these complete results contain the points of the axes only, although the grid is refined.
@@ -142,15 +145,6 @@ impl<'a> Job<'a> {
         Ok(Writing { lost: Some(0), locks, ..self.writing(target, before) }.into())
     }
 
-    /// Returns true if this build on this machine can continue the sweep of the unfinished results at `place` from
-    /// their sidecar.
-    fn continues(&self, place: &Path) -> bool {
-        let own = self.identity();
-        let past = journal::read(&journal_of(place)).ok().flatten().map(|past| past.header.identity);
-        let sidecar = Sidecar::read(&sidecar_of(place)).ok().map(|sidecar| sidecar.identity);
-        past == sidecar && past.is_some_and(|past| past.is_by_program_of(&own))
-    }
-
     /// Returns the identity of the job's rows.
     fn identity(&self) -> Identity {
         Identity::of(self.plan, &self.options.run)
@@ -158,16 +152,14 @@ impl<'a> Job<'a> {
 
     /// Returns the error, with the first changed line of the grid file.
     fn cannot_resume(&self, place: &Path, error: ResumeError) -> JobError {
-        let changed = self.changed_since(place, matches!(error, ResumeError::Changed { .. }));
-        JobError::Resume { error, changed, continues: self.continues(place) }
-    }
-
-    /// Returns the first line of the grid file that has changed since the results at `place` were begun, in words.
-    ///
-    /// `None` if the unfinished results are not rows of the kind `other`.
-    fn changed_since(&self, place: &Path, other: bool) -> Option<String> {
-        let before = Sidecar::read(&sidecar_of(place)).ok().filter(|_| other)?;
-        self.changed_line(&before)
+        let sidecar = Sidecar::read(&sidecar_of(place)).ok();
+        let before = sidecar.as_ref().filter(|_| matches!(error, ResumeError::Changed { .. }));
+        let changed = before.and_then(|before| self.changed_line(before));
+        let past = journal::read(&journal_of(place)).ok().flatten().map(|past| past.header.identity);
+        // This build on this machine can continue the sweep of the unfinished results from their sidecar.
+        let continues = past == sidecar.map(|sidecar| sidecar.identity)
+            && past.is_some_and(|past| past.is_by_program_of(&self.identity()));
+        JobError::Resume { error, changed, continues }
     }
 
     /// Returns the first line of the grid file that differs from the sidecar's grid, in words.
@@ -183,14 +175,6 @@ impl<'a> Job<'a> {
 fn has_checkpoint(place: &Path) -> bool {
     let past = journal::read(&journal_of(place)).ok().flatten();
     past.is_some_and(|past| !past.checkpoints.is_empty())
-}
-
-/// Ends the job if the results at `rows` contain the rows of this job and are undamaged.
-fn sound<'b>(rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
-    let format = Format::of(rows)?;
-    integrity::check(rows, format, sidecar, OnDamage::Refuse).map_err(JobError::Open)?;
-    let all_periodic = sidecar.summary.as_ref().is_some_and(Summary::all_periodic);
-    Ok(Begun::Complete { all_periodic })
 }
 
 /// Returns the first line that differs in the file called `name`, in words.

@@ -12,7 +12,7 @@ use super::beside::sidecar_of;
 use super::csv_sink::CsvSink;
 use super::inputs::{Inputs, Overlap};
 use super::integrity::OpenError;
-use super::output::{self, CreateError, Lock, ResultFile};
+use super::output::{self, CreateError, Lock};
 pub use super::replacement::{to_resume, unfinished};
 use super::results::{Format, FormatError};
 use super::session::{ResumeError, Session, SessionOptions};
@@ -118,7 +118,7 @@ impl<'a> Job<'a> {
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let overwrite = self.begin == Begin::Restart;
-        let ResultFile { file, lock } = output::create(&self.out, overwrite)?;
+        let (file, lock) = output::create(&self.out, overwrite)?;
         let Some(lock) = lock else {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
             return Ok(self.writing(Target::Stream(sink), Summary::default()).into());
@@ -143,14 +143,14 @@ impl<'a> Job<'a> {
     /// results. Adds the lock of the file to `locks`.
     fn start_beside(&self, format: Format, locks: &mut Vec<Lock>) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
-        let created = output::create(&new, false).map_err(|error| match error {
+        let (file, lock) = output::create(&new, false).map_err(|error| match error {
             CreateError::Exists(path) | CreateError::Unfinished(path) => {
                 CreateError::InTheWay { path, results: self.out.clone() }
             }
             error => error,
         })?;
-        locks.extend(created.lock);
-        self.start_at((&new, format), created.file, true)
+        locks.extend(lock);
+        self.start_at((&new, format), file, true)
     }
 
     /// Begins with the empty `file` at `place`. If the file `replaces` earlier results, it gets the name of the results

@@ -24,4 +24,4 @@ pub(crate) use row_check::Checked;
 pub use row_check::{RowCheck, RowError, RowsError};
 pub use text::TextRows;
 pub(crate) use text::text_sum;
-pub use write::{ConvertError, Converted, Writer, convert};
+pub use write::{ConvertError, Writer, convert};

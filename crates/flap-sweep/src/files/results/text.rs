@@ -31,7 +31,7 @@ impl TextRows {
     /// # Errors
     /// [`io::ErrorKind::Other`] if there is not enough memory for the compressor.
     pub fn new(file: File, format: Format) -> io::Result<TextRows> {
-        TextRows::on(Hashed::new(file), format, TextDigest::new())
+        TextRows::after(file, format, (Xxh3Default::new(), 0), TextDigest::new())
     }
 
     /// Returns a writer that continues after `bytes` bytes of `file`, which have the hash `hash` and contain the rows
@@ -44,14 +44,13 @@ impl TextRows {
         (hash, bytes): (Xxh3Default, u64),
         text: TextDigest,
     ) -> io::Result<TextRows> {
-        TextRows::on(Hashed::after(file, hash, bytes), format, text)
-    }
-
-    fn on(file: Hashed, format: Format, text: TextDigest) -> io::Result<TextRows> {
-        let compressor = match format {
+        let mut compressor = match format {
             Format::Csv => None,
-            Format::CsvZstd | Format::Parquet => Some(compressor()?),
+            Format::CsvZstd | Format::Parquet => Some(zstd::bulk::Compressor::new(LEVEL)?),
         };
+        // Frames end in a checksum, so that any reader detects damage.
+        compressor.as_mut().map_or(Ok(()), |compressor| compressor.include_checksum(true))?;
+        let file = Hashed { file, hash, bytes };
         let frames = Frames { file, compressor, frame: Vec::new(), text };
         Ok(TextRows { lines: Lines::new(frames), rows_in_block: 0 })
     }
@@ -147,13 +146,6 @@ struct Frames {
     text: TextDigest,
 }
 
-/// Returns a compressor whose frames end in a checksum, so that any reader detects damage.
-fn compressor() -> io::Result<zstd::bulk::Compressor<'static>> {
-    let mut compressor = zstd::bulk::Compressor::new(LEVEL)?;
-    compressor.include_checksum(true)?;
-    Ok(compressor)
-}
-
 impl Write for Frames {
     fn write(&mut self, text: &[u8]) -> io::Result<usize> {
         if self.compressor.is_some() {
@@ -210,12 +202,7 @@ pub(super) struct Hashed {
 impl Hashed {
     /// Returns an empty file.
     pub(super) fn new(file: File) -> Hashed {
-        Hashed::after(file, Xxh3Default::new(), 0)
-    }
-
-    /// Returns a file that already contains `bytes` bytes with the hash `hash`.
-    pub(super) fn after(file: File, hash: Xxh3Default, bytes: u64) -> Hashed {
-        Hashed { file, hash, bytes }
+        Hashed { file, hash: Xxh3Default::new(), bytes: 0 }
     }
 
     /// Returns number and checksum of the bytes in the file.

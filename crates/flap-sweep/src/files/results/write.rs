@@ -6,7 +6,7 @@ use std::io;
 use csv::StringRecord;
 
 use super::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, TextRows};
-use crate::files::disk::Durable as _;
+use crate::files::disk;
 
 /// Writer of rows as text to a file of any format.
 pub struct Writer(Rows);
@@ -58,7 +58,7 @@ impl Writer {
         match self.0 {
             Rows::Text(mut rows) => {
                 rows.finish()?;
-                rows.file().sync()?;
+                disk::sync(rows.file())?;
                 Ok(rows.checksums(None))
             }
             #[cfg(feature = "parquet")]
@@ -78,17 +78,8 @@ pub enum ConvertError {
     Write(#[from] io::Error),
 }
 
-/// Result of a conversion.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Converted {
-    /// Number of rows.
-    pub rows: u64,
-    /// Checksums of the rows and of the file.
-    pub checksums: Checksums,
-}
-
 /// Writes the rows of `from` to `to`, which must be empty. If `from` is tolerant, rows that fail `check` are left
-/// out.
+/// out. Returns the number of rows, and the checksums of the rows and of the file.
 ///
 /// # Errors
 /// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`
@@ -98,7 +89,7 @@ pub fn convert(
     to: (File, Format),
     provenance: &Provenance,
     check: RowCheck,
-) -> Result<Converted, ConvertError> {
+) -> Result<(u64, Checksums), ConvertError> {
     let mut from = Checked::new(from, check)?;
     let mut writer = Writer::new(to.0, to.1, provenance)?;
     let mut rows = 0;
@@ -106,5 +97,5 @@ pub fn convert(
         writer.row(from.row())?;
         rows += 1;
     }
-    Ok(Converted { rows, checksums: writer.finish()? })
+    Ok((rows, writer.finish()?))
 }
