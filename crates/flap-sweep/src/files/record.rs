@@ -205,7 +205,7 @@ fn known(headings: &[String]) -> String {
 }
 
 /// Returns the first repeated heading.
-fn repeated(headings: &[String]) -> Option<&String> {
+pub(crate) fn repeated(headings: &[String]) -> Option<&String> {
     let mut seen = HashSet::new();
     headings.iter().find(|heading| !heading.is_empty() && !seen.insert(*heading))
 }

@@ -8,6 +8,7 @@ use csv::StringRecord;
 
 use super::{Format, TextDigest, text, text_sum};
 use crate::files::csv_sink::cause;
+use crate::files::record::repeated;
 use crate::notation::text::count;
 
 /// Longest line, or lines without a row: 16 MiB. A usual line of results has some hundred bytes. A line with ten
@@ -112,7 +113,11 @@ impl Reader {
     /// Returns a reader of text, plain or compressed.
     pub(crate) fn of_text(source: impl Read + 'static, format: Format) -> io::Result<Reader> {
         let mut rows = csv::Reader::from_reader(Bounded::new(text::decoded(source, format)?));
-        let names = rows.headers().map_err(cause)?.iter().map(str::to_owned).collect();
+        let names: Vec<String> = rows.headers().map_err(cause)?.iter().map(str::to_owned).collect();
+        if let Some(name) = repeated(&names) {
+            let message = format!("two columns are named {name}: rename one column");
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
         Ok(Reader { names, rows: Rows::Text(rows), missed: None })
     }
 
