@@ -3,6 +3,7 @@
 import flapwing
 import numpy as np
 import pytest
+from flapwing._coefficients import _solve
 
 ATTACK = np.linspace(0.0, 90.0, 13)
 SIN, COS = np.sin(np.radians(2 * ATTACK)), np.cos(np.radians(2 * ATTACK))
@@ -75,6 +76,21 @@ def test_coefficients_that_must_not_be_negative_are_zero():
     assert law.params["drag_coefficient_min"] == 0 and 2.7 < law.params["drag_coefficient_max"] < 3.0
     assert 0.01 < law.largest_error["drag_coefficient"] < 0.15
     flapwing.run("jafferis2016", **law.params)
+
+
+def test_least_squares_with_bounds_are_exact():
+    """Both free unknowns are -0.5, but the first one is 0.4 if the second one is zero."""
+    assert _solve(np.array([[1.0, -1.8], [0.0, 1.0]]), np.array([0.4, -0.5]), 2).tolist() == [0.4, 0.0]
+    lsq_linear = pytest.importorskip("scipy.optimize").lsq_linear
+    draw = np.random.default_rng(1)
+    at_bounds = set()
+    for _ in range(100):
+        columns, values = draw.normal(size=(8, 4)), draw.normal(size=8)
+        exact = lsq_linear(columns, values, bounds=([0.0, 0.0, -np.inf, -np.inf], np.inf), method="bvls").x
+        solution = _solve(columns, values, 2)
+        assert solution == pytest.approx(exact, abs=1e-9)
+        at_bounds.add(tuple(solution[:2] == 0))
+    assert len(at_bounds) == 4
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -149,15 +150,19 @@ def _check_angles(name: str, columns: Array) -> None:
 
 
 def _solve(columns: Array, values: Array, least: int) -> Array:
-    """Return the least-squares solution, in which the first `least` unknowns are not negative."""
-    free = np.ones(columns.shape[1], dtype=bool)
-    while True:
+    """Return the least-squares solution, in which the first `least` unknowns are not negative.
+
+    The constrained solution is an unconstrained solution in which some of these unknowns are zero, so all sets of zeros
+    are tried.
+    """
+    solutions = []
+    for positive in product((True, False), repeat=least):
+        free = np.array([*positive, *[True] * (columns.shape[1] - least)])
         solution = np.zeros(len(free))
         solution[free] = np.linalg.lstsq(columns[:, free], values, rcond=None)[0]
-        negative = np.flatnonzero(solution[:least] < 0.0)
-        if len(negative) == 0:
-            return solution
-        free[negative] = False
+        if (solution[:least] >= 0.0).all():
+            solutions.append(solution)
+    return min(solutions, key=lambda one: float(np.linalg.norm(columns @ one - values)))
 
 
 #: Functions of the attack angle, the number of unknowns that must not be negative, and the names of the parameters that
