@@ -90,14 +90,13 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
     """Return the label of each fitted parameter. If a parameter differs between data sets, return the label for the
     chosen data set.
     """
-    known = [one.name for one in fit._sets]
-    if data_set is not None and data_set not in known:
-        raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
+    place = None if data_set is None else fit._place(data_set)
     labels = {}
     for one in fit._model.space.coordinates:
-        if one.of_set is not None and data_set is None:
-            raise ValueError(f"each data set has its own `{one.parameter}`\ngive data_set=, one of {', '.join(known)}")
-        if one.of_set is None or known[one.of_set] == data_set:
+        if one.of_set is not None and place is None:
+            known = ", ".join(each.name for each in fit._sets)
+            raise ValueError(f"each data set has its own `{one.parameter}`\ngive data_set=, one of {known}")
+        if one.of_set in (None, place):
             labels[one.parameter] = one.label
     return labels
 

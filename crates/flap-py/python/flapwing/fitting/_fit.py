@@ -21,9 +21,6 @@ from ._search import Found, Target
 from ._solution import Effort, Estimate, Unsettled
 from ._spread import new_spreads, spreads
 
-#: Names of the loss functions of `scipy.optimize.least_squares`.
-_LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
-
 #: Largest number of rounds in which standard errors and spreads that depend on the fit are updated.
 _ROUNDS = 4
 
@@ -289,8 +286,8 @@ def check_options(loss: Any, starts: Any, seed: Any) -> None:
         import scipy.optimize  # noqa: F401
     except ImportError:
         raise ImportError("flapwing.fit requires SciPy: pip install scipy") from None
-    if loss not in _LOSSES:
-        raise ValueError(f"`loss` is {loss!r}\nit must be one of {', '.join(_LOSSES)}")
+    if loss not in _search.LOSSES:
+        raise ValueError(f"`loss` is {loss!r}\nit must be one of {', '.join(_search.LOSSES)}")
     _arguments.count("starts", starts)
     _arguments.count("seed", seed, least=0)
 

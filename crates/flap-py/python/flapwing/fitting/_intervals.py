@@ -13,7 +13,7 @@ import numpy as np
 from .._types import Array, Places
 from ._model import FINE, Answer, Model
 from ._parameters import Coordinate, Space
-from ._search import NOTHING, Ask, Found, Target, minimise, sobol, together, tolerance_of
+from ._search import NOTHING, Ask, Found, Target, decompose, minimise, sobol, together, tolerance_of
 
 #: Largest number of values of a profile on each side of the estimate.
 _TRIES = 6
@@ -244,11 +244,8 @@ def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
 
 def _null(jacobian: Array) -> Array:
     """Return the directions in parameter space along which no reading changes."""
-    lengths = np.linalg.norm(jacobian, axis=0)
-    lengths[lengths == 0.0] = 1.0
-    _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
-    sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
-    return np.asarray(directions[sizes < NOTHING * sizes[0]] / lengths)
+    lengths, _, directions, known = decompose(jacobian)
+    return np.asarray(directions[~known] / lengths)
 
 
 def _sparse(directions: Array) -> list[Array]:

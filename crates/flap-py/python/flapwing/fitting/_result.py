@@ -132,13 +132,8 @@ class Fit(Solution):
         """
         noise = self._noise(measure, {}, data_set) if _arguments.flag("reading", reading) else None
         given = self._points("points", points)
-        place, like = 0, None
-        if data_set is not None:
-            known = [one.name for one in self._sets]
-            if data_set not in known:
-                raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
-            place = known.index(data_set)
-            like = self._sets[place]
+        place = 0 if data_set is None else self._place(data_set)
+        like = None if data_set is None else self._sets[place]
         answer = answers_at(self._model, given, measure, self._x, place, like)
         error = np.hypot(error_of(answer, self._covariance), self._discrepancy_of(measure, answer.values))
         if noise is not None:

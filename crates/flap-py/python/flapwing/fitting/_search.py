@@ -203,17 +203,26 @@ def sobol(space: Space, count: int, seed: int) -> list[Array]:
     return list(space.low + (space.high - space.low) * drawn)
 
 
+#: The loss functions of `scipy.optimize.least_squares`, and their derivatives: functions of squared residuals.
+LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array]]] = {
+    "linear": (lambda z: z, np.ones_like),
+    "soft_l1": (lambda z: 2 * (np.sqrt(1 + z) - 1), lambda z: 1 / np.sqrt(1 + z)),
+    "huber": (lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), lambda z: 1 / np.sqrt(np.maximum(z, 1.0))),
+    "cauchy": (np.log1p, lambda z: 1 / (1 + z)),
+    "arctan": (np.arctan, lambda z: 1 / (1 + z**2)),
+}
+
+
 def cost_of(residuals: Array, loss: str) -> float:
     """Return the cost: half of the sum of the losses of all residuals."""
-    square = residuals**2
-    losses: dict[str, Callable[[Array], Array]] = {
-        "linear": lambda z: z,
-        "soft_l1": lambda z: 2 * (np.sqrt(1 + z) - 1),
-        "huber": lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1),
-        "cauchy": np.log1p,
-        "arctan": np.arctan,
-    }
-    return float(0.5 * np.sum(losses[loss](square)))
+    return float(0.5 * np.sum(LOSSES[loss][0](residuals**2)))
+
+
+def weights(residuals: Array, loss: str) -> Array:
+    """Return the weight of each residual for a loss function: the derivative of the loss with respect to the squared
+    residual.
+    """
+    return np.asarray(LOSSES[loss][1](residuals**2))
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
@@ -243,15 +252,27 @@ def tolerance_of(error: float, cost: float) -> float:
     return float(np.clip(error / max(cost, 1e-300), 1e-8, 1e-3))
 
 
-def inverse(jacobian: Array) -> tuple[Array, Mask]:
-    """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
-    residuals do not determine. The covariance leaves out directions without effect.
+#: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have
+#: relative errors of about 1e-4.
+NOTHING = 3e-4
+
+
+def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
+    """Return the lengths of the columns of `jacobian`, and the singular values and right singular vectors of the matrix
+    of normalised columns. The mask is True for vectors with an effect. Each row is a vector.
     """
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
     sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
-    known = sizes > NOTHING * sizes[0]
+    return lengths, sizes, directions, sizes > NOTHING * sizes[0]
+
+
+def inverse(jacobian: Array) -> tuple[Array, Mask]:
+    """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
+    residuals do not determine. The covariance leaves out directions without effect.
+    """
+    lengths, sizes, directions, known = decompose(jacobian)
     scaled = directions[known] / sizes[known, np.newaxis] / lengths
     return scaled.T @ scaled, np.sum(directions[~known] ** 2, axis=0) > 1e-4
 
@@ -263,26 +284,6 @@ def without(covariance: Array, lost: Mask) -> Array:
     found[:, lost] = np.nan
     found[lost, lost] = np.inf
     return found
-
-
-#: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have
-#: relative errors of about 1e-4.
-NOTHING = 3e-4
-
-
-def weights(residuals: Array, loss: str) -> Array:
-    """Return the weight of each residual for a loss function: the derivative of the loss with respect to the squared
-    residual.
-    """
-    square = residuals**2
-    derivatives: dict[str, Callable[[Array], Array]] = {
-        "linear": np.ones_like,
-        "soft_l1": lambda z: 1 / np.sqrt(1 + z),
-        "huber": lambda z: np.where(z <= 1, 1.0, 1 / np.sqrt(np.maximum(z, 1.0))),
-        "cauchy": lambda z: 1 / (1 + z),
-        "arctan": lambda z: 1 / (1 + z**2),
-    }
-    return np.asarray(derivatives[loss](square))
 
 
 def first_guesses(sets: list[DataSet]) -> dict[str, float]:

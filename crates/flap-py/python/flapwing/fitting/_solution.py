@@ -315,3 +315,10 @@ class Solution:
         errors = np.sqrt(np.diag(self._covariance))
         with np.errstate(invalid="ignore"):
             return np.asarray(self._covariance / np.outer(errors, errors))
+
+    def _place(self, data_set: str) -> int:
+        """Return the index of a data set. Raise ValueError for an unknown name."""
+        known = [one.name for one in self._sets]
+        if data_set not in known:
+            raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")
+        return known.index(data_set)
