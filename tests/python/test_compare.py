@@ -152,6 +152,22 @@ def test_select_finds_the_missing_term(lossy):
     assert "start" in told and "stroke_loss_factor" in told and "stopped: " in told and "right-hand sides" in told
 
 
+@pytest.mark.parametrize(
+    ("measures", "added", "term", "value"),
+    [
+        (BOTH, [], "pressure_term_1", 0.06),
+        ([*BOTH, "lift_mean_mn"], ["lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1"], "lift_term_1", -0.3),
+    ],
+)
+def test_select_finds_another_law_of_the_attack_angle(measures, added, term, value):
+    data = readings(measures, points=POINTS, **{term: value})
+    candidates = flapwing.candidates(PRESET) | dict.fromkeys(added)
+    found = flapwing.select(PRESET, data, candidates, start=list(TRUE), **FAST)
+    assert [step.freed for step in found.steps] == ["", term] and found.steps[1].gain > 10
+    estimate = found.fit.estimates[term]
+    assert abs(estimate.value - value) < 3 * estimate.error < abs(value)
+
+
 def test_select_from_nothing_within_a_budget(lossy):
     candidates = {**dict.fromkeys(TRUE), **LOSS}
     found = flapwing.select(PRESET, lossy, candidates, budget=2, criterion="BIC", **FAST)
@@ -193,7 +209,8 @@ def test_candidates_are_fitted_numbers_and_terms(preset, flap):
     listed = flap("models", preset).stdout
     starred = {line.split()[0] for line in listed.splitlines() if " * " in line}
     assert starred & set(params) <= set(candidates) <= set(params)
-    assert {"hinge_stiffness", "hinge_damping", "stroke_loss_factor", "hinge_loss_factor"} <= set(candidates)
+    assert {"hinge_stiffness", "hinge_damping", "stroke_loss_factor", "pressure_term_1"} <= set(candidates)
+    assert "drag_term_0" in params and "drag_term_0" not in candidates
     for name, free in candidates.items():
         assert free.low is None or free.low <= params[name].value <= free.high
 

@@ -107,6 +107,12 @@ def test_a_parameter_that_is_zero_in_the_design_has_the_bounds_of_candidates(giv
     assert flapwing.candidates(PRESET)["hinge_damping"].high == pytest.approx(largest)
 
 
+def test_terms_of_the_attack_angle_have_default_bounds():
+    terms = ["lift_term_1", "drag_term_0", "pressure_term_0"]
+    result = flapwing.fit(PRESET, readings(), terms, sigma="3 %", starts=1, profile=False)
+    assert [(one.low, one.high) for one in result._model.space.coordinates] == [(-1.0, 1.0), (-1.0, 1.0), (-0.2, 0.2)]
+
+
 def test_what_is_known_beforehand_counts():
     data = {name: values[:3] for name, values in readings().items()}
     free = {name: flapwing.FreeParameter(prior=(value, "2 %")) for name, value in TRUTH.items()}

@@ -30,6 +30,9 @@ _UNCERTAIN = (
     "deflection_factor",
 )
 
+#: Terms that readings of stroke and pitch can hardly distinguish from other candidates.
+_OF_FORCES = ("lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1")
+
 
 def candidates(design: Design, /) -> dict[str, FreeParameter]:
     """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
@@ -50,6 +53,11 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     - `modulus_decline`: 0 to 0.5 / E
     - `circulation_factor`, `rotation_force_factor`, `added_mass_factor`: 0 to 2
     - `plate_ratio`: 0.5 to 1.5
+    - `pressure_term_0`, `pressure_term_1`: -0.2 to 0.2
+
+    `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1` are not among the candidates, because readings of
+    stroke and pitch can hardly distinguish these terms from other candidates. If your data contain lift, add the terms.
+    The default bounds of these terms are -1 and 1.
 
     Parameters
     ----------
@@ -68,15 +76,17 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
     Examples
     --------
-    >>> flapwing.candidates("jafferis2016")["hinge_loss_factor"].high
+    >>> candidates = flapwing.candidates("jafferis2016")
+    >>> candidates["hinge_loss_factor"].high
     0.5
+    >>> candidates |= dict.fromkeys(["lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1"])  # data with lift
     """
     grid = Grid(design)
     listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
     found = {name: FreeParameter() for name in _UNCERTAIN if is_number(listed.get(name)) and listed[name] != 0}
     for name, (low, high) in typical_bounds(listed).items():
         value = listed[name]
-        if is_number(value):
+        if is_number(value) and name not in _OF_FORCES:
             # A damping of a preset that is not zero has a value of its own.
             is_own = low == 0.0 and value != 0.0
             found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)

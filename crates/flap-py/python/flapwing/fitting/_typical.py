@@ -24,6 +24,12 @@ _BOUNDS = {
     "rotation_force_factor": (0.0, 2.0, "one"),
     "added_mass_factor": (0.0, 2.0, "one"),
     "plate_ratio": (0.5, 1.5, "one"),
+    "pressure_term_0": (-0.2, 0.2, "one"),
+    "pressure_term_1": (-0.2, 0.2, "one"),
+    "lift_term_1": (-1.0, 1.0, "one"),
+    "lift_term_2": (-1.0, 1.0, "one"),
+    "drag_term_0": (-1.0, 1.0, "one"),
+    "drag_term_1": (-1.0, 1.0, "one"),
 }
 
 
