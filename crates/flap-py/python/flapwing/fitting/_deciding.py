@@ -14,6 +14,7 @@ from ._criteria import Criteria
 from ._data import all_readings, places_of
 from ._points import answers_at, cell, points_of
 from ._result import Fit
+from ._search import finite_covariance
 
 
 @dataclass(frozen=True)
@@ -184,8 +185,7 @@ def _decide(
     difference of chi-square is the mean of two rises. For one rise, the first law is correct, and for the second rise,
     the second law is correct.
     """
-    # A weak prior, as in Fit.next_measurements, keeps undetermined variances finite.
-    covariances = [np.linalg.inv(fit._information + 1e-4 * np.eye(len(fit._information))) for fit in fits]
+    covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]
     chosen: list[int] = []
     errors: list[float] = []

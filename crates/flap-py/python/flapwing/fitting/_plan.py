@@ -12,6 +12,7 @@ from .._types import Array
 from . import _report
 from ._model import Model
 from ._points import answers_at, cell
+from ._search import finite_covariance
 
 
 @dataclass(frozen=True)
@@ -80,8 +81,7 @@ def plan(
             sensitivities.append(answer.slopes[row] / sigma[row])
     if not rows:
         raise ValueError("no candidate has a settled motion with derivatives\ngive other operating points")
-    # A weak prior, with errors of a hundred times the value, keeps undetermined variances finite.
-    covariance = np.linalg.inv(information + 1e-4 * np.eye(len(information)))
+    covariance = finite_covariance(information)
     a = np.array(sensitivities)
     now = float(np.sqrt(target @ covariance @ target))
     chosen: list[int] = []

@@ -286,6 +286,13 @@ def without(covariance: Array, lost: Mask) -> Array:
     return found
 
 
+def finite_covariance(information: Array) -> Array:
+    """Return the covariance of coordinates from their information matrix. A weak prior, with errors of a hundred times
+    the value, keeps undetermined variances finite.
+    """
+    return np.asarray(np.linalg.inv(information + 1e-4 * np.eye(len(information))))
+
+
 def first_guesses(sets: list[DataSet]) -> dict[str, float]:
     """Return first estimates of unknown standard errors: 3 % of the largest reading of each measure."""
     largest: dict[str, float] = {}
