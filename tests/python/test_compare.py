@@ -196,6 +196,15 @@ def test_select_removes_what_later_parameters_replace(monkeypatch):
     assert flapwing.select(PRESET, data, narrow, start=list(TRUE), **FAST).at_bounds == ["drag_coefficient_min"]
 
 
+def test_candidates_with_the_same_effect_count_as_one():
+    stiffer = 1.3 * flapwing.params(PRESET)["transmission_stiffness"].value
+    data = readings(BOTH, points=POINTS, transmission_stiffness=stiffer)
+    names = ["stiffness_factor", "deflection_factor", "drag_coefficient_min"]
+    first, second = flapwing.select(PRESET, data, names, start=list(TRUE), tries=1, **FAST).steps
+    (difference,) = second.alternatives.values()
+    assert {second.freed, *second.alternatives} == {"stiffness_factor", "deflection_factor"} and difference < 0.5
+
+
 def test_select_frees_nothing_for_noise():
     data = readings(BOTH, points=POINTS)
     found = flapwing.select(PRESET, data, flapwing.candidates(PRESET), start=list(TRUE), **FAST)

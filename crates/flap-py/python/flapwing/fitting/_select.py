@@ -11,12 +11,12 @@ import numpy as np
 
 from .. import _arguments, _flapwing
 from .._progress import Progress, shown
-from .._types import Array, Design, Value
+from .._types import Design, Value
 from . import _data, _fit, _held, _parameters, _report, _search
 from ._candidates import is_number
 from ._names import Names
 from ._result import Fit
-from ._subsets import Subset, Subsets
+from ._subsets import Effect, Subset, Subsets
 
 #: Smallest predicted gain of a candidate that is fitted, as a share of the best gain of the step.
 _WORTH = 0.5
@@ -192,7 +192,8 @@ def select(
         of all candidates was chosen (Bonferroni). With ``significance=1``, only the criterion decides, which frees too
         many parameters.
     tries : int
-        Largest number of candidates that are fitted in a step.
+        Largest number of candidates that are fitted in a step. Candidates with the same predicted effect on the
+        readings count as one.
     sigma, seed, hold_out, threads, progress
         The arguments of `fit` with the same names. Readings in `hold_out` do not take part in the selection.
     starts : int
@@ -291,7 +292,7 @@ def select(
     return Selection(
         steps,
         found,
-        {name: gain for name, (gain, _) in predicted.items()},
+        {name: one.gain for name, one in predicted.items()},
         stopped,
         list(work.at_bounds),
         criterion,
@@ -302,17 +303,20 @@ def select(
     )
 
 
-def _best(
-    work: Subsets, state: Subset, predicted: Mapping[str, tuple[float, Array]], tries: int
-) -> tuple[Subset, list[Subset]]:
+def _best(work: Subsets, state: Subset, predicted: Mapping[str, Effect], tries: int) -> tuple[Subset, list[Subset]]:
     """Return the best fit with one further free parameter, and the list of all fits that were tried and not chosen."""
     fitted: list[Subset] = []
+    distinct: list[Effect] = []
     reached = 0.0
-    for name, (gain, begin) in list(predicted.items())[:tries]:
-        if fitted and gain < _WORTH * reached:
+    for name, effect in predicted.items():
+        if fitted and effect.gain < _WORTH * reached:
             break
+        if not any(effect.is_like(other) for other in distinct):
+            if len(distinct) == tries:
+                break
+            distinct.append(effect)
         names = [*state.names, name]
-        one = work.fitted(names, begin, state.guesses, state.answer.values)
+        one = work.fitted(names, effect.begin, state.guesses, state.answer.values)
         if one.criteria.deviance > state.criteria.deviance:
             # The predicted step was too long.
             nearby = np.concatenate([state.x, work.at_design(name)])

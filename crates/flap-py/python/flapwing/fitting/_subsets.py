@@ -23,6 +23,9 @@ _COST, _ROUNDS = 0.005, 4
 #: Largest predicted rise of chi-square for which the fit without a parameter is tried.
 _NEEDED = 10.0
 
+#: Largest share of the squares of an effect by which a similar effect differs.
+_ALIKE = 0.01
+
 
 @dataclass(frozen=True)
 class Subset:
@@ -36,6 +39,22 @@ class Subset:
     criteria: Criteria
     #: The criterion of the selection: AICc or BIC.
     criterion: float
+
+
+@dataclass(frozen=True)
+class Effect:
+    """The predicted effect of one more free parameter."""
+
+    #: The decrease of chi-square.
+    gain: float
+    #: The coordinates at which a fit with the parameter begins.
+    begin: Array
+    #: The changes of the residuals, in standard errors.
+    change: Array
+
+    def is_like(self, other: Effect) -> bool:
+        """Return True if the readings hardly distinguish the effect from another effect."""
+        return bool(np.sum((self.change - other.change) ** 2) < min(1.0, _ALIKE * float(other.change @ other.change)))
 
 
 @dataclass
@@ -122,9 +141,8 @@ class Subsets:
         error = (np.nan_to_num(state.answer.values) - state.target.measured) / state.criteria.sigma
         return float(np.sqrt(np.mean(error[self.held] ** 2)))
 
-    def predicted(self, state: Subset, more: Sequence[str]) -> dict[str, tuple[float, Array]]:
-        """Return the predicted decrease of chi-square for each further parameter that is freed, and the start of the
-        fit with this parameter.
+    def predicted(self, state: Subset, more: Sequence[str]) -> dict[str, Effect]:
+        """Return the predicted effect of each further parameter that is freed, with the largest gain first.
 
         The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
         One evaluation of the model gives the derivatives with respect to all candidates, which have their values in the
@@ -143,7 +161,7 @@ class Subsets:
         for name in more:
             place = [len(active) + number for number, (owner, _) in enumerate(beside) if owner == name]
             found[name] = self._step(name, state.x, residuals, free, jacobian[:, place], space, place)
-        return dict(sorted(found.items(), key=lambda one: -one[1][0]))
+        return dict(sorted(found.items(), key=lambda one: -one[1].gain))
 
     def without(self, state: Subset, name: str) -> Subset | None:
         """Return the fit in which one parameter is not free. Return None if the derivatives predict that chi-square
@@ -169,8 +187,8 @@ class Subsets:
 
     def _step(
         self, name: str, x: Array, residuals: Array, free: Array, added: Array, space: Space, place: list[int]
-    ) -> tuple[float, Array]:
-        """Return the predicted decrease of chi-square for one candidate, and the coordinates after the step."""
+    ) -> Effect:
+        """Return the predicted effect of one candidate."""
         own = self.coordinates[name]
         left = np.linalg.pinv(free, rcond=_search.NOTHING) if free.shape[1] else np.zeros((0, len(residuals)))
         # The part of the derivatives and of the residuals that the free parameters cannot change.
@@ -181,10 +199,11 @@ class Subsets:
         origin = [space.coordinates[number] for number in place]
         low, high = (np.array([one.at(getattr(one, end)) for one in origin]) for end in ("low", "high"))
         step = np.clip(step, np.minimum(low, 0.0), np.maximum(high, 0.0))
-        gain = float(rest @ rest - np.sum((rest + across @ step) ** 2))
+        change = across @ step
+        gain = float(rest @ rest - np.sum((rest + change) ** 2))
         moved = x - left @ (residuals + added @ step)
         active = Space(space.coordinates[: len(x)])
         begin = [np.clip(moved, active.low, active.high)]
         values = [float(np.clip(one.value(size), one.low, one.high)) for one, size in zip(origin, step)]
         begin.append(np.array([one.at(value) for one, value in zip(own, values)]))
-        return max(0.0, gain), np.concatenate(begin)
+        return Effect(max(0.0, gain), np.concatenate(begin), change)
