@@ -79,7 +79,8 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     >>> candidates = flapwing.candidates("jafferis2016")
     >>> candidates["hinge_loss_factor"].high
     0.5
-    >>> candidates |= dict.fromkeys(["lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1"])  # data with lift
+    >>> terms = ["lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1"]  # for data with lift
+    >>> candidates |= dict.fromkeys(terms, flapwing.FreeParameter())
     """
     grid = Grid(design)
     listed = {one["name"]: one["value"] for one in _flapwing.params(grid)}
