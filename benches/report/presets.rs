@@ -28,7 +28,7 @@ pub(crate) fn print(effort: Effort) {
          The column *lanes in use* has one share for each part of the computation, and the share in all steps:\n\
          \n\
          1. marching\n\
-         2. integration of the derivatives for Newton shooting\n\
+         2. integration of the motion with its derivatives, which Newton shooting needs\n\
          3. measurement of the settled motion\n\
          4. all steps\n\
          \n\

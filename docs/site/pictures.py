@@ -247,7 +247,7 @@ def hovering() -> flapwing.Vehicle:
 
 
 def eigenvalues() -> Axes:
-    """Eigenvalues about hover, with wings that respond to the body and with frozen wings."""
+    """Eigenvalues about hover, with wings that respond to the motion of the body and with prescribed wing motion."""
     models = {response: hovering().linear(trim=True, body_response=response) for response in ("passive", "frozen")}
     return plot.eigenvalues(models)
 

@@ -4,8 +4,8 @@ makes all pictures.
     python examples/learn/make_pictures.py [NAME]...
 
 Each picture is drawn by the commands on the picture's page. The script then reduces the picture to a width of 1040
-pixels and to at most 256 colours. The script requires the command flap on the PATH, and the extras plot and fit of
-flapwing.
+pixels and to at most 256 colours. The script requires the command `flap` on the PATH, and the package flapwing with the
+extras `plot` and `fit`.
 """
 
 import os

@@ -62,7 +62,8 @@ class Count:
 
 
 def rows(shares: Any, count: Count, gradient: bool) -> Any:
-    """Return the rows of designs. Each line of `shares` is one design, given as multiples of the preset's values."""
+    """Compute designs and return one row for each design. Each line of `shares` is one design, as multiples of the
+    preset's values."""
     columns = {name: BASE[name] * shares[:, place] for place, name in enumerate(VARIABLES)}
     table = flapwing.evaluate(DESIGN, columns, gradient=list(VARIABLES) if gradient else None)
     count.designs += len(table)

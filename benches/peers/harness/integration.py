@@ -27,7 +27,7 @@ INTEGRATION = Work(
         BASE,
         Peer(
             "flap",
-            "flap with examples/own_equations: Dormand-Prince 5(4) in lanes",
+            "flap (program `examples/own_equations`): Dormand-Prince 5(4) in lanes",
             Cargo(
                 REPOSITORY,
                 ("-p", "flap-core", "--example", "own_equations"),

@@ -33,7 +33,7 @@ pub(crate) struct NewArgs {
 pub(crate) struct WingArgs {
     /// CSV file with the outline of the wing, from root to tip
     ///
-    /// The columns are `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`.
+    /// The columns of the file are `span [mm]`, `leading_edge [mm]` and `trailing_edge [mm]`.
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 

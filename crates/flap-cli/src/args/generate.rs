@@ -18,7 +18,7 @@ pub(crate) enum GenerateCommand {
 #[derive(clap::Args)]
 #[command(after_help = COMPLETIONS_HELP)]
 pub(crate) struct CompletionsArgs {
-    /// Shell for which the script is printed
+    /// Shell for which flap prints the completion script
     #[arg(value_name = "SHELL")]
     pub(crate) shell: Shell,
 }

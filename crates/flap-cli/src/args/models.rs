@@ -16,13 +16,13 @@ pub(crate) struct ModelsArgs {
     #[arg(long, value_name = "MODEL|PRESET", requires = "names")]
     pub(crate) model: Option<String>,
 
-    /// Print whole meanings, not only the first sentences, and also the symbols and allowed values of parameters
+    /// Print the whole meaning of each name, not only its first sentence, and also the symbols and allowed values of parameters
     #[arg(long, requires = "names")]
     pub(crate) long: bool,
 
     /// Output format
     ///
-    /// The formats csv and json contain the whole meanings, and the values of parameters in SI units.
+    /// The formats csv and json contain the whole meaning of each name, and the values of parameters in SI units.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }

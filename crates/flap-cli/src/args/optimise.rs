@@ -31,7 +31,7 @@ pub(crate) struct OptimiseArgs {
 
     /// Compute a Pareto front of N designs for two goals, from the best value of one goal to the best value of the
     /// other.
-    /// Requires both --maximise and --minimise
+    /// --points requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,
 

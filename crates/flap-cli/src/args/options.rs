@@ -40,17 +40,17 @@ pub(crate) struct SolverArgs {
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 
-    /// Largest estimated relative error of a row; if the error is larger, flap integrates the point again with a
+    /// Largest allowed estimate of the relative error of a row; if the error is larger, flap integrates the point again with a
     /// smaller tolerance
     #[arg(long, value_name = "ERROR", value_parser = positive)]
     pub(crate) accuracy: Option<f64>,
 
-    /// Largest change of the states from one drive period to the next in a settled motion, as a fraction of each
+    /// Largest allowed change of the states from one drive period to the next in a settled motion, as a fraction of each
     /// state's typical size
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) settle_tol: Option<f64>,
 
-    /// Largest number of drive periods before the motion settles; a slower motion has the status `unsettled`
+    /// Largest allowed number of drive periods until the motion settles; a slower motion has the status `unsettled`
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) max_cycles: Option<u32>,
 }

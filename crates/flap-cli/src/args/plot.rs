@@ -47,7 +47,7 @@ pub(crate) struct PlotArgs {
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number as in the file, a number with a unit, or a text. A comparison may have
+    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A comparison may have
     /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of
     /// the sweep, flap draws only the rows at the middle value of this axis. Use --where to choose a different value of
     /// the axis.
@@ -58,8 +58,9 @@ pub(crate) struct PlotArgs {
     /// values of this axis. You can repeat --best-over
     ///
     /// The best row is the row with the largest value of the measure. For power, current, strain, field, drag,
-    /// force and hover_growth_1_s, the best row is the row with the smallest value. With --where, flap chooses among the
-    /// rows that satisfy the conditions. Without --best-over, flap draws the rows at the middle value of the axis.
+    /// force and hover_growth_1_s, the best row is the row with the smallest value. With --where, flap chooses the best
+    /// row only among the rows that satisfy the conditions. Without --best-over, flap draws the rows at the middle value
+    /// of the axis.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) best_over: Vec<String>,
 
@@ -72,19 +73,19 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
-    /// For a tornado: print and draw the change of the measure for one standard deviation of each parameter, from derivatives and
-    /// from the sample
+    /// For a tornado: print and draw the change of the measure if one parameter changes by its standard deviation. flap computes
+    /// this change from derivatives and from the sample
     ///
     /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no such columns, flap computes
     /// the derivatives at the means of the parameters, with the sidecar of the results.
     #[arg(long, conflicts_with = "html")]
     pub(crate) derivatives: bool,
 
-    /// Heading of the picture; '' draws no heading [default: the name of the file]
+    /// Heading of the picture; '' draws no heading [default: the name of the results file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
-    /// Width and height: in pixels, such as 900x560, or in print, such as 84x60mm, 8.4x6cm or 3.3x2.4in
+    /// Width and height of the picture: in pixels, such as 900x560, or in print, such as 84x60mm, 8.4x6cm or 3.3x2.4in
     ///
     /// If the size is in pixels, a PNG has twice as many pixels in each direction as an SVG. If the size is in print,
     /// an SVG has the given size, and a PNG has the resolution of --dpi.
@@ -147,7 +148,7 @@ pub(crate) enum PictureKind {
 }
 
 impl PictureKind {
-    /// Returns the name on the command line.
+    /// Returns the name of the picture on the command line, such as `tornado`.
     pub(crate) fn name(self) -> String {
         self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
@@ -156,9 +157,9 @@ impl PictureKind {
 /// The size of a picture: width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PictureSize {
-    /// In pixels of an SVG.
+    /// Width and height in pixels of an SVG.
     Pixels([u16; 2]),
-    /// In print (mm).
+    /// Width and height in print (mm).
     Print([f64; 2]),
 }
 

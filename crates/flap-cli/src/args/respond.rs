@@ -30,7 +30,7 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Longest step of the followed parameter at the ends of bistable bands, and where the response is steep [default:
+    /// Longest allowed step of the followed parameter at the ends of bistable bands, and where the response is steep [default:
     /// a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
@@ -44,8 +44,8 @@ pub(crate) struct RespondArgs {
 
     /// Follow the ends of bistable bands in the plane of two parameters: the followed parameter and PARAMETER
     ///
-    /// flap first follows the response at the design's value of PARAMETER. flap then continues each end of a bistable
-    /// band in the plane of the two parameters.
+    /// flap first follows the response with the value of PARAMETER in the design. Each end of a bistable band is then a
+    /// point in the plane of the two parameters. From this point, flap follows the end of the band in both directions.
     #[arg(
         long,
         value_name = "PARAMETER",
@@ -55,16 +55,16 @@ pub(crate) struct RespondArgs {
     )]
     pub(crate) edge: Option<String>,
 
-    /// Smallest value of the parameter of --edge
+    /// Smallest value of the PARAMETER that --edge names
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_from: Option<String>,
 
-    /// Largest value of the parameter of --edge
+    /// Largest value of the PARAMETER that --edge names
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only cusps, ends, and points at multiples of the step VALUE, counted from --edge-from [default: all
-    /// computed points]
+    /// Print only the cusps and the ends of each edge, and the points of the edge at multiples of VALUE, counted from
+    /// --edge-from [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 

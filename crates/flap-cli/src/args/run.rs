@@ -28,16 +28,16 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "NAME=VALUE,...", value_parser = values)]
     pub(crate) each: Vec<(String, Vec<String>)>,
 
-    /// CSV file with the waveform of the drive. The file replaces the parameter drive_shape
+    /// CSV file with the waveform of the drive. The waveform in the file replaces the parameter drive_shape
     ///
-    /// The columns are time_s (or time_ms) and wave. The drive period is the duration of the file's record, unless
+    /// The columns of the file are time_s (or time_ms) and wave. The drive period is the duration of the file's record, unless
     /// drive_frequency is set.
     #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
     pub(crate) waveform: Option<PathBuf>,
 
     /// CSV file with a prescribed stroke
     ///
-    /// The columns are time_s (or time_ms) and stroke_deg (or stroke_rad).
+    /// The columns of the file are time_s (or time_ms) and stroke_deg (or stroke_rad).
     /// The drive period is the duration of the file's record, unless drive_frequency is set.
     #[arg(long, value_name = "FILE")]
     pub(crate) stroke: Option<PathBuf>,
@@ -107,7 +107,8 @@ impl RunArgs {
         self.what.iter().flat_map(|what| all.iter().map(move |changes| design(what, changes))).collect()
     }
 
-    /// Returns the name of a design among several presets and files: without its folder and ending, if such names are distinct.
+    /// Returns the name of one of the given presets and design files, or `None` for a single design. The name of a file has no
+    /// folder and no ending if the short names of all designs differ.
     pub(crate) fn name(&self, what: &str) -> Option<String> {
         let short = |what: &String| {
             Path::new(what)

@@ -17,7 +17,7 @@ pub(crate) struct SweepArgs {
     #[arg(value_name = "GRID", required_unless_present = "named_grid")]
     first_grid: Option<PathBuf>,
 
-    /// Grid file, as an option instead of an argument
+    /// Grid file; --grid GRID has the same effect as the argument GRID
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 

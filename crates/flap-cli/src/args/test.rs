@@ -167,7 +167,7 @@ pub(crate) struct ResonanceArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Largest error of the peak frequencies of the driven stroke (Hz)
+    /// Largest allowed error of the peak frequencies of the driven stroke (Hz)
     #[arg(long, value_name = "HZ", default_value = "0.05", value_parser = frequency)]
     pub(crate) tolerance: f64,
 
@@ -198,7 +198,7 @@ pub(crate) struct LiftArgs {
 
     /// CSV file with the motion of the wing
     ///
-    /// The columns are time_s (or time_ms), stroke_deg (or stroke_rad) and pitch_deg (or pitch_rad).
+    /// The columns of the file are time_s (or time_ms), stroke_deg (or stroke_rad) and pitch_deg (or pitch_rad).
     #[arg(value_name = "MOTION")]
     pub(crate) motion: PathBuf,
 
@@ -235,7 +235,7 @@ Examples:
 pub(crate) struct TrackArgs {
     /// CSV file with the tracked points of every image
     ///
-    /// The columns are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
+    /// The columns of the file are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
     /// To compute the pitch, flap also requires edge_x and edge_y, a point on the lower edge. All lengths have the same
     /// unit.
     #[arg(value_name = "POINTS")]

@@ -23,8 +23,8 @@ pub(crate) struct VehicleArgs {
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 
-    /// Find values of the inputs near the point at which the force (mN) or torque (uN*m) COLUMN has the value VALUE.
-    /// You can repeat --trim
+    /// Find values of the inputs for which the force (mN) or torque (uN*m) COLUMN has the value VALUE. The search begins at
+    /// the design point. You can repeat --trim
     ///
     /// With `--trim hover`, force_up equals the weight, and all torques are zero.
     #[arg(short, long, value_name = "COLUMN=VALUE", value_parser = target)]
@@ -44,13 +44,13 @@ pub(crate) struct VehicleArgs {
     #[arg(short = 'j', long, value_name = "N", value_parser = threads, requires = "wrench_map")]
     pub(crate) threads: Option<NonZeroUsize>,
 
-    /// Print the damping matrix: the change of force and torque with velocity and rates of the body
+    /// Print the damping matrix: the change of force and torque with the velocity and the angular rates of the body
     #[arg(long)]
     pub(crate) damping: bool,
 
     /// Print the modes of the linear model about hover, and the trim residual
     ///
-    /// --hover requires total_mass and the moments of inertia, such as body_inertia_roll. The entry `about` of the
+    /// The vehicle must have a total_mass, and the moments of inertia, such as body_inertia_roll. The entry `about` of the
     /// vehicle must be the centre of mass.
     #[arg(long)]
     pub(crate) hover: bool,
@@ -61,7 +61,7 @@ pub(crate) struct VehicleArgs {
     #[arg(long, value_name = "TIME", value_parser = time, conflicts_with_all = ["wrench_map", "damping", "hover", "export"])]
     pub(crate) fly: Option<f64>,
 
-    /// State of the body at the beginning of --fly: a velocity, a rate or an angle. You can repeat --disturb
+    /// Initial velocity, angular rate or angle of the body in the flight of --fly. You can repeat --disturb
     #[arg(long, value_name = "STATE=VALUE", value_parser = assignment, requires = "fly")]
     pub(crate) disturb: Vec<(String, String)>,
 

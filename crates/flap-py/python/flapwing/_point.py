@@ -82,8 +82,8 @@ def run(
         change of a state is divided by the typical size of the state. If the motion is smaller than the typical size,
         the size of the motion is the divisor. `settle_tol` is more than 0. Default: ``settle_tol=1e-6``.
     max_cycles : int, optional
-        Largest number of drive periods before the motion settles: 1 or more. A motion that needs more periods has the
-        status ``"unsettled"``. Default: 1000 drive periods.
+        Largest allowed number of drive periods until the motion settles: 1 or more. A motion that needs more periods
+        has the status ``"unsettled"``. Default: 1000 drive periods.
     max_steps : int, optional
         Largest number of integration steps in one drive period: 1 or more. Default: 20000 steps.
     accuracy : float, optional

@@ -47,8 +47,8 @@ def respond(
         First value, last value and step of the followed parameter: numbers in SI units, or text with units. Default:
         the values of the parameter's axis in the grid.
     tolerance : float or str, optional
-        Longest step of the followed parameter at the ends of bistable bands and where the response is steep. Default: a
-        sixteenth of the shortest step.
+        Longest allowed step of the followed parameter at the ends of bistable bands and where the response is steep.
+        Default: a sixteenth of the shortest step.
     unstable : bool, optional
         If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.

@@ -53,12 +53,12 @@ def sweep(
         of finished points, and the number of all points.
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
-        with the method `result`. Examples are the executors of `concurrent.futures`, submitit and mpi4py, and the
-        client of a Dask cluster. The workers must have the same build of flapwing. With and without `client`, the rows
-        have the same order and the same bytes. If a worker of a Dask cluster dies, other workers run the points of the
-        lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker whose
-        processor rounds numbers differently also raises an error, because the last bits of the rows could differ. The
-        process of the caller runs the points of ``[refine]``.
+        with the method `result`. For example, `client` can be an executor of `concurrent.futures`, submitit or mpi4py,
+        or the client of a Dask cluster. The workers must have the same build of flapwing. With and without `client`,
+        the rows have the same order and the same bytes. If a worker of a Dask cluster dies, other workers run the
+        points of the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker
+        whose processor rounds numbers differently also raises an error, because the last bits of the rows could differ.
+        The process of the caller runs the points of ``[refine]``.
     points_per_task : int, optional
         Number of points in a task of `client`, 1 or more. Default: at most 2,048 points for each thread of a task. A
         task of the default size takes a few seconds. If each task is a job of a queue, set a number that is larger than

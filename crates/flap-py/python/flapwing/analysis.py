@@ -74,7 +74,7 @@ class Sensitivity:
     @property
     def swing(self) -> float:
         """The larger of two absolute changes of the measure: at the lower value and at the upper value of the
-        parameter. `swing` is infinite if both changes are unknown.
+        parameter. `swing` is infinite if the motion is not periodic at either of these two values.
         """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)

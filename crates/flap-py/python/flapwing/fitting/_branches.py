@@ -35,7 +35,7 @@ def states_along(
 ) -> dict[str, Array] | None:
     """Return the states in which motions on the branches begin. Return None if the data have no branches.
 
-    Each column in `columns` contains all points `times` times: one copy of the points for each set of parameters. The
+    The columns in `columns` contain `times` copies of all points: one copy for each set of parameters. The
     components of a state have the names `names`. All branches are followed at the same time: a batch has one point of
     each branch.
     """

@@ -1,4 +1,4 @@
-"""Candidates for the selection of free parameters: uncertain parameters, and terms that the papers leave out."""
+"""Parameters that `select` can free: uncertain parameters, and terms that the papers leave out."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _OF_FORCES = ("lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1")
 
 
 def candidates(design: Design, /) -> dict[str, FreeParameter]:
-    """Return candidates for `select`: uncertain parameters of a design, and terms that the papers leave out.
+    """Return parameters that `select` can free: uncertain parameters of a design, and terms that the papers leave out.
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
     design's value. The parameters in the list below have special bounds. In the list, ω is the angular drive frequency,
@@ -67,7 +67,7 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     Returns
     -------
     dict of str to FreeParameter
-        The candidates, with bounds in SI units. Remove or add entries before you call `select`.
+        The parameters that `select` can free, with bounds in SI units. Remove or add entries before you call `select`.
 
     Raises
     ------

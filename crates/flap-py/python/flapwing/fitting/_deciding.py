@@ -175,15 +175,15 @@ def _sigma(side: Side, measure: str, values: Array) -> Array:
 def _decide(
     values: Sequence[Array], slopes: Sequence[Array], variance: Array, fits: Sequence[Fit], count: int
 ) -> tuple[list[int], list[float], list[float]]:
-    """Return the candidates that decide best between two fits. For each candidate, return the standard error and the
-    expected difference of chi-square.
+    """Return the candidate points at which readings decide best between two fits. For each point, return the standard
+    error and the expected difference of chi-square.
 
     If the first law is correct, a reading raises the chi-square of the second fit. The rise of chi-square is the
     squared difference of the two predictions, divided by the sum of two variances. The first variance belongs to the
     reading, and the second variance to the prediction of the second fit. If the second law is fitted to the reading,
-    the rise becomes smaller, because the predictions of the second law move towards the first law. The expected
-    difference of chi-square is the mean of two rises. For one rise, the first law is correct, and for the second rise,
-    the second law is correct.
+    the rise of chi-square becomes smaller, because the predictions of the second law move towards the first law. The
+    expected difference of chi-square is the mean of two rises of chi-square: one rise if the first law is correct, and
+    one rise if the second law is correct.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]

@@ -283,7 +283,8 @@ def _value(names: Names, name: str, given: Any) -> float | None:
 
 
 def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Group:
-    """Return the group of coordinates of a parameter with a spread. Raise ValueError if the spread is impossible."""
+    """Return the coordinates of a parameter that has a value for each robot, as a group. Raise ValueError if the
+    `spread` in `free` is not allowed."""
     if len(places) < 2:
         raise ValueError(f"free[{name!r}]: `spread` requires two or more data sets\ngive one data set for each robot")
     if free.prior is not None:

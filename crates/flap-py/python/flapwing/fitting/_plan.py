@@ -68,8 +68,8 @@ def plan(
     the present error of the target.
 
     To the information matrix, a reading adds the outer product of the reading's derivatives, divided by the variance of
-    the reading. The next reading is the candidate after which the variance of the target is smallest. `errors_of`
-    returns the standard errors of the readings of a measure at given values.
+    the reading. The next reading is the candidate reading after which the variance of the target is smallest.
+    `errors_of` returns the standard errors of the readings of a measure at given values.
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:

@@ -44,15 +44,15 @@ class SelectionStep:
     gain : float
         The decrease of the criterion in the step. For the first fit, `gain` is nan.
     p : float
-        The probability that noise alone improves the fit as much as the best of all candidates. `p` is nan if the step
-        frees no parameter.
+        The probability that noise alone improves the fit as much as the best of all candidate parameters. `p` is nan if
+        the step frees no parameter.
     held_out : float
-        Root mean square of the errors of readings that were not fitted, in standard errors. `held_out` is nan if the
-        selection has no `hold_out`.
+        Root mean square of the errors of all readings that were not fitted. Each error is divided by the standard error
+        of its reading. `held_out` is nan if the selection has no `hold_out`.
     alternatives : dict of str to float
-        The candidates that were fitted in the step but not chosen. In `alternatives`, the value of a candidate is the
-        criterion of the candidate minus the criterion of the chosen parameter. A candidate with a value below 2 in
-        `alternatives` explains the readings about as well as the chosen parameter.
+        The parameters that were fitted in the step but not chosen. Each value in `alternatives` is a difference between
+        two criteria: with the parameter that was not chosen, minus with the chosen parameter. A parameter with a value
+        below 2 in `alternatives` explains the readings about as well as the chosen parameter.
     """
 
     freed: str
@@ -77,8 +77,8 @@ class Selection:
     final : Fit or None
         The final fit, with several starts and with profiles. `final` is None if no parameter is free.
     remaining : dict of str to float
-        The candidates that are not free, with the predicted decrease of chi-square if the candidate becomes free next.
-        The candidate with the largest decrease is first.
+        The candidate parameters that are not free, with the predicted decrease of chi-square if the parameter becomes
+        free next. The parameter with the largest decrease is first.
     stopped : str
         The reason for the end of the selection.
     at_bounds : list of str
@@ -160,10 +160,10 @@ def select(
     progress: Progress = False,
     **keywords: Value,
 ) -> Selection:
-    """Select the parameters that readings require: free further candidates, one at a time, until the fit does not
+    """Select the parameters that readings require: free further parameters, one at a time, until the fit does not
     improve.
 
-    Use `select` to find the effect that a model lacks. Each step predicts the gain of all candidates from
+    Use `select` to find the effect that a model lacks. Each step predicts the gain of all candidate parameters from
     derivatives at the present fit (score test), and fits the candidates with the largest predicted gains. The step
     frees the candidate with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the
     improvement is not significant. At the end, `select` fits all selected parameters once more, with several starts and
@@ -189,11 +189,11 @@ def select(
         The criterion that each step must lower.
     significance : float
         Largest probability that noise alone explains a step. The computed probability takes into account that the best
-        of all candidates was chosen (Bonferroni). With ``significance=1``, only the criterion decides, which frees too
-        many parameters.
+        of all candidate parameters was chosen (Bonferroni). With ``significance=1``, only the criterion decides, which
+        frees too many parameters.
     tries : int
-        Largest number of candidates that are fitted in a step. Candidates with the same predicted effect on the
-        readings count as one.
+        Largest number of candidate parameters that are fitted in a step. Candidates with the same predicted effect on
+        the readings count as one.
     sigma, seed, hold_out, threads, progress
         The arguments of `fit` with the same names. Readings in `hold_out` do not take part in the selection.
     starts : int
@@ -206,7 +206,7 @@ def select(
     Returns
     -------
     Selection
-        The steps, the final fit, and the predicted gains of the candidates that are not free.
+        The steps, the final fit, and the predicted gains of the candidate parameters that are not free.
 
     Raises
     ------

@@ -134,8 +134,8 @@ class Subsets:
                     self.at_bounds[one.parameter] = None
 
     def held_out(self, state: Subset) -> float:
-        """Return the root mean square of the errors of readings that were not fitted, in standard errors. Return nan if
-        all readings were fitted."""
+        """Return the root mean square of the errors of all readings that were not fitted. Each error is divided by the
+        standard error of its reading. Return nan if all readings were fitted."""
         if not self.held.any():
             return float("nan")
         error = (np.nan_to_num(state.answer.values) - state.target.measured) / state.criteria.sigma
@@ -144,9 +144,9 @@ class Subsets:
     def predicted(self, state: Subset, more: Sequence[str]) -> dict[str, Effect]:
         """Return the predicted effect of each further parameter that is freed, with the largest gain first.
 
-        The prediction is a Gauss-Newton step of the free parameters and one candidate, within the candidate's bounds.
-        One evaluation of the model gives the derivatives with respect to all candidates, which have their values in the
-        design.
+        The prediction is a Gauss-Newton step of the free parameters and one candidate parameter, within the bounds of
+        this parameter. One evaluation of the model gives the derivatives with respect to all candidate parameters,
+        which have their values in the design.
         """
         active = self.space(state.names)
         beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
@@ -188,7 +188,7 @@ class Subsets:
     def _step(
         self, name: str, x: Array, residuals: Array, free: Array, added: Array, space: Space, place: list[int]
     ) -> Effect:
-        """Return the predicted effect of one candidate."""
+        """Return the predicted effect of one candidate parameter."""
         own = self.coordinates[name]
         left = np.linalg.pinv(free, rcond=_search.NOTHING) if free.shape[1] else np.zeros((0, len(residuals)))
         # The part of the derivatives and of the residuals that the free parameters cannot change.

@@ -93,8 +93,8 @@ def checked(function: _F) -> _F:
     """Return a function that checks its arguments and then calls the function `function`. A wrong argument raises
     TypeError or ValueError.
 
-    Each argument must have a kind in `_KINDS`. If `_KINDS` lacks an argument, the import of the module raises KeyError.
-    None is allowed for an argument with the default None.
+    Each argument of `function` must have a kind in `_KINDS`. If `_KINDS` lacks the name of an argument, `checked`
+    raises KeyError. None is allowed for an argument with the default None.
     """
     signature = inspect.signature(function)
     named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]

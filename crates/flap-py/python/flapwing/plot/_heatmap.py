@@ -71,7 +71,7 @@ def heatmap(
     x, y : str, optional
         The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
         if ``drive_frequency`` does not vary. Default for y: the first axis of the grid that is not x. If the grid has
-        fewer than two axes, sampled parameters are used.
+        fewer than two axes, the defaults for x and y are parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
         The scales of the axes. By default, an axis is logarithmic if the ratio of neighbouring values is constant. For
         points that form no grid, the default scale is linear.
@@ -101,8 +101,8 @@ def heatmap(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. Default: axes of a new figure.
+        Axes in which flap draws the picture. The figure of `ax` determines the style of the picture. Only labels and a
+        colour bar are drawn outside of `ax`. Default: axes of a new figure.
 
     Returns
     -------

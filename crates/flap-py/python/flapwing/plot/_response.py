@@ -51,9 +51,9 @@ def response(
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first axis
-        of the grid that is not x, if the grid has two or more axes. If several results are given, each result has one
-        line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
+        more axes, the default is the first axis of the grid that is not x. If several results are given, each result
+        has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
@@ -134,9 +134,9 @@ def response_panels(
         The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. Default: the first axis
-        of the grid that is not x, if the grid has two or more axes. If several results are given, each result has one
-        line.
+        The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
+        more axes, the default is the first axis of the grid that is not x. If several results are given, each result
+        has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is

@@ -56,8 +56,8 @@ def trajectory(
     ----------
     table : Table, data frame, mapping of columns, or path
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
-        trajectories: a mapping of names to trajectories, or a list. With several trajectories, each design has one
-        colour.
+        trajectories: a mapping of names to trajectories, or a list. If you give several trajectories, all lines of a
+        design have the same colour.
     signals : str or sequence of str
         The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
         each column has separate axes. Default: stroke and pitch.
