@@ -30,8 +30,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Longest allowed step of the followed parameter at the ends of bistable bands, and where the response is steep [default:
-    /// a sixteenth of the shortest step]
+    /// Longest step of the followed parameter at the ends of bistable bands and in steep parts of the response
+    /// [default: a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
@@ -63,8 +63,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only the cusps and the ends of each edge, and the points of the edge at multiples of VALUE, counted from
-    /// --edge-from [default: all computed points]
+    /// Print only the cusps and ends of each edge, and its points at multiples of VALUE, counted from --edge-from
+    /// [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 

@@ -90,7 +90,7 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     ValueError
         The design is unknown, or the model of the design has other laws of lift and drag. A column is missing, an angle
         is not between 0 and 90°, a number is not finite, or columns differ in length. The table has too few angles, or
-        the angles do not determine a law: the lift requires three different angles between 0 and 90°, without the ends.
+        the angles do not determine a law. The lift requires three different angles between 0 and 90°, without the ends.
     TypeError
         The table is neither text, nor a path, nor a set of columns.
 

@@ -54,8 +54,9 @@ def evaluate(
         applies to all points. A masked array must have no masked values. If `columns` is a `Table`, only the columns of
         parameters are used, not the measures.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
-        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. The default of
+        `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
+        the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
         of finished points, and the number of all points.
@@ -64,8 +65,8 @@ def evaluate(
     points_per_task : int, optional
         Number of points in a task of `client`, as for `sweep`.
     measures : list of str, optional
-        The measures that the rows contain. Default: the measures that ``[output]`` of the grid chooses, or all measures
-        if the grid has no ``[output]``.
+        The measures that the rows contain. By default, the rows contain the measures that ``[output]`` of the grid
+        chooses, or all measures if the grid has no ``[output]``.
     gradient : list of str, optional
         Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
         derivatives, with the shape points × measures × parameters. The unit of a derivative is the unit of the
@@ -76,7 +77,7 @@ def evaluate(
         The state in which each motion begins, at the start of a drive period. The columns of `initial_state` are the
         components of the state (see `states`), with one row per point. Each column's name ends in the unit of the
         column. If a row of `initial_state` contains nan, the motion of the row's point begins at rest. If a design has
-        several orbits, the state determines the orbit that is found. Default: rest.
+        several orbits, the state determines the orbit that is found. The default of `initial_state` is rest.
     return_states : bool, optional
         If True, the table also has columns with the state of the motion at the beginning of a drive period. You can
         pass the table as `initial_state` of the next call.

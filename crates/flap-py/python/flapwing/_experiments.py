@@ -29,13 +29,14 @@ def chirp(
     design, point
         The design, and the index of the point in a grid, as for `run`.
     start : float or str, optional
-        Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. Default: 1 Hz.
+        Drive frequency at which the chirp begins (Hz, or text with a unit): more than 0. The default of `start` is 1
+        Hz.
     stop : float or str, optional
         Drive frequency at the end of the chirp (Hz, or text with a unit): more than 0. The chirp ends after a whole
-        number of cycles. Default: twice the design's drive frequency.
+        number of cycles. The default of `stop` is twice the design's drive frequency.
     rate : float or str, optional
         Rate of change of the drive frequency (Hz/s, or text with a unit). With a negative rate, the drive frequency
-        falls. Default: 15 Hz/s.
+        falls. The default of `rate` is 15 Hz/s.
     samples : int, optional
         Number of samples per cycle. If `samples` is given, the table contains the motion instead of the measures of
         each cycle.
@@ -88,11 +89,13 @@ def impulse(
     amplitude : float or str, optional
         Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
         causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
-        most half a turn. Default: ``"20 deg"``.
+        most half a turn. The default of `amplitude` is ``"20 deg"``.
     duration : float or str, optional
-        Length of the motion (s, or text with a unit): more than 0. Default: ten periods of the first mode.
+        Length of the motion (s, or text with a unit): more than 0. The default of `duration` is ten periods of the
+        first mode.
     samples : int, optional
-        Smallest number of samples that the table has per period of the first mode. Default: 200 samples per period.
+        Smallest number of samples that the table has per period of the first mode. The default of `samples` is 200
+        samples per period.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 
@@ -150,7 +153,7 @@ def forces_along(
         first sample of the next period.
     samples : int, optional
         Number of equal time intervals into which the given motion is divided. Forces are computed at the ends of the
-        intervals. Default: 2000 intervals.
+        intervals. The default of `samples` is 2000 intervals.
     **keywords : float or str
         Parameters of the model, as for `run`.
 

@@ -55,9 +55,10 @@ def fly(
     disturbance : dict of str to float or str, optional
         States of the body at the beginning, such as ``{"rate_pitch": 2.0}``, by the names of `LinearModel.states`.
         Values are numbers in SI units, or text with units. The states do not contain the vibration of the body within
-        each wing beat. Default: the body begins at rest.
+        each wing beat. By default, the body begins at rest.
     gains : array_like of shape (inputs, 9), optional
-        Gains of the controller in SI units, such as the result K of ``control.lqr``. Default: no controller.
+        Gains of the controller in SI units, such as the result K of ``control.lqr``. By default, the flight has no
+        controller.
     inputs : sequence of str, optional
         Names of the inputs: parameters, or words as for `Vehicle.linear`. If `gains` is given, `inputs` is required.
         The table has a column with the values of each input.

@@ -84,7 +84,7 @@ class Live:
         Parameters
         ----------
         height : int, optional
-            Height of the widget in pixels: more than 0. Default: 800 pixels.
+            Height of the widget in pixels: more than 0. The default of `height` is 800 pixels.
 
         Returns
         -------
@@ -142,11 +142,11 @@ def live(
         A preset, a device or a grid. For a grid with several points, the page begins with the first point and shows the
         axes.
     port : int, optional
-        Port of the server, from 1 to 65535. Default: 0, which selects a free port.
+        Port of the server, from 1 to 65535. The default of `port` is 0, which selects a free port.
     open_browser : bool, optional
-        If True, the page is opened in a browser. Default: False.
+        If True, the page is opened in a browser. The default of `open_browser` is False.
     threads : int, optional
-        Number of worker threads: at least 1. Default: one thread per core.
+        Number of worker threads: at least 1. The default of `threads` is one thread per core.
     **keywords : float or str
         Parameters of the model and solver settings, as for `run`.
 

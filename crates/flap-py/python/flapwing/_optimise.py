@@ -46,12 +46,14 @@ def optimise(
         Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
         ``>=``. You can join comparisons with ``and``. A number can have a unit: ``"stroke_pp_deg < 100 deg"``.
     starts : int, optional
-        Largest number of searches. Each search begins at one of the best points of the grid. Default: 8 searches.
+        Largest number of searches. Each search begins at one of the best points of the grid. The default of `starts` is
+        8 searches.
     sample : int, optional
         Largest number of grid points to compute. If the grid has more than `sample` points, the search computes only
-        `sample` points, which are spread over the grid. Default: 4096 points.
+        `sample` points, which are spread over the grid. The default of `sample` is 4096 points.
     threads : int, optional
-        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the result.
+        Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
+        change the result.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
         of finished points and starts, and the number of all points and starts. With `client`, the whole search is one

@@ -57,7 +57,8 @@ def run(
         ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
         also give a row that has columns of the states, such as ``trajectory(…)[-1:]``. A row with states is a Table, a
         DataFrame, a dictionary or a row of a DataFrame. If a state in the given row is nan, the motion begins at rest.
-        If the design has several orbits, the state determines the orbit that is found. Default: rest.
+        If the design has several orbits, the state determines the orbit that is found. The default of `initial_state`
+        is rest.
     waveform : path, tuple or columns, optional
         One period of the drive waveform, which replaces the parameter `drive_shape`. A CSV file or columns (a
         dictionary, Table or DataFrame) have `time_s` (or `time_ms`) and `wave`. You can also give a pair of arrays: the
@@ -73,33 +74,37 @@ def run(
         An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. With
         and without `client`, the result is the same.
     rtol : float, optional
-        Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1. Default: ``rtol=1e-6``.
+        Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1. The default of `rtol`
+        is 1e-6.
     atol : float, optional
         Absolute tolerance of the integrator, as a multiple of the typical size of each state: more than 0. The default
         of `atol` is `rtol` divided by 100.
     settle_tol : float, optional
         A motion has settled when the state changes by less than `settle_tol` from one drive period to the next. The
         change of a state is divided by the typical size of the state. If the motion is smaller than the typical size,
-        the size of the motion is the divisor. `settle_tol` is more than 0. Default: ``settle_tol=1e-6``.
+        the size of the motion is the divisor. `settle_tol` is more than 0. The default of `settle_tol` is
+        1e-6.
     max_cycles : int, optional
         Largest allowed number of drive periods until the motion settles: 1 or more. A motion that needs more periods
-        has the status ``"unsettled"``. Default: 1000 drive periods.
+        has the status ``"unsettled"``. The default of `max_cycles` is 1000 drive periods.
     max_steps : int, optional
-        Largest number of integration steps in one drive period: 1 or more. Default: 20000 steps.
+        Largest number of integration steps in one drive period: 1 or more. The default of `max_steps` is 20000 steps.
     accuracy : float, optional
         Largest value of `error_estimate` and of the energy audit of a row: more than 0. If a row exceeds `accuracy`,
-        the point is integrated again with tighter tolerances, up to a limit. Default: the larger of 1e-3 and 1000
-        `rtol`.
+        the point is integrated again with tighter tolerances, up to a limit. The default of `accuracy` is the larger of
+        1e-3 and 1000 `rtol`.
     newton : bool, optional
         If True, Newton's iteration finds the orbit that the motion approaches. If False, the motion is integrated until
         the motion settles. Newton's iteration takes fewer drive periods, and finds the orbit on which the motion
-        settles. Default: True.
+        settles. The default of `newton` is True.
     progressive : bool, optional
         If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol, which takes about twice the work. The orbit does not depend on `progressive`. Default: True.
+        rtol, which takes about twice the work. The orbit does not depend on `progressive`. The default of `progressive`
+        is True.
     symmetry : bool, optional
         If True, and if the second half of an orbit mirrors the first half, only half of each period is integrated. If
-        False, whole periods are always integrated. The orbit does not depend on `symmetry`. Default: True.
+        False, whole periods are always integrated. The orbit does not depend on `symmetry`. The default of `symmetry`
+        is True.
     **parameters : float or str
         Parameters of the model by name. A value is a number in SI units, text with a unit such as
         ``"1.5 uN*m/rad"``, or the name of an option of a choice.
@@ -166,10 +171,10 @@ def trajectory(
     design, point
         The design, and the index of the point in a grid, as for `run`.
     cycles : int, optional
-        Number of drive periods in the table. Default: 2 drive periods.
+        Number of drive periods in the table. The default of `cycles` is 2 drive periods.
     samples : int, optional
         Number of samples of the motion per drive period. The table has one additional sample at the end of the last
-        period. Default: 200 samples per drive period. `cycles` times `samples` is at most 5,000,000.
+        period. The default of `samples` is 200 samples per drive period. `cycles` times `samples` is at most 5,000,000.
     from_rest : bool, optional
         If True, the table begins with the motion from rest. By default, the table begins after the motion has settled.
     initial_state : dict, Table or DataFrame, optional
@@ -247,18 +252,22 @@ def resonance(
     design, point
         The design, and the index of the point in a grid, as for `run`.
     start, stop : float or str, optional
-        Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke.
-        Default: from half of the lower natural frequency to one and a half times the upper natural frequency.
+        Lowest and highest drive frequency (Hz, or text with a unit) of the search for peaks of the settled stroke. The
+        default of `start` is half of the lower natural frequency. The default of `stop` is one and a half times the
+        upper natural frequency.
     tolerance : float or str, optional
-        Largest error of the frequencies of the peaks (Hz, or text with a unit). Default: 0.05 Hz.
+        Largest allowed error of the frequencies of the peaks (Hz, or text with a unit). The default of `tolerance` is
+        0.05 Hz.
     impulse : float or str, optional
         Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
         causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
-        most half a turn. Default: ``"20 deg"``.
+        most half a turn. The default of `impulse` is ``"20 deg"``.
     fit_cycles : int, optional
-        Length of the free motion to which a damped sine is fitted, in periods of the first mode. Default: 4 periods.
+        Length of the free motion to which a damped sine is fitted, in periods of the first mode. The default of
+        `fit_cycles` is 4 periods.
     spectrum_window : float or str, optional
-        Duration (s, or text with a unit) of the free motion from which the spectrum is computed. Default: 1 s.
+        Duration (s, or text with a unit) of the free motion from which the spectrum is computed. The default of
+        `spectrum_window` is 1 s.
     progress, client
         The progress report and the executor, as for `run`.
     **keywords : float or str

@@ -42,13 +42,13 @@ def respond(
         A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter. Each combination of the
         values of the remaining axes is one design with one curve.
     parameter : str, optional
-        The parameter that rises and falls. Default: ``"drive_frequency"``.
+        The parameter that rises and falls. The default of `parameter` is ``"drive_frequency"``.
     start, stop, step : float or str, optional
-        First value, last value and step of the followed parameter: numbers in SI units, or text with units. Default:
-        the values of the parameter's axis in the grid.
+        First value, last value and step of the followed parameter: numbers in SI units, or text with units. The
+        defaults are the values of the parameter's axis in the grid.
     tolerance : float or str, optional
         Longest allowed step of the followed parameter at the ends of bistable bands and where the response is steep.
-        Default: a sixteenth of the shortest step.
+        The default of `tolerance` is a sixteenth of the shortest step.
     unstable : bool, optional
         If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.
@@ -56,8 +56,9 @@ def respond(
         If True, the table also has columns with the state of each motion at the beginning of a drive period. You can
         pass the table as `initial_state` of `evaluate`.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
-        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. The default of
+        `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
+        the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
         of finished designs, and the number of all designs.
@@ -147,21 +148,21 @@ def edges(
         of the remaining axes is one design. The value of the second parameter in each design must be
         between `edge_start` and `edge_stop`.
     first, second : str, optional
-        The two parameters of the plane. Default: ``"drive_frequency"`` for `first` and ``"drive_voltage_pp"`` for
-        `second`.
+        The two parameters of the plane. The default of `first` is ``"drive_frequency"``, and the default of `second` is
+        ``"drive_voltage_pp"``.
     edge_start, edge_stop : float or str
         Smallest and largest value of the second parameter: numbers in SI units, or text with units.
     edge_step : float or str, optional
         Step of the second parameter. With `edge_step`, the table has only cusps, turns, ends of edges, and points at
         multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed points.
     start, stop, step : float or str, optional
-        First value, last value and step of the first parameter, as for `respond`. Default: the values of the first
-        parameter's axis in the grid.
+        First value, last value and step of the first parameter, as for `respond`. The defaults are the values of the
+        first parameter's axis in the grid.
     tolerance : float or str, optional
-        Longest step of the response at the ends of bistable bands, as for `respond`.
+        Longest allowed step of the first parameter at the ends of bistable bands, as for `respond`.
     threads : int, optional
-        Number of threads for the responses, 1 or more. Default: one thread per core. The number of threads does not
-        change the rows.
+        Number of threads for the responses, 1 or more. The default of `threads` is one thread per core. The number of
+        threads does not change the rows.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 

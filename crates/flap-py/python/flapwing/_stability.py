@@ -35,8 +35,9 @@ def hover_eigenvalues(
     true``.
 
     The states are velocities, rates, roll angle and pitch angle. The reference point of the torques must be the centre
-    of mass. This function does not trim the rows: the eigenvalues are correct for rows that hover, such as rows with
-    ``trim = "hover"``, and an estimate for rows near hover. `Vehicle.linear` trims one design and describes the modes.
+    of mass. `hover_eigenvalues` does not trim the rows. The eigenvalues are correct for rows that hover, such as rows
+    with ``trim = "hover"``. For rows near hover, the eigenvalues are an estimate. `Vehicle.linear` trims one design and
+    describes the modes.
 
     Parameters
     ----------
@@ -60,8 +61,8 @@ def hover_eigenvalues(
     Raises
     ------
     ValueError
-        If a column of the damping matrix is missing, `body_inertia` has not three entries, an argument is not a number
-        or an array with a number for each row, or the inertia of the body is not positive definite.
+        A column of the damping matrix is missing, or `body_inertia` has not three entries. An argument is not a number
+        or an array with a number for each row. The inertia of the body is not positive definite.
     """
     columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
     missing = [name for line in columns for name in line if name not in rows]

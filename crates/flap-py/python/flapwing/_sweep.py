@@ -46,8 +46,9 @@ def sweep(
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
-        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. Default: one
-        thread per core, or with `client` one thread per task. The number of threads does not change the rows.
+        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. The default of
+        `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
+        the rows.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
         of finished points, and the number of all points.
@@ -60,11 +61,11 @@ def sweep(
         whose processor rounds numbers differently also raises an error, because the last bits of the rows could differ.
         The process of the caller runs the points of ``[refine]``.
     points_per_task : int, optional
-        Number of points in a task of `client`, 1 or more. Default: at most 2,048 points for each thread of a task. A
-        task of the default size takes a few seconds. If each task is a job of a queue, set a number that is larger than
-        the default.
+        Number of points in a task of `client`, 1 or more. The default of `points_per_task` is at most 2,048 points for
+        each thread of a task. A task of the default size takes a few seconds. If each task is a job of a queue, set a
+        number that is larger than the default.
     measures : list of str, optional
-        The measures that the rows contain. Default: the columns of the grid's ``[output]``.
+        The measures that the rows contain. By default, the rows contain the columns of the grid's ``[output]``.
     **keywords : float or str
         Parameters of all points and solver settings, as for `run`. Keywords have the same effect as entries of
         ``[params]`` and ``[solver]`` in the grid. The results record keywords as entries of ``[params]`` and

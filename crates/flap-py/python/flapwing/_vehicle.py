@@ -43,7 +43,7 @@ class Wing(_Entries):
         and ``left_stroke_pp_deg``.
     position : sequence of three numbers or texts, optional
         The position of the wing's shoulder along x (forward), y (to the left) and z (up). The coordinates are numbers
-        in metres, or text with units such as ``"4 mm"``. Default: zero.
+        in metres, or text with units such as ``"4 mm"``. The default of `position` is zero.
     plane : dict, optional
         The angles `roll`, `pitch` and `yaw` of the stroke plane: numbers in radians, or text such as ``"10 deg"``.
     mirrored : bool, optional
@@ -133,7 +133,7 @@ class Vehicle(_Entries):
         A list of one or more wings. Each wing is a `Wing`, or a dictionary with the entries of a `Wing`.
     about : sequence of three numbers or texts, optional
         The point about which torques are computed, such as the centre of mass: numbers in metres, or text with units.
-        Default: the origin.
+        The default of `about` is the origin.
     total_mass : float or str, optional
         The mass of the whole vehicle, which determines the column `lift_to_weight`: a number in kilograms, or text such
         as ``"85 mg"``.
@@ -214,7 +214,7 @@ class Vehicle(_Entries):
         ----------
         inputs : sequence of str, optional
             The inputs: parameters, or words such as ``"amplitude_difference"``. ``flap vehicle --help`` lists the
-            words. Default: amplitude, bias, and the left-right differences of amplitude and bias.
+            words. The default of `inputs` is amplitude, bias, and the left-right differences of amplitude and bias.
         point : int, optional
             The index of a point, if the vehicle is a grid with several points.
         trim : bool

@@ -141,11 +141,12 @@ def wrench_map(
         ``"bias_difference"`` is the bias of left wings minus the bias of right wings. ``"left_bias"`` changes only the
         wing with the name `left`.
     samples : int, optional
-        Number of rows to compute. Default: 400 rows.
+        Number of rows to compute. The default of `samples` is 400 rows.
     point : int, optional
         The index of a point, counted from 0, if the grid has several points.
     threads : int, optional
-        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the map.
+        Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
+        change the map.
     progress : bool or function, optional
         True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
         of finished rows, and the number of all rows. With `client`, the whole map is one step of the progress.

@@ -102,9 +102,9 @@ def sensitivities(
         A measure of the preset's model.
     parameters : mapping or iterable of str, optional
         The parameters to change. In a mapping, each parameter has a relative change, or two values in SI units at which
-        the measure is computed. Default: all parameters whose value is a number other than zero. Parameters that are
-        computed by the model are left out. Parameters that cannot have the changed values, such as whole numbers, are
-        left out too.
+        the measure is computed. The default of `parameters` is all parameters whose value is a number other than zero.
+        Parameters that are computed by the model are left out. Parameters that cannot have the changed values, such as
+        whole numbers, are left out too.
     change : float
         The relative change of parameters for which `parameters` gives no change.
     **fixed
@@ -229,9 +229,11 @@ def rank_correlations(
     table : Table, data frame, mapping of columns, or path
         Results of a sample, or of a grid.
     measure : str, optional
-        A column of numbers. Default: the mean lift, or a different measure if the table has no mean lift.
+        A column of numbers. The default of `measure` is the mean lift, or a different measure if the table has no mean
+        lift.
     parameters : iterable of str, optional
-        The parameters to correlate, or any columns of numbers. Default: all parameters of the table.
+        The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
+        table.
     where, **slices
         The selection of rows, as for `flapwing.plot.histogram`.
 
@@ -363,7 +365,7 @@ def describe(
     table : Table, data frame, mapping of columns, or path
         Results of a sample, or of a grid.
     measures : str or iterable of str, optional
-        Columns of numbers. Default: all measures of the table.
+        Columns of numbers. The default of `measures` is all measures of the table.
     percentiles : iterable of float, optional
         Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
         percentile of ``flap describe``.

@@ -178,7 +178,7 @@ class Comparison:
         count : int
             Number of readings to choose. A point can be chosen more than once.
         measures : list of str, optional
-            The allowed measures of the new readings. Default: the measures of the data.
+            The allowed measures of the new readings. The default of `measures` is the measures of the data.
 
         Returns
         -------
@@ -226,7 +226,7 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
         Two or more results of `fit`. All fits must have the same readings, standard errors and `hold_out`, and
         ``loss="linear"``.
     names : list of str, optional
-        A name for each fit. Default: ``"fit 1"``, ``"fit 2"``, and so on.
+        A name for each fit. The default of `names` is ``"fit 1"``, ``"fit 2"``, and so on.
 
     Returns
     -------

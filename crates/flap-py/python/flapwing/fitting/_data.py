@@ -34,16 +34,17 @@ class Readings:
         ``drive_frequency``. A column with a measure's name and the suffix ``_sigma`` contains standard errors, in the
         measure's unit or as ``"3 %"``.
     name : str, optional
-        The name of the data set in reports. Default: the name of the file, or the number of the data set.
+        The name of the data set in reports. The default of `name` is the name of the file, or the number of the data
+        set.
     sigma : float, str or dict, optional
         The standard error of a reading: a number in the measure's unit, text such as ``"1 deg"``, or ``"3 %"`` of the
-        model's value. A dictionary gives one standard error for each measure. Default: the standard error is estimated
-        from the residuals.
+        model's value. A dictionary gives one standard error for each measure. By default, the standard error is
+        estimated from the residuals.
     branch : {"up", "down"}, optional
         For a design with hysteresis, the branch of the readings: ``"up"`` if `parameter` rose during the experiment,
         ``"down"`` if `parameter` fell.
     parameter : str, optional
-        The parameter that rose or fell during the experiment. Default: ``"drive_frequency"``.
+        The parameter that rose or fell during the experiment. The default of `parameter` is ``"drive_frequency"``.
     **params : float or str
         Parameters of all operating points, such as ``drive_voltage_pp="160 V"``.
 

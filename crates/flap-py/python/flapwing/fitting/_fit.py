@@ -60,7 +60,7 @@ def fit(
     sigma : float, str or dict, optional
         The standard error of readings that have no column of standard errors. `sigma` is a number in the measure's
         unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
-        each measure. Default: the standard error is estimated from the residuals.
+        each measure. By default, the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
         The loss function. All loss functions except ``"linear"`` reduce the weight of outliers.
     starts : int
@@ -77,7 +77,8 @@ def fit(
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster than the profile likelihood.
     threads : int, optional
-        Number of threads, 1 or more. Default: one thread per core. The number of threads does not change the results.
+        Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
+        change the results.
     progress : bool or function, optional
         If True, the number of computed points is shown. A function is called with two arguments, which are both the
         number of computed points.

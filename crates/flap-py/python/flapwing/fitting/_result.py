@@ -113,8 +113,8 @@ class Fit(Solution):
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
-            The data set whose parameters and branch are used for the prediction. Default: the parameters of the first
-            data set, and motions from rest.
+            The data set whose parameters and branch are used for the prediction. By default, the prediction has the
+            parameters of the first data set, and motions from rest.
         reading : bool
             If True, the bands also contain the noise of a reading, so that the bands contain 95 % of new readings. The
             standard errors of the noise are the standard errors of the data.
@@ -165,10 +165,11 @@ class Fit(Solution):
         count : int
             Number of readings to choose. If `candidates` has fewer than `count` points, all candidates are returned.
         measures : list of str, optional
-            The allowed measures of the new readings. Default: the measures of the data and of `sigma`.
+            The allowed measures of the new readings. By default, the measures of the data and of `sigma` are allowed.
         sigma : dict, optional
-            Standard errors of readings by measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. Default: the standard
-            errors of the data. `sigma` must contain a standard error for measures without readings in the data.
+            Standard errors of readings by measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. By default, the
+            standard errors are the standard errors of the data. `sigma` must contain a standard error for measures
+            without readings in the data.
         repeats : bool
             If True, a measure can be read several times at the same point.
 

@@ -164,10 +164,10 @@ def select(
     improve.
 
     Use `select` to find the effect that a model lacks. Each step predicts the gain of all candidate parameters from
-    derivatives at the present fit (score test), and fits the candidates with the largest predicted gains. The step
-    frees the candidate with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the
-    improvement is not significant. At the end, `select` fits all selected parameters once more, with several starts and
-    profiles, like `fit`.
+    derivatives at the present fit (score test), and fits the parameters with the largest gains. The step frees the
+    parameter with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the improvement
+    is not significant. At the end, `select` fits all selected parameters once more, with several starts and profiles,
+    like `fit`.
 
     Parameters
     ----------
@@ -181,7 +181,8 @@ def select(
     start : list of str, or dict
         The parameters that are free from the beginning, with bounds as for `fit`.
     budget : int, optional
-        Largest number of free parameters, including `start`. Default: a fifth of the number of readings.
+        Largest number of free parameters, including `start`. The default of `budget` is a fifth of the number of
+        readings.
     rhs_budget : float, optional
         Number of evaluations of the equations of motion after which no further step begins. `rhs_budget` does not limit
         the final fit.

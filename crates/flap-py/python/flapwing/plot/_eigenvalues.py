@@ -30,7 +30,7 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
         LinearModel without a name, the picture has no legend. By default, the legend is beside the axes of a new
         figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
         new figure.
 
     Returns

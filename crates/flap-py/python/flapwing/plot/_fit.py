@@ -36,7 +36,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     result : Fit
         The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
-        The picture to draw, if you want only one of the three pictures. Default: all three pictures.
+        The picture to draw, if you want only one of the three pictures. The default of `show` is all three pictures.
 
     Returns
     -------

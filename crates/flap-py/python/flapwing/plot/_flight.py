@@ -90,15 +90,16 @@ def flight(
         to flights, or a list.
     groups : str or sequence of str, optional
         The groups to draw: ``"velocity"`` (m/s), ``"rate"`` (rad/s), ``"position"`` (mm), ``"angle"`` (degrees),
-        ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. Inputs have one panel for each unit. Default:
-        the four groups of states, and the inputs if the flights have inputs.
+        ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. Inputs have one panel for each unit. The default of
+        `groups` is the four groups of states, and the inputs if the flights have inputs.
     label : sequence of str, optional
         The name of each flight of a list.
     legend : bool or str
         False for no legends, or the place of the legends inside the axes, such as ``"upper left"``. By default, the
         legends are above the axes of a new figure. In axes that you give, the legends are inside the axes by default.
     ax : matplotlib Axes, optional
-        Axes for one panel. The figure of `ax` determines the style of the panel. Default: axes of a new figure.
+        Axes for one panel. The figure of `ax` determines the style of the panel. The default of `ax` is axes of a new
+        figure.
 
     Returns
     -------

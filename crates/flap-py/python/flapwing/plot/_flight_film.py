@@ -67,11 +67,11 @@ def flight_film(
         ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the motions of the wings differ, give a mapping of the names of
         all wings to trajectories.
     vehicle : Vehicle, Grid, dict or path, optional
-        The vehicle, which contains the positions and sizes of the wings. Default: the vehicle of the flight. If the
-        flight is a file, `vehicle` is required.
+        The vehicle, which contains the positions and sizes of the wings. The default of `vehicle` is the vehicle of the
+        flight. If the flight is a file, `vehicle` is required.
     views : sequence of str
-        A list of one to three views: ``"side"`` (from the right side), ``"top"`` and ``"front"``. Default: side and
-        top.
+        A list of one to three views: ``"side"`` (from the right side), ``"top"`` and ``"front"``. The default of
+        `views` is side and top.
     frames : int
         Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
         takes about 0.1 s to draw.

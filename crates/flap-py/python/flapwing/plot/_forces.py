@@ -69,7 +69,7 @@ def control_matrix(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
         new figure.
 
     Returns
@@ -111,7 +111,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     table : Table, data frame, mapping of columns, or path
         Results of a vehicle.
     x : str, optional
-        The parameter on the horizontal axes of the panels. Default: the axis of the grid.
+        The parameter on the horizontal axes of the panels. The default of `x` is the axis of the grid.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is

@@ -67,7 +67,7 @@ def heatmap(
     table : Table, data frame, mapping of columns, or path
         Results of a sweep over a grid or of a sample.
     value : str, optional
-        The measure to draw. Default: the mean lift.
+        The measure to draw. The default of `value` is the mean lift.
     x, y : str, optional
         The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
         if ``drive_frequency`` does not vary. Default for y: the first axis of the grid that is not x. If the grid has
@@ -76,11 +76,12 @@ def heatmap(
         The scales of the axes. By default, an axis is logarithmic if the ratio of neighbouring values is constant. For
         points that form no grid, the default scale is linear.
     cmap : str, optional
-        A colour map of matplotlib. Default: viridis. For values of both signs, the default colour map is white at zero,
-        with a line at zero.
+        A colour map of matplotlib. The default of `cmap` is viridis. For values of both signs, the default colour map
+        is white at zero, with a line at zero.
     vmin, vmax : float, optional
-        The values at the ends of the colour bar, in the unit of the colour bar. Default: the smallest and the largest
-        value of the measure. An arrow at an end of the colour bar marks values that are outside of the colour bar.
+        The values at the ends of the colour bar, in the unit of the colour bar. The default of `vmin` is the smallest
+        value of the measure, and the default of `vmax` is the largest value. An arrow at an end of the colour bar marks
+        values that are outside of the colour bar.
     reduce : {"max", "min", "mean"}, optional
         The cell's value if several rows have the same x and y: the largest value, the smallest value or the mean of
         these rows. Rows with the same x and y differ in the axes that are not drawn. Rows without a value are left out.
@@ -102,7 +103,7 @@ def heatmap(
         the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes in which flap draws the picture. The figure of `ax` determines the style of the picture. Only labels and a
-        colour bar are drawn outside of `ax`. Default: axes of a new figure.
+        colour bar are drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

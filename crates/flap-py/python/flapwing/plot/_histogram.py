@@ -40,10 +40,11 @@ def histogram(
     table : Table, data frame, mapping of columns, or path
         A table of results of any kind.
     measure : str, optional
-        A column of numbers. Default: the mean lift, or a different measure if the table has no mean lift.
+        A column of numbers. The default of `measure` is the mean lift, or a different measure if the table has no mean
+        lift.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. Default: 5 %, 50 % and
-        95 %, as in ``flap plot``.
+        Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. The default of
+        `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
@@ -55,7 +56,7 @@ def histogram(
         legend contains the mean and the standard deviation.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels are drawn outside of
-        `ax`. Default: axes of a new figure.
+        `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

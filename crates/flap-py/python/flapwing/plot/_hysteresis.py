@@ -36,9 +36,9 @@ def hysteresis(
     table : Table, data frame, mapping of columns, or path
         Results of `flapwing.respond` or ``flap respond --out``.
     y : str, optional
-        The measure to draw. Default: the peak-to-peak stroke.
+        The measure to draw. The default of `y` is the peak-to-peak stroke.
     parameter : str, optional
-        The followed parameter. Default: the column after ``branch``.
+        The followed parameter. The default of `parameter` is the column after ``branch``.
     curve : int, optional
         The number of the design in the column ``curve``, if the table has several designs.
     where, **slices
@@ -51,7 +51,7 @@ def hysteresis(
         legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. Default: axes of a new figure.
+        drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

@@ -43,12 +43,12 @@ def pareto(
         A table of results of any kind.
     maximize, minimize : str or sequence of str
         The objectives, at least two. The picture shows the first two objectives. If one of the first two objectives is
-        minimised, the minimised objective is on the horizontal axis. Default: maximise the mean lift and minimise the
-        mean power.
+        minimised, the minimised objective is on the horizontal axis. By default, the mean lift is maximised and the
+        mean power is minimised.
     color : str, optional
         A column that sets the colours of the points: numbers with a colour bar, words with a legend.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. Default: the colour map of `heatmap`.
+        A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
@@ -62,7 +62,7 @@ def pareto(
         the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. Default: axes of a new figure.
+        drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

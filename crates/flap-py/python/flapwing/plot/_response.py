@@ -46,9 +46,9 @@ def response(
         Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give
         several results: a mapping of names to results, or a list. With several results, each design has one line.
     y : str, optional
-        The measure to draw. Default: the peak-to-peak stroke.
+        The measure to draw. The default of `y` is the peak-to-peak stroke.
     x : str, optional
-        The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
+        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
         The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
@@ -60,7 +60,7 @@ def response(
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         value that was used.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. Default: the numbers of the results.
+        The names in the legend, one for each result of a list. The default of `label` is the numbers of the results.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
@@ -68,7 +68,7 @@ def response(
         False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
         the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Default: axes of a
+        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
         new figure.
 
     Returns
@@ -131,7 +131,7 @@ def response_panels(
     measures : sequence of str
         The measures to draw, from top to bottom.
     x : str, optional
-        The parameter on the horizontal axis. Default: ``drive_frequency``, or the last axis of the grid if
+        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``, or the last axis of the grid if
         ``drive_frequency`` does not vary.
     by : str, optional
         The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
@@ -143,7 +143,7 @@ def response_panels(
         neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
         value that was used.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. Default: the numbers of the results.
+        The names in the legend, one for each result of a list. The default of `label` is the numbers of the results.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.

@@ -37,13 +37,13 @@ def scatter(
     table : Table, data frame, mapping of columns, or path
         A table of results of any kind.
     x, y : str, optional
-        Columns of numbers. Default: the mean power along x and the mean lift along y. If the table lacks power or lift,
-        a different measure of the table is drawn.
+        Columns of numbers. The default of `x` is the mean power, and the default of `y` is the mean lift. If the table
+        lacks power or lift, a different measure of the table is drawn.
     color : str, optional
-        A column that sets the colours of the points: numbers with a colour bar, words with a legend. Default: the
-        peak-to-peak stroke, or a different measure if the table has no stroke.
+        A column that sets the colours of the points: numbers with a colour bar, words with a legend. The default of
+        `color` is the peak-to-peak stroke, or a different measure if the table has no stroke.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. Default: the colour map of `heatmap`.
+        A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
@@ -57,7 +57,7 @@ def scatter(
         the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. Default: axes of a new figure.
+        drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

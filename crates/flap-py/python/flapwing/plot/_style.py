@@ -92,8 +92,8 @@ def style(
         with several axes below each other grows with the number of axes. If both width and height are omitted, figures
         have flap's default sizes.
     font_size : float, optional
-        Size of the letters (points). If the letters are smaller than 9.5 points, lines and markers are thinner.
-        Default: 8 points.
+        Size of the letters (points). If the letters are smaller than 9.5 points, lines and markers are thinner. The
+        default of `font_size` is 8 points.
 
     Returns
     -------

@@ -49,7 +49,7 @@ def tornado(
         legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. Default: axes of a new figure.
+        drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------

@@ -60,10 +60,10 @@ def trajectory(
         design have the same colour.
     signals : str or sequence of str
         The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
-        each column has separate axes. Default: stroke and pitch.
+        each column has separate axes. The default of `signals` is stroke and pitch.
     portrait : sequence of str, optional
-        The columns with a phase portrait. Default: stroke and pitch, if these columns are among the signals. If the
-        table has no column for a rate, the rate is computed from the samples.
+        The columns with a phase portrait. The default of `portrait` is stroke and pitch, if these columns are among the
+        signals. If the table has no column for a rate, the rate is computed from the samples.
     time : str
         The column of the time.
     label : str or sequence of str, optional

@@ -52,17 +52,18 @@ def wing_path(
     frames : int
         Number of frames in the cycle. The frames are evenly spaced in time.
     frequency : float, optional
-        Frequency of the wing's cycles (Hz). Default: the rate at which the motion repeats.
+        Frequency of the wing's cycles (Hz). The default of `frequency` is the rate at which the motion repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke axis, in chords. Default: 3 chords. If the peak-to-peak stroke is
-        less than 11 degrees, the default is larger, so that the leading edge moves by 2.5 chords.
+        Distance of the drawn chord from the stroke axis, in chords. The default of `radius` is 3 chords. If the
+        peak-to-peak stroke is less than 11 degrees, the default is larger, so that the leading edge moves by 2.5
+        chords.
     lift : str or None
         The column that the arrow shows. If `lift` is None, no arrow is drawn. If `lift` is not given and the table has
         no column of the lift, the picture has no arrow.
     pitch_sign : {1, -1}, optional
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
-        lags (1) or leads (-1). Default: the convention of the table's model. If the table has no model, the default is
-        the sign for which the trailing edge lags.
+        lags (1) or leads (-1). The default of `pitch_sign` is the convention of the table's model. If the table has no
+        model, the default is the sign for which the trailing edge lags.
     legend : bool or str
         False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
         legend is above the axes.
