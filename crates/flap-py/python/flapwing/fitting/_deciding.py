@@ -181,8 +181,9 @@ def _decide(
     If the first law is correct, a reading raises the chi-square of the second fit. The rise of chi-square is the
     squared difference of the two predictions, divided by the sum of two variances. The first variance belongs to the
     reading, and the second variance to the prediction of the second fit. If the second law is fitted to the reading,
-    its prediction moves towards the first law. The rise of chi-square is then smaller. The expected difference is the
-    mean of two rises of chi-square: one rise if the first law is correct, and one rise if the second law is correct.
+    its prediction moves towards the first law. The rise of chi-square is then smaller. For the expected difference of
+    chi-square, the first law is correct in one case and the second law in the other case. The expected difference is
+    the mean of the rises of chi-square in these two cases.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]
