@@ -368,6 +368,23 @@ fn every_command_on_results_takes_a_device_axis() {
         .says("the parameters of the designs differ");
 }
 
+/// The label of a design on the command line chooses the values of this design.
+#[test]
+fn a_point_takes_the_design_of_the_command_line() {
+    let folder = three();
+    let whole = folder.ends(0, "run grid.toml --point 10 --format csv").stdout;
+    for arguments in ["run grid.toml --set device=long", "run grid.toml --each device=long"] {
+        let chosen = folder.ends(0, &format!("{arguments} --format csv")).stdout;
+        let (row, place) = cells(&chosen);
+        let (same, at) = cells(&whole);
+        assert_eq!(row[0][place("lift_mean_mn")], same[0][at("lift_mean_mn")], "{arguments}");
+    }
+    // Other parameters of the command line keep their values.
+    let volts = folder.ends(0, "run grid.toml --set device=long --set drive_voltage_pp=150 --format csv").stdout;
+    let same = folder.ends(0, "run grid.toml --point 10 --set drive_voltage_pp=150 --format csv").stdout;
+    assert_eq!(cells(&volts).0[0].last(), cells(&same).0[0].last());
+}
+
 #[test]
 fn a_changed_device_of_an_axis_is_told() {
     let folder = three();

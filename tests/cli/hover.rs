@@ -126,6 +126,65 @@ fn rows_of_the_four_bar_have_a_damping_matrix() {
     assert!(vertical < 0.0, "{vertical}");
 }
 
+/// The search for hover changes the inputs, so a formula of `[measure]` has the inputs at hover.
+#[test]
+fn measures_have_the_inputs_at_hover() {
+    let own = "[measure]\nvolts = \"drive_voltage_pp\"\n";
+    let folder = Folder::with_grid(&format!("{HEAD}{BODY}trim = \"hover\"\n{WINGS}{own}"));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    for (volts, at_hover) in numbers(&rows, "volts").into_iter().zip(numbers(&rows, "hover_amplitude_v")) {
+        near(volts, at_hover, 1e-12);
+    }
+    let noted = folder.ends(0, "run grid.toml --gradient power_mean_mw").stderr;
+    assert!(noted.contains("the derivatives are at fixed drive_voltage_pp"), "{noted}");
+}
+
+#[test]
+fn inputs_of_hover_do_not_vary() {
+    let varied = HEAD.replace("about_z = [\"-1 mm\", \"-3 mm\"]", "drive_voltage_pp = [100, 140]");
+    let folder = Folder::with_grid(&format!("{varied}{BODY}trim = \"hover\"\n{WINGS}"));
+    let refused = folder.ends(2, "check grid.toml").stderr;
+    assert!(refused.contains("the search for hover changes drive_voltage_pp, which varies"), "{refused}");
+    let folder =
+        Folder::with_grid(&format!("preset = \"arabagi2013-75hz\"\n{BODY}trim = \"hover\"\n{WINGS}"));
+    let refused = folder.ends(2, "check grid.toml").stderr;
+    assert!(refused.contains("the search for hover requires 4 inputs"), "{refused}");
+}
+
+/// The search for hover balances lift and torques, but not forward and sideways forces.
+#[test]
+fn unbalanced_rows_are_counted() {
+    let axes = HEAD.replace("hinge_stiffness = [1.3e-6, 1.7e-6]", "about_x = [\"0 mm\", \"-2.5 mm\"]");
+    let folder = Folder::with_grid(&format!("{axes}{BODY}trim = \"hover\"\n{WINGS}"));
+    let ended = folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    let residual = numbers(&rows, "hover_residual");
+    let weight = 69e-6 * 9.80665 * 1e3;
+    for (point, residual) in residual.iter().enumerate() {
+        let forward = numbers(&rows, "force_forward_mn")[point] / weight;
+        near(*residual, forward.abs(), 1e-3);
+    }
+    let above = residual.iter().filter(|share| **share > 0.01).count();
+    assert!(above > 0 && ended.stderr.contains(&format!("{above} rows do not hover")), "{}", ended.stderr);
+    assert!(folder.read("rows.csv.meta.toml").contains(&format!("unbalanced = {above}")));
+}
+
+/// Masses for which the accuracy of the rows ends the search for hover before its own tolerance.
+#[test]
+fn hover_is_reached_within_the_accuracy_of_rows() {
+    let axes = HEAD.replace("about_z = [\"-1 mm\", \"-3 mm\"]\nhinge_stiffness = [1.3e-6, 1.7e-6]", "total_mass = { from = 160e-6, to = 180e-6, n = 41 }");
+    let axes = axes.replace("drive_voltage_pp = \"140 V\"\n", "");
+    let body = BODY.replace("total_mass = \"69 mg\"\n", "");
+    let folder = Folder::with_grid(&format!("{axes}{body}trim = \"hover\"\n{WINGS}"));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let rows = folder.read("rows.csv");
+    assert!(column(&rows, "status").iter().all(|status| status == "periodic"), "{rows}");
+    for (mass, lift) in numbers(&rows, "total_mass").iter().zip(numbers(&rows, "force_up_mn")) {
+        near(lift, mass * 9.80665 * 1e3, 1e-5);
+    }
+}
+
 /// Rows with terms of the body belong to one design.
 #[test]
 fn several_designs_have_no_rows_at_hover() {
