@@ -147,7 +147,7 @@ fn trims_reach_their_targets() {
     );
     folder.refuses(
         "vehicle grid.toml --inputs bias --trim force_up=2 --trim torque_roll=0",
-        "2 targets need at least 2 inputs, not 1",
+        "2 targets need at least 2 inputs with an effect, not only [bias]",
     );
 }
 

@@ -60,9 +60,6 @@ pub(super) struct VehicleSettings {
     frequencies: Vec<(Range<usize>, String)>,
 }
 
-/// Number of targets of a search for hover: the lift and three torques.
-const HOVER_TARGETS: usize = 4;
-
 /// Mass of the vehicle, which determines the lift at hover.
 const TOTAL_MASS: &str = "total_mass";
 
@@ -114,18 +111,6 @@ impl VehicleSettings {
                         .report(trim.clone(), format!("the search for hover changes {name}, which {verb}"))
                         .help(format!("remove {name} from {section}"));
                 }
-            }
-            if inputs.len() < HOVER_TARGETS {
-                let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-                problems
-                    .report(
-                        trim.clone(),
-                        format!(
-                            "the search for hover requires {HOVER_TARGETS} inputs, but this vehicle has only {}",
-                            names.join(", ")
-                        ),
-                    )
-                    .help("use a drive with a bias and wings on both sides");
             }
             inputs
         });

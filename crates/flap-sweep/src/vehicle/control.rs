@@ -179,7 +179,8 @@ pub fn trim(
     targets: &[Target],
 ) -> Result<Trim, ControlError> {
     if targets.len() > inputs.len() {
-        return Err(ControlError::FewInputs { targets: targets.len(), inputs: inputs.len() });
+        let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+        return Err(ControlError::FewInputs { targets: targets.len(), inputs: names.join(", ") });
     }
     let mut values = own_values(flight.vehicle, values, inputs);
     let sizes = inputs.iter().map(|input| input.size(flight.vehicle, &values));
@@ -276,12 +277,12 @@ pub enum ControlError {
         reason: NoSlope,
     },
     /// The trim has more targets than inputs.
-    #[error("{targets} targets need at least {targets} inputs, not {inputs}")]
+    #[error("{targets} targets need at least {targets} inputs with an effect, not only [{inputs}]")]
     FewInputs {
         /// Number of targets.
         targets: usize,
-        /// Number of inputs.
-        inputs: usize,
+        /// Names of the inputs.
+        inputs: String,
     },
     /// Further iterations do not reduce the distance from the targets. Contains the nearest values.
     #[error("the targets are not reached: {0}")]
