@@ -48,8 +48,7 @@ pub struct Warnings {
     pub negative_power: u64,
     /// Rows whose resonance is at an end of the range of the search.
     pub at_range_end: u64,
-    /// Rows at hover with an unbalanced force of more than 1 % of the weight, or torque of more than 1 % of the weight times
-    /// 1 mm.
+    /// Rows at hover whose unbalanced force or torque exceeds 1 % of the weight. The lever of torques is 1 mm.
     pub unbalanced: u64,
 }
 

@@ -341,7 +341,7 @@ impl Flight<'_> {
         self.vehicle.run_point(&run, begin)
     }
 
-    /// Returns the row of a periodic motion. The arguments are those of [`Flight::row`].
+    /// Returns the row of a periodic motion. [`Flight::row`] has the same arguments.
     ///
     /// # Errors
     /// If the motion is not periodic, or the computation is interrupted.

@@ -71,8 +71,8 @@ pub(crate) const TRIM_LIMIT: f64 = 1e-2;
 /// Lever that turns the limit of forces into the limit of torques (m).
 const TRIM_LEVER: f64 = 1e-3;
 
-/// Returns the largest residual of a force as a fraction of the weight, or of a torque as a fraction of the weight times
-/// 1 mm, from the wrench (N and N·m).
+/// Returns the largest residual of the wrench (N and N·m) as a share of the weight. A torque is divided by the weight
+/// times 1 mm.
 pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
     let weight = body.mass * body.gravity;
     let share = |i: usize| match i {

@@ -23,8 +23,8 @@ pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
 /// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
 ///
-/// After the measures of the vehicle, a row at hover contains growth rate and period of the fastest-growing mode of hover,
-/// and the residual of the trim. The values of the inputs and the damping matrix follow.
+/// After the measures of the vehicle, a row at hover contains the growth rate and the period of the fastest-growing mode.
+/// The residual of the trim, the values of the inputs and the damping matrix follow.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,
@@ -47,7 +47,7 @@ impl BodyRows {
             let period =
                 "period of the mode of hover with this real part; empty if the mode is no oscillation";
             add("hover_period_s".to_owned(), "s", period.to_owned());
-            let residual = "largest force without the weight, divided by the weight, or largest torque divided by the weight times 1 mm, that the search for hover leaves";
+            let residual = "force or torque that the search for hover leaves, as a share of the weight: the largest share; a torque is divided by the weight times 1 mm";
             add(HOVER_RESIDUAL.to_owned(), "", residual.to_owned());
             for input in inputs {
                 let doc = format!("value of the input {} at which the vehicle hovers", input.name);

@@ -41,8 +41,8 @@ impl Sidecar {
     /// - [`PlanError::GridText`] if the recorded grid file was edited
     /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap
     /// - [`PlanError::PointsFile`] if the file of points has changed
-    /// - [`PlanError::Changed`] if the solver settings are outside the limits of a grid file, the model of a response
-    ///   does not have a recorded parameter or option, or the points that were run are not points of the grid
+    /// - [`PlanError::Changed`] if the solver settings are outside the limits of a grid file, if the model of a response
+    ///   lacks a recorded parameter or option, or if the grid does not contain the recorded points
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let Identity { grid, devices, points_file, solver, .. } = &self.identity;
         if *grid != text::hash(&self.grid.text) || *devices != identity::devices(&self.devices) {
