@@ -41,8 +41,9 @@ impl Sidecar {
     /// - [`PlanError::GridText`] if the recorded grid file was edited
     /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap
     /// - [`PlanError::PointsFile`] if the file of points has changed
-    /// - [`PlanError::Changed`] if the solver settings are outside the limits of a grid file, if the model of a response
-    ///   lacks a recorded parameter or option, or if the grid does not contain the recorded points
+    /// - [`PlanError::Changed`] if the solver settings exceed the limits of a grid file
+    /// - [`PlanError::Changed`] if the model of a response lacks a recorded parameter or option
+    /// - [`PlanError::Changed`] if the grid does not contain the recorded points
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let Identity { grid, devices, points_file, solver, .. } = &self.identity;
         if *grid != text::hash(&self.grid.text) || *devices != identity::devices(&self.devices) {
