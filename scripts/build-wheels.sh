@@ -52,9 +52,15 @@ if ! diff -q "$requirements" "$tools/made-from" >/dev/null 2>&1; then
     cp "$requirements" "$tools/made-from"
 fi
 
+command -v cargo-bundle-licenses >/dev/null || cargo install --quiet --locked --root "$tools" cargo-bundle-licenses@5.0.0
+
 version=$(sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"$/\1/p' Cargo.toml)
 trap 'rm -rf -- "${folder:-}"' EXIT
 mkdir -p dist
+
+# The licences of the crates in the command and in the wheel. maturin adds files named LICENSE to wheels.
+licences=crates/flap-py/LICENSE-THIRD-PARTY.yml
+(cd crates/flap-py && cargo bundle-licenses --format yaml --output "${licences##*/}" 2>/dev/null)
 
 # macOS 11 is the oldest that runs on both kinds of processors.
 export MACOSX_DEPLOYMENT_TARGET=11.0
@@ -77,7 +83,7 @@ for triple in "$@"; do
     folder=$(mktemp -d)
     package=flap-$version-$triple
     mkdir "$folder/$package"
-    cp "$target/$triple/release/flap$suffix" README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT CITATION.cff "$folder/$package"
+    cp "$target/$triple/release/flap$suffix" README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT "$licences" CITATION.cff "$folder/$package"
     python scripts/archive.py "$folder/$package" dist
     rm -rf -- "$folder"
 
@@ -86,6 +92,7 @@ for triple in "$@"; do
 
     wheel=$(echo dist/flapwing-"$version"-*"$tag"*.whl)
     [[ -f $wheel ]] || die "maturin wrote no wheel for $tag to dist"
+    grep -q "/${licences##*/}" <<<"$(python -m zipfile --list "$wheel")" || die "$wheel lacks the licences of its crates"
     if [[ $triple == *-linux-* ]]; then
         told=$(auditwheel show "$wheel" | tr '\n' ' ')
         grep -q "platform tag: \"$tag\"" <<<"$told" || die "$wheel needs more than $tag has: $told"
