@@ -1,6 +1,6 @@
 //! Stroke and pitch over time: one motion with its rates over its angles, or several motions.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use flap_sweep::picture::colours;
 use flap_sweep::table::labels;
@@ -192,11 +192,12 @@ fn figure(
         Plot::Line(line) => line.legend_label.as_mut(),
         _ => None,
     });
-    let longest = names.map(|name| {
-        *name = shortened(name, most);
-        name.chars().count()
-    });
-    let longest = longest.max().unwrap_or(0) as f64;
+    let mut names: Vec<&mut String> = names.collect();
+    let shown = shortened(&names.iter().map(|name| name.as_str()).collect::<Vec<&str>>(), most);
+    let longest = shown.iter().map(|name| name.chars().count()).max().unwrap_or(0) as f64;
+    for (name, shown) in names.iter_mut().zip(shown) {
+        **name = shown;
+    }
     let count = panels.len();
     let (rows, columns) = if arrangement == Arrangement::Beside { (1, count) } else { (count, 1) };
     let width = size.width - LEGEND - longest * letter;
@@ -229,14 +230,31 @@ fn figure(
     figure.render()
 }
 
-/// Returns `name` with at most `most` letters, of which an ellipsis replaces the middle.
-fn shortened(name: &str, most: usize) -> String {
-    let letters: Vec<char> = name.chars().collect();
-    if letters.len() <= most {
-        return name.to_owned();
+/// Returns `names` with at most `most` letters each: an ellipsis replaces their common beginning and the middle of long
+/// names. Names that are equal after that get a number.
+fn shortened(names: &[&str], most: usize) -> Vec<String> {
+    let letters: Vec<Vec<char>> = names.iter().map(|name| name.chars().collect()).collect();
+    if letters.iter().all(|name| name.len() <= most) {
+        return names.iter().map(|name| (*name).to_owned()).collect();
     }
-    let (begin, end) = (most / 2, most - most / 2 - 1);
-    letters[..begin].iter().chain(&['…']).chain(&letters[letters.len() - end..]).collect()
+    let is_common = |place: &usize| letters.iter().all(|name| name.get(*place) == letters[0].get(*place));
+    let common = if letters.len() > 1 { (0..letters[0].len()).take_while(is_common).count() } else { 0 };
+    let cut = |name: &[char], most: usize| {
+        let name = if common > 1 { [&['…'], &name[common..]].concat() } else { name.to_vec() };
+        if name.len() <= most {
+            return name.into_iter().collect();
+        }
+        let (begin, end) = (most / 2, most - most / 2 - 1);
+        name[..begin].iter().chain(&['…']).chain(&name[name.len() - end..]).collect::<String>()
+    };
+    let short: Vec<String> = letters.iter().map(|name| cut(name, most)).collect();
+    if short.iter().collect::<HashSet<_>>().len() == short.len() {
+        return short;
+    }
+    let numbered = letters.iter().enumerate();
+    numbered
+        .map(|(place, name)| format!("{}: {}", place + 1, cut(name, most.saturating_sub(4).max(4))))
+        .collect()
 }
 
 /// Returns rates in degrees per millisecond, from the differences of neighbours.
@@ -255,9 +273,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_names_lose_their_middle() {
-        assert_eq!(shortened("150 V, 120 Hz", 13), "150 V, 120 Hz");
-        assert_eq!(shortened("wing_with_stiff_hinge_v2, 150 V", 11), "wing_…150 V");
+    fn long_names_differ_after_they_are_shortened() {
+        assert_eq!(shortened(&["150 V, 120 Hz"], 13), ["150 V, 120 Hz"]);
+        assert_eq!(shortened(&["wing_with_stiff_hinge_v2, 150 V"], 11), ["wing_…150 V"]);
+        let names =
+            ["wing_with_stiff_hinge, 120 V", "wing_with_stiff_hinge, 150 V", "wing_with_soft_hinge, 150 V"];
+        assert_eq!(shortened(&names, 12), ["…tiff_…120 V", "…tiff_…150 V", "…oft_h…150 V"]);
+        let names = ["a long wing, 150 V", "b long first wing, 150 V", "b long third wing, 150 V"];
+        assert_eq!(shortened(&names, 9), ["1: a … V", "2: b … V", "3: b … V"]);
     }
 
     #[test]
