@@ -111,8 +111,11 @@ def test_an_exception_of_the_user_cancels_the_tasks():
 
 def test_a_sweep_continues_after_an_interruption(tmp_path):
     script = f"""
-import multiprocessing, time, flapwing
+import multiprocessing, signal, time, flapwing
 from concurrent.futures import ProcessPoolExecutor
+
+# The processes that run tests ignore Ctrl-C, and pass this on to the processes that they start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 def progress(done, points):
     print(done, flush=True)
