@@ -84,7 +84,7 @@ python -m mypy --config-file tests/python/mypy.ini tests/data/generate/reference
 python -m mypy.stubtest flapwing._flapwing --mypy-config-file tests/python/mypy.ini
 
 export PYTHONDONTWRITEBYTECODE=1
-# One process per core; the tests of a file share its fixtures.
-python -m pytest --quiet -n auto --dist loadfile -o "cache_dir=$work/pytest-cache" tests/python "$@"
+# Two processes, because many tests use several cores themselves. The tests of a file share its fixtures.
+python -m pytest --quiet -n 2 --dist loadfile -o "cache_dir=$work/pytest-cache" tests/python "$@"
 # Pages of results and the live page, in chromium: skipped where that is not installed.
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/browser
