@@ -224,7 +224,10 @@ def test_other_compressions_are_named(table, tmp_path, compression):
 def test_columns_of_other_kinds_are_named(tmp_path, cells, rows):
     frame = pandas.DataFrame({"good": [1.0], "other": cells})
     table = pyarrow.Table.from_pandas(frame)
-    parquet.write_table(table.slice(0, rows), tmp_path / "other.parquet")
+    try:
+        parquet.write_table(table.slice(0, rows), tmp_path / "other.parquet")
+    except pyarrow.ArrowNotImplementedError:
+        pytest.skip("this pyarrow cannot write the column")
     with pytest.raises(ValueError, match="column other cannot be read: cells are whole numbers"):
         flapwing.read(tmp_path / "other.parquet")
 
