@@ -55,7 +55,7 @@ fi
 command -v cargo-bundle-licenses >/dev/null || cargo install --quiet --locked --root "$tools" cargo-bundle-licenses@5.0.0
 
 version=$(sed -n '/^\[workspace.package\]/,/^\[/s/^version = "\(.*\)"$/\1/p' Cargo.toml)
-trap 'rm -rf -- "${folder:-}"' EXIT
+trap 'rm -rf -- "${folder:-}" "${licences:-}"' EXIT
 mkdir -p dist
 
 # The licences of the crates in the command and in the wheel. maturin adds files named LICENSE to wheels.

@@ -3,12 +3,12 @@
 Each trial is a response of the bimorph of Jafferis et al. at three voltages and ten frequencies, with noise of 3 % on
 stroke and pitch. In each trial, another candidate of `flapwing.candidates` has a random value that differs from the
 preset's value. With `--lift`, the readings also contain the lift, and the candidates also contain the terms of lift and
-drag. Three parameters are unknown in all trials. A selection is right if the first step frees the candidate of the
+drag. Three parameters are unknown in all trials. A selection is correct if the first step frees the candidate of the
 trial, or a candidate with an AICc that is higher or lower by less than 2.
 
     python benches/fit/terms.py --lift
 
-Needs scipy: pip install scipy
+The script requires SciPy: pip install scipy
 """
 
 import argparse
