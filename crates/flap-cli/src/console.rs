@@ -75,8 +75,10 @@ pub(crate) fn say(text: &str) {
 }
 
 /// Prints a warning or an error to stderr. If stderr is closed, the printed line is lost.
+///
+/// The line and its end are written together, so that no other process can write between them.
 pub(crate) fn complain(text: &str) {
-    let _ = writeln!(anstream::stderr(), "{text}");
+    let _ = anstream::stderr().write_all(format!("{text}\n").as_bytes());
 }
 
 #[cfg(test)]
