@@ -95,14 +95,6 @@ pub enum BodyTerms {
     All,
 }
 
-impl BodyTerms {
-    /// Returns the terms of the motion that has terms, or of the first motion if both have terms.
-    #[must_use]
-    pub fn or(self, other: BodyTerms) -> BodyTerms {
-        if self == BodyTerms::None { other } else { self }
-    }
-}
-
 crate::per_lane! {
     /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air.
     ///

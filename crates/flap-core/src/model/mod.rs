@@ -20,6 +20,7 @@ pub mod readings;
 mod signal;
 mod signals;
 pub mod stroke_and_pitch;
+mod terms;
 mod totals;
 
 pub use definition::{Derived, Description, Instant, Model, SecondHalf, Symmetry};
@@ -28,4 +29,5 @@ pub use motions::{Imposed, Motions};
 pub(crate) use signal::GRAVITY;
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};
+pub use terms::Terms;
 pub use totals::Totals;

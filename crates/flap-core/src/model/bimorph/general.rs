@@ -97,7 +97,7 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
     } else {
         rhs::load(c, true, model.centre_of_pressure, *phi, x_dot, *rate, *pitch)
     };
-    let load = if model.has_air_terms {
+    let load = if model.terms.air {
         let circulation = c.circulation.load(&sections, pitch_rate, *turned);
         load.with_normal(&circulation.plus(&c.rotation.load(pitch_rate)), *turned)
     } else {
@@ -129,7 +129,7 @@ fn air_with_added_mass<R: Real>(
 ) -> Air<R> {
     let motion = Motion::at(c, model, body_moves, y);
     let found = air(c, model, body_moves, &motion, y[1]);
-    if !model.has_air_terms {
+    if !model.terms.air {
         return found;
     }
     // Between the stages of a step the derivative is unknown.
@@ -184,7 +184,7 @@ fn coupled_derivative<R: Real>(
     y: &[R; 4],
 ) -> [R; 4] {
     let [x, x_dot, psi, psi_dot] = *y;
-    let body_moves = model.body == BodyTerms::All;
+    let body_moves = model.terms.body == BodyTerms::All;
     let motion = Motion::at(c, model, body_moves, y);
     let Motion { transmission, stroke: [phi, phi_dot], rate, turned: [sin, cos], shoulder, .. } = &motion;
     let Air { load, .. } = air(c, model, body_moves, &motion, x_dot);

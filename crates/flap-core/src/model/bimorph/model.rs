@@ -21,7 +21,7 @@ use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees}
 use crate::model::signal::DEGREES;
 use crate::model::{
     Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
-    Totals, Unit,
+    Terms, Totals, Unit,
 };
 use crate::modes::Mode;
 use crate::num::Real;
@@ -226,7 +226,7 @@ impl Ode<4> for Bimorph {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.is_plain
+        self.terms.is_plain()
     }
 
     #[inline(always)]
@@ -301,29 +301,20 @@ impl Model<4> for Bimorph {
 
     fn variant(&self, values: &[f64]) -> Bimorph {
         let p = Params::from_values(values);
-        let Params { waveform, transmission_growth, centre_of_pressure, body, .. } = &p;
+        let Params { waveform, transmission_growth, centre_of_pressure, .. } = &p;
+        let air = p.has_sections() || p.harmonics != HarmonicParameters::NONE;
+        let stiffening = !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero();
         Bimorph {
             drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
             law: if *transmission_growth == 0.0 { Law::Constant } else { Law::Square },
             centre_of_pressure: *centre_of_pressure,
-            body: body.terms(),
-            has_air_terms: p.has_sections() || p.harmonics != HarmonicParameters::NONE,
-            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
-            is_plain: false,
+            terms: Terms::new(p.body.terms(), air, stiffening),
         }
-        .classified()
     }
 
     fn with_terms_of(&self, other: &Bimorph) -> Bimorph {
         let law = if other.law == Law::Square { Law::Square } else { self.law };
-        Bimorph {
-            law,
-            body: self.body.or(other.body),
-            has_air_terms: self.has_air_terms || other.has_air_terms,
-            stiffens: self.stiffens || other.stiffens,
-            ..self.clone()
-        }
-        .classified()
+        Bimorph { law, terms: self.terms.or(other.terms), ..self.clone() }
     }
 
     /// Returns a start at rest.
@@ -333,7 +324,8 @@ impl Model<4> for Bimorph {
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
+        let constants =
+            Constants { moving: Moving::of(&params, self.terms.body)?, ..Constants::derive(&params)? };
         let DriveConstants { rate, .. } = constants.drive;
         let tip = 0.1 / params.transmission_ratio;
         let scale = [tip, tip * rate, 0.3, 0.3 * rate];
@@ -345,7 +337,7 @@ impl Model<4> for Bimorph {
         let [f_1, f_2] = c.force_per_stress;
         let is_symmetric = f_1 == f_2
             && c.half_offset == 0.0
-            && self.body == BodyTerms::None
+            && self.terms.body == BodyTerms::None
             && self.centre_of_pressure != CentreOfPressure::Literal
             && self.drive.is_symmetric(&c.drive);
         is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
@@ -393,7 +385,7 @@ impl Model<4> for Bimorph {
         }
         let [x, x_dot, _, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);
-        let air = air_at(c, self, self.body == BodyTerms::All, at);
+        let air = air_at(c, self, self.terms.body == BodyTerms::All, at);
         self.signals_in(c, at, &Losses::of(c, &air, rate, psi_dot))
     }
 
@@ -420,8 +412,8 @@ impl Model<4> for Bimorph {
 
     #[inline(always)]
     fn load<R: Real>(&self, c: &Constants<R>, at: Instant<'_, R, [Plate<R>; 2], 4>) -> Load<R> {
-        if !self.is_plain() || self.body == BodyTerms::Loads {
-            return air_at(c, self, self.body != BodyTerms::None, at).load;
+        if !self.is_plain() || self.terms.body == BodyTerms::Loads {
+            return air_at(c, self, self.terms.body != BodyTerms::None, at).load;
         }
         let [x, x_dot, psi, psi_dot] = *at.y;
         let rate = Transmission::at(c, self.law, x).times(x_dot);

@@ -111,7 +111,7 @@ fn air_inlined<R: Real>(
 pub(super) fn balance<R: Real>(c: &Constants<R>, model: &DirectDrive, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;
     let (sin, cos) = psi.sin_cos();
-    let body_moves = model.body == BodyTerms::All;
+    let body_moves = model.terms.body == BodyTerms::All;
     let Air { forces, normal, gyroscopic } = air(c, model, body_moves, side, y, [sin, cos]);
     let Balance { mass, stroke_moment, pitch_moment } = balance_in(c, &forces, y, [sin, cos]);
     Balance {

@@ -15,7 +15,7 @@ use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hing
 use crate::model::stroke_and_pitch as states;
 use crate::model::{
     Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
-    Totals, Unit,
+    Terms, Totals, Unit,
 };
 use crate::modes::Mode;
 use crate::num::Real;
@@ -112,7 +112,7 @@ impl Ode<4> for DirectDrive {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.is_plain
+        self.terms.is_plain()
     }
 
     #[inline(always)]
@@ -177,7 +177,7 @@ impl DirectDrive {
             let power = -(air.stroke_moment * phi_dot + air.pitch_moment * psi_dot);
             (air, added_mass(c, sin, cos, &slope), power)
         } else {
-            let air = general::air(c, self, self.body == BodyTerms::All, side, &y, [sin, cos]);
+            let air = general::air(c, self, self.terms.body == BodyTerms::All, side, &y, [sin, cos]);
             let power = air.translational_power([phi_dot, psi_dot], cos);
             (air.forces, air.with_added_mass(c, [sin, cos], &slope), power)
         };
@@ -219,41 +219,33 @@ impl Model<4> for DirectDrive {
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
         let p = Params::from_values(values);
-        let Params { waveform, stroke, flow_direction, body, .. } = &p;
+        let Params { waveform, stroke, flow_direction, .. } = &p;
+        let air = p.circulation_factor != 0.0
+            || p.rotation_force_factor != 0.0
+            || p.harmonics != HarmonicParameters::NONE;
+        let stiffening = !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero();
         DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
             flow: *flow_direction,
-            body: body.terms(),
-            has_air_terms: p.circulation_factor != 0.0
-                || p.rotation_force_factor != 0.0
-                || p.harmonics != HarmonicParameters::NONE,
-            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
-            is_plain: false,
+            terms: Terms::new(p.body.terms(), air, stiffening),
         }
-        .classified()
     }
 
     fn with_terms_of(&self, other: &DirectDrive) -> DirectDrive {
-        DirectDrive {
-            body: self.body.or(other.body),
-            has_air_terms: self.has_air_terms || other.has_air_terms,
-            stiffens: self.stiffens || other.stiffens,
-            ..self.clone()
-        }
-        .classified()
+        DirectDrive { terms: self.terms.or(other.terms), ..self.clone() }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = with_motion(&Constants::derive(&params)?, &params, self.body)?;
+        let constants = with_motion(&Constants::derive(&params)?, &params, self.terms.body)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
     /// The symmetry is about the rest position under the constant part of the voltage, which only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
-        if literal != 0.0 || self.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {
+        if literal != 0.0 || self.terms.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {
             return None;
         }
         let stroke = c.gamma * c.drive.bias / c.k_phi;
@@ -321,10 +313,10 @@ impl Model<4> for DirectDrive {
         let y = states::state(&self.drive, drive, y);
         let (sin, cos) = y[1].sin_cos();
         let slope = states::slope(&self.drive, drive, dy);
-        let (air, added) = if self.body == BodyTerms::None && !self.has_air_terms {
+        let (air, added) = if self.terms.body == BodyTerms::None && !self.terms.air {
             (aerodynamics(c, false, self.flow, side, &y, sin, cos), added_mass(c, sin, cos, &slope))
         } else {
-            let air = general::air(c, self, self.body != BodyTerms::None, side, &y, [sin, cos]);
+            let air = general::air(c, self, self.terms.body != BodyTerms::None, side, &y, [sin, cos]);
             (air.forces, air.with_added_mass(c, [sin, cos], &slope))
         };
         load(c, &air, &added, &y, [sin, cos])

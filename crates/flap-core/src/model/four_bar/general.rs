@@ -188,7 +188,7 @@ fn motion_in_air_inlined<R: Real>(
 /// Returns the forces and moments of the air without the added mass.
 #[inline(always)]
 pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> Aerodynamics<R> {
-    motion_in_air(c, model.body == BodyTerms::All, side, y).1
+    motion_in_air(c, model.terms.body == BodyTerms::All, side, y).1
 }
 
 /// Returns mass matrix and generalised forces, with the springs' nonlinear parts, and the inertial moments of a turning body. The
@@ -201,7 +201,7 @@ pub(super) fn balance<R: Real>(
     side: R,
     y: &[R; 4],
 ) -> Balance<R> {
-    let (motion, air) = motion_in_air(c, model.body == BodyTerms::All, side, y);
+    let (motion, air) = motion_in_air(c, model.terms.body == BodyTerms::All, side, y);
     let Motion { shoulder, rates: [theta_dot, psi_dot], pitch, .. } = motion;
     let gyroscopic = shoulder.gyroscopic(c.wing.j_difference, c.wing.coupling, pitch);
     let at = [-pitch[0], pitch[1]];
@@ -216,7 +216,7 @@ pub(super) fn balance<R: Real>(
 /// Returns the load of the air at a state with derivative `dy`.
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
-    let (motion, air) = motion_in_air(c, model.body != BodyTerms::None, side, y);
+    let (motion, air) = motion_in_air(c, model.terms.body != BodyTerms::None, side, y);
     motion.load(c, &air, y, dy)
 }
 

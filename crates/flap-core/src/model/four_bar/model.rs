@@ -16,7 +16,9 @@ use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
-use crate::model::{Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Unit};
+use crate::model::{
+    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Terms, Unit,
+};
 use crate::modes::Mode;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
@@ -111,7 +113,7 @@ impl Ode<4> for FourBar {
     /// Returns true if the equations of motion contain no terms of `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        self.is_plain
+        self.terms.is_plain()
     }
 
     #[inline(always)]
@@ -218,30 +220,23 @@ impl Model<4> for FourBar {
 
     fn variant(&self, values: &[f64]) -> FourBar {
         let p = Params::from_values(values);
+        let air = p.circulation_factor != 0.0 || p.harmonics != HarmonicParameters::NONE;
+        let stiffening = !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero();
         FourBar {
             drive: self.drive.of_point(p.waveform.drive_shape, p.stroke.stroke_mode),
-            body: p.body.terms(),
-            has_air_terms: p.circulation_factor != 0.0 || p.harmonics != HarmonicParameters::NONE,
-            stiffens: !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero(),
-            is_plain: false,
+            terms: Terms::new(p.body.terms(), air, stiffening),
         }
-        .classified()
     }
 
     fn with_terms_of(&self, other: &FourBar) -> FourBar {
-        FourBar {
-            body: self.body.or(other.body),
-            has_air_terms: self.has_air_terms || other.has_air_terms,
-            stiffens: self.stiffens || other.stiffens,
-            ..self.clone()
-        }
-        .classified()
+        FourBar { terms: self.terms.or(other.terms), ..self.clone() }
     }
 
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = Constants { moving: Moving::of(&params, self.body)?, ..Constants::derive(&params)? };
+        let constants =
+            Constants { moving: Moving::of(&params, self.terms.body)?, ..Constants::derive(&params)? };
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
     }
 
@@ -306,7 +301,7 @@ impl Model<4> for FourBar {
         let Instant { input: drive, side, y, dy } = at;
         let y = states::state(&self.drive, drive, y);
         let slope = states::slope(&self.drive, drive, dy);
-        if self.body == BodyTerms::None && !self.has_air_terms {
+        if self.terms.body == BodyTerms::None && !self.terms.air {
             load(c, side, &y, &slope)
         } else {
             general::load(c, self, side, &y, &slope)
@@ -315,7 +310,7 @@ impl Model<4> for FourBar {
 
     #[inline(always)]
     fn impulse<R: Lanes>(&self, c: &Constants<R>, attempt: &Attempt<'_, R, 4>) -> [R; 6] {
-        if self.body == BodyTerms::None {
+        if self.terms.body == BodyTerms::None {
             return self.impulse_of_stages(c, attempt);
         }
         general::impulse(
@@ -330,7 +325,7 @@ impl Model<4> for FourBar {
 
     /// On a moving body, the lift of each strip jumps at another time, and these times are not located.
     fn has_slopes(&self) -> bool {
-        self.body == BodyTerms::None
+        self.terms.body == BodyTerms::None
     }
 }
 

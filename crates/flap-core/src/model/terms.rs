@@ -1,0 +1,40 @@
+//! Terms that the papers of the models leave out.
+
+use crate::body::BodyTerms;
+
+/// Terms of a model's equations that its paper leaves out: choices on which the equations branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terms {
+    /// Terms of the body's motion.
+    pub body: BodyTerms,
+    /// True with further terms of the attack angle, or with forces of the wing's sections along the normal: circulation,
+    /// rotational drag, added mass.
+    pub air: bool,
+    /// True with nonlinear springs.
+    pub stiffening: bool,
+    /// Stored, because each step reads it many times.
+    is_plain: bool,
+}
+
+impl Terms {
+    /// No terms.
+    pub const NONE: Terms = Terms::new(BodyTerms::None, false, false);
+
+    /// Terms of a point.
+    pub const fn new(body: BodyTerms, air: bool, stiffening: bool) -> Terms {
+        let is_plain = !matches!(body, BodyTerms::All) && !air && !stiffening;
+        Terms { body, air, stiffening, is_plain }
+    }
+
+    /// Returns the terms that either point has. The terms of the body's motion are those of the first point that moves.
+    pub fn or(self, other: Terms) -> Terms {
+        let body = if self.body == BodyTerms::None { other.body } else { self.body };
+        Terms::new(body, self.air || other.air, self.stiffening || other.stiffening)
+    }
+
+    /// Returns true if the equations of motion contain none of the terms.
+    #[inline(always)]
+    pub fn is_plain(&self) -> bool {
+        self.is_plain
+    }
+}
