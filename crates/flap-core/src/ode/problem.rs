@@ -125,6 +125,12 @@ impl<C, const N: usize> Start<C, N> {
     pub const fn new(constants: C, y: [f64; N], span: f64, scale: [f64; N]) -> Start<C, N> {
         Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale }
     }
+
+    /// Returns the same run with other constants.
+    pub(crate) fn with<D>(self, constants: D) -> Start<D, N> {
+        let Start { y, span, scale, tolerance_factor, change, .. } = self;
+        Start { constants, y, span, scale, tolerance_factor, change }
+    }
 }
 
 /// Tolerances and limits.

@@ -380,7 +380,7 @@ where
 {
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<M::Constants<f64>, N>> {
         let (run, begin) = self.driver.next(self.kind, idle)?;
-        let start = begin.start(run.start.constants);
+        let start = begin.with(run.start.constants);
         self.runs[lane] = Some(run);
         Some(start)
     }

@@ -9,8 +9,6 @@
 //! 3. **Close.** Chord steps at the tolerance of the row lead close to its orbit. A period with responses to changes of
 //!    the state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is
 //!    measured, which confirms the orbit.
-//!    state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is measured, which
-//!    confirms the orbit.
 //! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
 //!
 //! If the point is [symmetric](Symmetry), its orbit is presumably symmetric too. Newton's iteration, the chord steps
@@ -589,7 +587,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let Some(Symmetry { centre, .. }) = self.symmetry else {
             return self.period(kind, Some(begin)).await;
         };
-        let mut end = self.period(kind, Some(Restart { span: 0.5 * begin.span, ..begin })).await?;
+        let mut end = self.period(kind, Some(Start { span: 0.5 * begin.span, ..begin })).await?;
         end.y = core::array::from_fn(|i| 2.0 * centre[i] - end.y[i]);
         end.monodromy = end.monodromy.map(|row| row.map(|response| -response));
         Some(end)
@@ -651,7 +649,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
         let Start { span, scale, .. } = self.start;
-        Restart { y: *y, span, scale: self.size, tolerance_factor, change: scale }
+        Start { constants: (), y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
     /// Returns the factor on the tolerances of the row.

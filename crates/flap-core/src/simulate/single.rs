@@ -13,7 +13,6 @@ use super::settings::SolverSettings;
 use crate::measure::multipliers::spectral_radius;
 use crate::model::Model;
 use crate::num::{Arithmetic, Backend, Scalar, Unfused};
-use crate::ode::ensemble::Restart;
 use crate::ode::{Interrupt, Start, never};
 
 /// Run of a single point on scalars.
@@ -105,7 +104,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for TrajectoryFrom<'_> {
             let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
                 return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
             };
-            start = orbit.start(start.constants);
+            start = orbit.with(start.constants);
         }
         sampled::<M, R, N>(model, solver, &start, cycles, samples_per_cycle, interrupted)
     }
@@ -121,7 +120,7 @@ impl<M: Model<N>, const N: usize> Question<M, N> for PeriodFrom<'_> {
         let PointRun { solver, values, interrupted, .. } = *run;
         let start = begin(model, values, Some(self.0))?;
         let Start { y, span, scale, tolerance_factor, .. } = start;
-        let begin = Some(Restart { y, span, scale, tolerance_factor, change: scale });
+        let begin = Some(Start { constants: (), y, span, scale, tolerance_factor, change: scale });
         let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
             let varied = exchange.period(Request { kind: Kind::Responses, begin }).await;
             let measured = exchange.period(Request { kind: Kind::Signals, begin }).await;

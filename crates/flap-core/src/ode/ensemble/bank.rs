@@ -1,6 +1,6 @@
 //! Numbers in an ensemble's lanes, and a step of all lanes.
 
-use super::queue::{Observer, Restart};
+use super::queue::Observer;
 use crate::num::{Lanes, PerLane};
 use crate::ode::controller::{Memory, judge};
 use crate::ode::norm::add_squares;
@@ -83,15 +83,14 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     /// Loads a run into a lane.
     pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
         self.constants.set(lane, &start.constants);
-        let Start { y, span, scale, tolerance_factor, change, .. } = *start;
-        self.restart(lane, &Restart { y, span, scale, tolerance_factor, change }, observer);
+        self.restart(lane, start, observer);
     }
 
-    /// Restarts the run of a lane.
-    pub(super) fn restart(&mut self, lane: usize, next: &Restart<N>, observer: &V) {
+    /// Restarts the run of a lane with the same constants.
+    pub(super) fn restart<C>(&mut self, lane: usize, next: &Start<C, N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
-        let Restart { y, span, scale, tolerance_factor, change } = next;
+        let Start { y, span, scale, tolerance_factor, change, .. } = next;
         self.span.set_lane(lane, *span);
         self.step.y[0].set(lane, y);
         self.atol.set(lane, &self.tolerances.absolute(*tolerance_factor, scale));

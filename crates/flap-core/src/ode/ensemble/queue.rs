@@ -7,28 +7,8 @@ use crate::ode::{Ode, Outcome, Start};
 /// Largest number of lanes of any backend: two registers of AVX-512.
 pub const MOST_LANES: usize = 16;
 
-/// A restart of a run in the same lane, with the same constants.
-#[derive(Clone, Copy, Debug)]
-pub struct Restart<const N: usize> {
-    /// Initial state.
-    pub y: [f64; N],
-    /// As [`Start::span`].
-    pub span: f64,
-    /// As [`Start::scale`].
-    pub scale: [f64; N],
-    /// As [`Start::tolerance_factor`].
-    pub tolerance_factor: f64,
-    /// As [`Start::change`].
-    pub change: [f64; N],
-}
-
-impl<const N: usize> Restart<N> {
-    /// Returns the start of a run with these constants.
-    pub(crate) fn start<C>(self, constants: C) -> Start<C, N> {
-        let Restart { y, span, scale, tolerance_factor, change } = self;
-        Start { constants, y, span, scale, tolerance_factor, change }
-    }
-}
+/// A run in the same lane, with the same constants.
+pub type Restart<const N: usize> = Start<(), N>;
 
 /// A run at the end of a span, or at its failure.
 #[derive(Clone, Copy, Debug)]
