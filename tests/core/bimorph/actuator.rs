@@ -1,9 +1,10 @@
 //! Constants of the actuator, the wing and the drive.
 
-use flap_core::model::Motions;
+use flap_core::drive::{Repeat, Samples};
 use flap_core::model::bimorph::{
     ActuatorStiffness, Bimorph, Constants, FieldTransition, Params, secant_stiffness,
 };
+use flap_core::model::{Model, Motions};
 
 use super::params;
 use crate::data::{assert_close, table};
@@ -159,8 +160,16 @@ fn transitions_too_steep_to_compute_are_refused() {
         Params { drive_voltage_pp: 1e5, ..p() },
         Params { modulus_steepness: 1e7, ..p() },
     ] {
-        assert!(Constants::derive(&steep).unwrap_err().to_string().contains("too steep"));
+        assert!(Bimorph::SINE.start(&steep.to_values()).unwrap_err().to_string().contains("too steep"));
     }
+    // Plates at 95 times the voltage of a sine.
+    let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| share / p().drive_frequency);
+    let start = |largest: f64| {
+        let samples = Samples::new(&times, &[0.0, largest, 0.0, -largest, 0.0], Repeat::Periodic).unwrap();
+        Bimorph::SINE.sampled(samples).start(&p().to_values())
+    };
+    assert!(start(2.0).is_ok());
+    assert!(start(95.0).unwrap_err().to_string().contains("too steep"));
     let huge = Constants::derive(&Params { wing_length: 1e200, ..p() }).unwrap_err();
     assert!(huge.to_string().contains("not finite"), "{huge}");
 }

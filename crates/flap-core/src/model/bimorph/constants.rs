@@ -7,7 +7,7 @@ use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
 use super::strips::{Moving, unsteady};
 use crate::aero::{AddedMass, Circulation, Harmonics, RotationalForce};
-use crate::drive::{DriveConstants, Shape};
+use crate::drive::DriveConstants;
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
 use crate::springs::{Stiffening, structural_damping};
@@ -150,39 +150,32 @@ crate::per_lane! {
 /// Largest magnitude of an exponent in the equations. Their exponential function does not check its range.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
-/// Returns the exponent z₀ = a₁ε₀ of the modulus transition at zero strain, (4).
+/// Checks that the transitions (2), (4) can be computed for plates at up to `voltage_max` (V).
 ///
 /// # Errors
-/// If a transition is too steep to compute.
-fn transition_at_zero(p: &Params) -> Result<f64, Invalid> {
-    // With harmonics the voltage exceeds the range from 0 to V_pp.
-    let harmonics = if p.waveform.drive_shape == Shape::Harmonics {
-        p.waveform.drive_second_harmonic.abs() + p.waveform.drive_third_harmonic.abs()
-    } else {
-        0.0
-    };
-    let voltage_max = p.drive_voltage_pp * (1.0 + harmonics) + 0.5 * p.drive_offset.abs();
-    let field_max = voltage_max / p.piezo_thickness;
-    let steepest = (p.stress_field.abs() + field_max) * p.stress_steepness;
-    let z_0 = p.modulus_steepness * p.modulus_strain;
-    if steepest.max(z_0.abs()) > EXPONENT_MAX {
+/// If a transition is too steep.
+pub(super) fn check_transitions(p: &Params, voltage_max: f64) -> Result<(), Invalid> {
+    let stress = (p.stress_field.abs() + voltage_max / p.piezo_thickness) * p.stress_steepness;
+    let modulus = p.modulus_steepness * p.modulus_strain;
+    if stress.max(modulus.abs()) > EXPONENT_MAX {
         return Err(Invalid::together(
             &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
             "a transition is too steep: stress_steepness times field, or modulus_steepness times \
              modulus_strain, exceeds 600",
         ));
     }
-    Ok(z_0)
+    Ok(())
 }
 
 impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// If the actuator's width is zero at one end, a transition is too steep to compute, or a constant is not finite.
+    /// If the actuator's width is zero at one end, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
-        let z_0 = transition_at_zero(p)?;
+        // Exponent of the modulus transition (4) at zero strain.
+        let z_0 = p.modulus_steepness * p.modulus_strain;
         let sigma_0 = 1.0 / (1.0 + libm::exp(-z_0));
         // E_e = E_min + ½ (E_max − E_min) L/u with L/u → σ₀ for u → 0.
         let half_range = 0.5 * (p.piezo_modulus_max - p.piezo_modulus_min);
@@ -282,12 +275,12 @@ impl Constants<f64> {
     }
 
     /// # Errors
-    /// If the actuator has no stiffness, or the mass matrix is not positive definite at every pitch.
+    /// If the plates have no stiffness, or the mass matrix is not positive definite at every pitch.
     fn checked(self) -> Result<Constants<f64>, Invalid> {
-        if self.k_soft <= 0.0 {
+        if self.softening() <= 0.0 {
             return Err(Invalid::together(
                 &["modulus_decline", "drive_voltage_pp", "piezo_thickness"],
-                "the actuator has no stiffness: modulus_decline times the mean field in the plates is too large",
+                "the plates have no stiffness: modulus_decline times the mean field in the plates must be less than 1",
             ));
         }
         // The determinant is linear in cos²ψ: it is positive everywhere if it is positive at both ends.
@@ -318,8 +311,13 @@ impl Constants<f64> {
             libm::exp(self.a_3 * (self.field_0 - field))
         });
         let transition_swing = self.a_3 * amplitude * self.field_per_volt;
-        let soft = 1.0 - self.modulus_decline * (bias * self.field_per_volt);
-        let (k_soft, f_stiff) = (self.k_plates * soft + self.k_shim, self.f_plates * soft);
-        Constants { drive, transition, transition_swing, k_soft, f_stiff, ..*self }
+        let driven = Constants { drive, transition, transition_swing, ..*self };
+        let soft = driven.softening();
+        Constants { k_soft: self.k_plates * soft + self.k_shim, f_stiff: self.f_plates * soft, ..driven }
+    }
+
+    /// Returns the factor by which the mean field lowers the modulus of the plates.
+    fn softening(&self) -> f64 {
+        1.0 - self.modulus_decline * (self.drive.bias * self.field_per_volt)
     }
 }

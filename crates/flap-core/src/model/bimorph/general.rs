@@ -1,8 +1,7 @@
 //! The equations of the bimorph model with the terms that the paper leaves out.
 //!
 //! The terms are motion of the body, further terms of the attack angle, forces of the sections along the normal, and
-//! nonlinear springs. Without such
-//! terms, [`super::rhs`] has the same derivatives, to rounding.
+//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! The paper's wing is lumped. Body motion changes the direction of the flow along the span, so the wing is cut into four
 //! strips ([`super::strips`]) on a moving body.

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::constants::Constants;
+use super::constants::{Constants, check_transitions};
 use super::general::{self, Air, air_at};
 use super::params::{CentreOfPressure, Params};
 use super::rhs::{
@@ -94,7 +94,7 @@ const DERIVED: &[Column] = &[
     Column::new("hinge_strain_max", "", "largest strain of the outer faces of the hinge's flexure, which is assumed to bend to an arc of a circle; empty without hinge_thickness and hinge_length",
         |_, c, cycle| hinge_strain(c.hinge_strain, cycle.pitch.measure(Peak))).over_wings(Each),
     Column::new("field_max_v_per_um", "V/um", "largest electric field in the plates",
-        |model, c, _| voltage_max(model, c) * c.field_per_volt * 1e-6).over_wings(Each),
+        |model, c, _| voltage_max(model, &c.drive, c.half_offset) * c.field_per_volt * 1e-6).over_wings(Each),
     Column::new("mode_stroke_hz", "Hz", "natural frequency of small stroke motions, without drag",
         |_, c, _| Bimorph::modes(c)[0].frequency),
     Column::new("mode_hinge_hz", "Hz", "natural frequency of small pitch motions, without drag",
@@ -151,10 +151,10 @@ fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
     c.c_p * voltage_pp * voltage_pp * c.drive.rate / (2.0 * PI)
 }
 
-/// Returns the largest voltage (V) on a plate.
-fn voltage_max(model: &Bimorph, c: &Constants<f64>) -> f64 {
-    let [low, high] = model.drive.range(&c.drive);
-    let (bias, offset) = (c.drive.amplitude, c.half_offset);
+/// Returns the largest voltage (V) on a plate. The plates are at ½V_pp (1 ± wave) ∓ `offset`.
+fn voltage_max(model: &Bimorph, drive: &DriveConstants<f64>, offset: f64) -> f64 {
+    let [low, high] = model.drive.range(drive);
+    let bias = drive.amplitude;
     let plates = [
         bias * (1.0 - low) + offset,
         bias * (1.0 - high) + offset,
@@ -324,6 +324,7 @@ impl Model<4> for Bimorph {
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
+        check_transitions(&params, voltage_max(self, &params.drive(), 0.5 * params.drive_offset))?;
         let constants =
             Constants { moving: Moving::of(&params, self.terms.body)?, ..Constants::derive(&params)? };
         let DriveConstants { rate, .. } = constants.drive;

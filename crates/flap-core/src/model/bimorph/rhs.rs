@@ -54,7 +54,7 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
 /// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
 /// ```
 ///
-/// `Constants::derive` limits these exponents to `EXPONENT_MAX`. The product of both denominators is then infinite
+/// `check_transitions` limits these exponents to `EXPONENT_MAX`. The product of both denominators is then infinite
 /// only where both S are below 1e-47. They are rounded to zero.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
