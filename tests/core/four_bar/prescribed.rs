@@ -79,13 +79,15 @@ fn the_orbit_begins_where_the_reference_does() {
 /// Measures of the actuator are not known under a prescribed stroke.
 #[test]
 fn the_actuator_of_a_prescribed_stroke_is_unknown() {
-    let p =
+    let mut p =
         Params { stroke: StrokeParameters::prescribed(10.0_f64.to_radians()), ..Params::arabagi2013_75hz() };
+    p.electrical.dielectric_loss = 0.15;
     let row = run(&p, 1e-6, 1e-5);
     for column in [
         "power_mean_mw",
         "power_supply_mw",
         "power_drive_mean_mw",
+        "power_dielectric_mean_mw",
         "current_rms_ma",
         "tip_peak_um",
         "field_max_v_per_um",

@@ -1,7 +1,7 @@
 //! The equations of the four-bar model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of the
-//! attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The terms are motion of the body, further terms of the attack angle, rotational circulation, and nonlinear springs.
+//! Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! On a moving body, each strip has its own direction of flow and its own jump of the lift. The forces of the air are compiled out of
 //! line, so that the terms cost nothing where they are zero.
@@ -129,6 +129,13 @@ impl<R: Real> Motion<R> {
         c.circulation.load(&self.sections, self.shoulder.pitch_rate(self.rates[1]), self.pitch)
     }
 
+    /// Returns the part of the added mass's lift that is due to the motion of the body.
+    #[inline(always)]
+    fn added_mass_lift(&self, c: &Constants<R>) -> R {
+        let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
+        (c.air.added_stroke * e_1 - c.air.added_pitch * e_2 + c.moving.added * e_0) * self.pitch[0]
+    }
+
     /// Returns the load of the air. The added mass has the normal acceleration that [`Shoulder::accelerations`] adds.
     #[inline(always)]
     fn load(&self, c: &Constants<R>, air: &Aerodynamics<R>, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
@@ -185,10 +192,12 @@ fn motion_in_air_inlined<R: Real>(
     (motion, Aerodynamics { rotation, ..air })
 }
 
-/// Returns the forces and moments of the air without the added mass.
+/// Returns the forces and moments of the air without the added mass, and the part of the added mass's lift that is due to the motion
+/// of the body.
 #[inline(always)]
-pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> Aerodynamics<R> {
-    motion_in_air(c, model.terms.body == BodyTerms::All, side, y).1
+pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> (Aerodynamics<R>, R) {
+    let (motion, air) = motion_in_air(c, model.terms.body == BodyTerms::All, side, y);
+    (air, motion.added_mass_lift(c))
 }
 
 /// Returns mass matrix and generalised forces, with the springs' nonlinear parts, and the inertial moments of a turning body. The

@@ -162,21 +162,23 @@ impl FourBar {
         let y = states::state(&self.drive, drive, y);
         let [theta, phi, theta_dot, phi_dot] = y;
         let (sin, cos) = phi.sin_cos();
+        let mut added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
         let air = if PLAIN || self.is_plain() {
             aerodynamics(c, false, side, &y, sin, cos)
         } else {
-            general::air(c, self, side, &y)
+            let (air, of_body) = general::air(c, self, side, &y);
+            added_mass = added_mass + of_body;
+            air
         };
-        let added_mass = added_mass_lift(&c.air, sin, cos, &states::slope(&self.drive, drive, dy));
         let links = transmission(c, theta);
         let slider_rate = links.slope * theta_dot;
         let leakage = c.actuator.conductance * (drive.value - self.drive.mean_voltage(&c.drive));
         // A prescribed stroke does not determine the actuator's force and current.
-        let [force, current] = if self.drive.prescribes_stroke() {
-            [theta.lit(f64::NAN); 2]
+        let [force, current, leakage] = if self.drive.prescribes_stroke() {
+            [theta.lit(f64::NAN); 3]
         } else {
             let current = current(&c.actuator, drive, slider_rate);
-            [force(&c.actuator, drive, links.displacement), current + leakage]
+            [force(&c.actuator, drive, links.displacement), current + leakage, leakage]
         };
         let swing = drive.value - c.drive.bias;
         let rotation_lift = air.rotation.force * sin;
