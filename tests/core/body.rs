@@ -452,6 +452,11 @@ fn readings_without_meaning_on_a_moving_body_are_refused() {
     pair.choose("flow_direction", "blade");
     pair.choose("added_mass", "lagrangian");
     assert_eq!(pair.moved(0, 0.1).row().status, Status::Invalid);
+    let mut pair = Pair::of("ozaki2018-small");
+    pair.choose("lift_sign", "printed");
+    assert_eq!(pair.row().status, Status::Periodic);
+    pair.set("circulation_factor", 1.0);
+    assert!(pair.row().reason.unwrap().contains("has no meaning with circulation_factor"));
     let mut pair = Pair::of("jafferis2016");
     pair.set("wing_radius_1", 0.6);
     assert_eq!(pair.row().status, Status::Periodic);

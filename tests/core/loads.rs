@@ -263,3 +263,48 @@ fn rows_have_mean_loads() {
         assert_close(with.measures[columns + 2] * 1e3, with.measures[lift], 1e-14, name);
     }
 }
+
+/// The lift of a wing on a moving body is its upward load, too.
+#[test]
+fn the_lift_of_a_moving_wing_is_its_load() {
+    let solver = SolverSettings { loads: true, ..SolverSettings::DEFAULT.with_rtol(1e-8) };
+    for name in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
+        let (model, preset) = preset(name).unwrap();
+        let parameters = model.parameters();
+        let place = |name| Parameter::index(parameters, name);
+        for (motion, size) in [
+            ("body_velocity_forward", 2.0),
+            ("body_velocity_left", 3.0),
+            ("body_velocity_up", 0.5),
+            ("body_rate_roll", 20.0),
+        ] {
+            let mut values = (preset.values)();
+            values[place(motion).unwrap()] = size;
+            if let Some(flow) = place("flow_direction") {
+                values[flow] = f64::from(direct_drive::FlowDirection::Blade as u8);
+            }
+            let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
+            assert_eq!(row.status, Status::Periodic, "{name}, {motion}: {:?}", row.reason);
+            let lift = model.columns().iter().position(|column| column.name == "lift_mean_mn").unwrap();
+            let load = row.measures[model.columns().len() + 2] * 1e3;
+            assert_close(row.measures[lift], load, 2e-5, &format!("{name}, {motion}"));
+        }
+    }
+}
+
+/// The force on a blade does not depend on the side of the stroke axis on which the blade is.
+#[test]
+fn a_hardly_moving_wing_across_the_axis_has_the_lift_of_rest() {
+    let (model, preset) = preset("ozaki2018-small").unwrap();
+    let place = |name| Parameter::index(model.parameters(), name).unwrap();
+    let lift = model.columns().iter().position(|column| column.name == "lift_mean_mn").unwrap();
+    let lift_at = |velocity: f64| {
+        let mut values = (preset.values)();
+        values[place("flow_direction")] = f64::from(direct_drive::FlowDirection::Blade as u8);
+        values[place("wing_offset")] = -6e-3;
+        values[place("body_velocity_up")] = velocity;
+        model.run_point(&PointRun::new(Backend::best(), &SolverSettings::DEFAULT, &values), None).measures
+            [lift]
+    };
+    assert_close(lift_at(1e-9), lift_at(0.0), 1e-5, "lift");
+}

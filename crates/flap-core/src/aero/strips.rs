@@ -93,7 +93,7 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
             move |&[stroke, _, radius, chord]| {
                 let zero = radius.lit(0.0);
                 // Surplus strips of a lane have no radius.
-                let known = zero.lt(radius);
+                let known = zero.lt(radius.abs());
                 let root = R::select(known, stroke / R::select(known, radius, radius + 1.0), zero);
                 ObliqueStrip { weight: root * root, radius, lever: radius, behind: behind * chord, chord }
             },

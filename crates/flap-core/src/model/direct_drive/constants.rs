@@ -65,9 +65,9 @@ crate::per_lane! {
 
         /// Lift coefficient amplitude K_L, (26).
         pub k_lift: R,
-        /// Mean of the drag coefficient's largest and smallest value, (27).
+        /// Mean of the drag coefficient's largest and smallest value, (26).
         pub drag_mean: R,
-        /// Half of the drag coefficient's range, (27).
+        /// Half of the drag coefficient's range, (26).
         pub drag_swing: R,
 
         /// Further terms of the force coefficients and of the centre of pressure.
@@ -116,14 +116,28 @@ fn laminate(p: &Params) -> Laminate<3> {
     ])
 }
 
+/// # Errors
+/// If the chord is negative somewhere, or the printed sign of the lift is combined with normal forces that the paper leaves out.
+fn check(p: &Params) -> Result<(), Invalid> {
+    p.chords.check()?;
+    if p.lift_sign == LiftSign::Printed && (p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0) {
+        return Err(Invalid::together(
+            &["lift_sign", "circulation_factor", "rotation_force_factor"],
+            "lift_sign = \"printed\" has no meaning with circulation_factor or rotation_force_factor: set it to \
+             \"corrected\"",
+        ));
+    }
+    Ok(())
+}
+
 impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or a constant is
-    /// not finite.
+    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, a constant is not
+    /// finite, or the printed sign of the lift is combined with normal forces that the paper leaves out.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
-        p.chords.check()?;
+        check(p)?;
         let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {
             p.clone().with_chord_moments()
         } else {

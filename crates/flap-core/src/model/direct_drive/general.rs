@@ -1,7 +1,7 @@
 //! The equations of the direct-drive model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of
-//! the attack angle, rotational circulation, nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The terms are motion of the body, further terms of the attack angle, rotational circulation, rotational drag along the
+//! normal, and nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
 //!
 //! Body motion requires the blade elements, each of which has its own direction of flow. The forces of the air are compiled out of
 //! line, so that the terms cost nothing where they are zero.
@@ -41,7 +41,7 @@ impl<R: Real> Air<R> {
     }
 }
 
-/// Returns the forces at a state. On a moving body, they are the terms (21) to (27) of each blade element in oblique flow, and (32).
+/// Returns the forces at a state. On a moving body, they are the terms (19) to (26) of each blade element in oblique flow, and (32).
 #[inline(always)]
 pub(super) fn air<R: Real>(
     c: &Constants<R>,

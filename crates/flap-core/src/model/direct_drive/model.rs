@@ -31,7 +31,7 @@ crate::signals! {
         pitch: (Unit::DEG, "pitch of the wing on its hinge", [Amplitude, PeakToPeak, Peak, Mean, Max, Min, First]) principal First,
         lift: (Unit::MN, "lift of the wing, Eq. (35)", [Mean, Max, Min]) principal Mean of_wings [Mean],
         lift_translational: (Unit::MN, "lift of the wing without the contribution of the added mass, Eq. (21)", [Mean]),
-        drag: (Unit::MN, "translational drag of the wing along the stroke, Eq. (21)", [Magnitude]),
+        drag: (Unit::MN, "translational drag of the wing along the stroke, Eq. (19)", [Magnitude]),
         power: (Unit::MW, "electrical power, Eq. (40), current times voltage; the mean equals the sum of the mean losses in air, dampers and dielectric", [Mean]) principal Mean needs [Supply],
         power_translational: (Unit::MW, "power lost to translational aerodynamic forces", [Mean]),
         power_rotational: (Unit::MW, "power lost to the rotational drag, Eq. (32)", [Mean]),
@@ -135,9 +135,7 @@ impl DirectDrive {
     fn mass_at_rest(c: &Constants<f64>) -> [f64; 3] {
         [c.m11 + c.added.a11, c.m12 - c.added.a12, c.m22 + c.added.a22]
     }
-}
 
-impl DirectDrive {
     /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
     #[inline(always)]
     fn derivative<R: Real, const PLAIN: bool>(

@@ -173,7 +173,8 @@ crate::parameters! {
         /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018) for "paper", or with the
         /// gyroscopic terms of a Lagrangian derivation for "lagrangian".
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
-        /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed.
+        /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed. "printed" requires that
+        /// circulation_factor and rotation_force_factor are zero.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
     }
 

@@ -22,7 +22,7 @@ use crate::num::Real;
 pub(super) struct Aerodynamics<R> {
     /// Translational lift F_tr,Lift (N), (21).
     pub(super) lift: R,
-    /// Translational drag F_tr,Drag along the wing's motion (N), (21).
+    /// Translational drag F_tr,Drag along the wing's motion (N), (19).
     pub(super) drag: R,
     /// Moment about the stroke axis M_tr,y (N·m), (25).
     pub(super) stroke_moment: R,
@@ -34,7 +34,7 @@ pub(super) struct Aerodynamics<R> {
     pub(super) rotation_moment: R,
 }
 
-/// Returns the aerodynamic forces and moments without the added mass, (21)–(27), (32).
+/// Returns the aerodynamic forces and moments without the added mass, (19)–(26), (32).
 ///
 /// ```text
 /// w = ψ̇ cos ψ     C_L = K_L sin 2ψ     C_N = C_L sin ψ + C_D cos ψ
