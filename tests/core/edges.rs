@@ -79,6 +79,15 @@ fn a_wing_at_rest_is_stable() {
     }
 }
 
+/// Plates without piezoelectric stress take no power. The audit of nothing costs nothing.
+#[test]
+fn a_point_without_power_is_not_refined() {
+    let still = design("jafferis2016", &[("drive_voltage_pp", 0.0)]);
+    let dead = design("jafferis2016", &[("piezo_stress_min", 0.0), ("piezo_stress_max", 0.0)]);
+    let [still, dead] = [still, dead].map(|design| run(&design, 1e-6));
+    assert!(dead.rhs_evals < 2 * still.rhs_evals, "{} and {}", dead.rhs_evals, still.rhs_evals);
+}
+
 /// Peaks of signals that follow the drive, for every shape of it.
 #[test]
 fn peaks_are_exact_for_every_drive() {

@@ -70,8 +70,8 @@ pub(super) fn row_of<M: Model<N>, const N: usize>(
     let difference = middle.map_or(f64::INFINITY, |middle| difference::<M, N>(&fine, &middle));
     let estimate = if slides { f64::INFINITY } else { (SHARE * difference).max(LEAST * orbit.rtol) };
     let audit = M::energy_audit(&fine).abs();
-    // If the audit is NaN, the power is zero or unknown, and there is nothing to compare.
-    let doubt = if slides { 0.0 } else { estimate.max(if audit.is_nan() { 0.0 } else { audit }) };
+    // If the audit is not finite, the power is zero or unknown, and there is nothing to compare.
+    let doubt = if slides { 0.0 } else { estimate.max(if audit.is_finite() { audit } else { 0.0 }) };
     (Row { measures, error_estimate: estimate, period: 1, ..Row::empty(Status::Periodic) }, doubt)
 }
 
