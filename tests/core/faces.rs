@@ -105,14 +105,19 @@ fn motions_that_are_not_followed_say_why() {
                 rest instead";
     assert_eq!(motion.unwrap_err().to_string(), text);
 
-    let request = ChirpRequest { from: 2.0, to: 1.0, rate: 1.0, samples_per_cycle: 0 };
-    let response = model.experiments().unwrap().chirp(&PointRun::new(set, &SOLVER, &values), &request);
-    assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate: 1.0 }.into()));
-    assert_eq!(
-        response.unwrap_err().to_string(),
-        "a chirp from 2 Hz cannot reach 1 Hz at 1 Hz/s: frequencies must be more than zero, and the rate must have the sign of \
-         the change"
-    );
+    // A frequency that falls by 0.5 Hz/s or more reaches zero within the last cycle at 1 Hz.
+    for rate in [1.0, -0.5, -200.0] {
+        let request = ChirpRequest { from: 2.0, to: 1.0, rate, samples_per_cycle: 0 };
+        let response = model.experiments().unwrap().chirp(&PointRun::new(set, &SOLVER, &values), &request);
+        assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate }.into()));
+        assert_eq!(
+            response.unwrap_err().to_string(),
+            format!(
+                "a chirp from 2 Hz cannot reach 1 Hz at {rate} Hz/s: frequencies must be more than zero, and the rate must \
+                 have the sign of the change and be more than -0.5 Hz/s"
+            )
+        );
+    }
 
     let begin = [0.0; 3];
     let period = model.motions().unwrap().period(&PointRun::new(set, &SOLVER, &values), &begin);

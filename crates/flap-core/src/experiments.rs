@@ -70,7 +70,8 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
     fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<ChirpResponse, Unfinished> {
         let PointRun { solver, values, interrupted, .. } = *run;
         let ChirpRequest { from, to, rate, samples_per_cycle } = *self;
-        if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0) {
+        // A cycle that begins with the frequency f ends with √(f² + 2r), see below.
+        if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0 && to * to + 2.0 * rate > 0.0) {
             return Err(RequestError::Chirp { from, to, rate }.into());
         }
         let start = model.start(values)?;
@@ -81,9 +82,6 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
         while (to - frequency) * rate > 1e-9 * to * rate.abs() {
             // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
             let square = frequency * frequency + 2.0 * rate;
-            if square <= 0.0 {
-                break;
-            }
             let end = square.sqrt();
             let span = 2.0 / (frequency + end);
             let (model, constants) = model.chirped(&start.constants, frequency, rate);
@@ -172,7 +170,7 @@ impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
             clippy::cast_sign_loss,
             reason = "within the range of intervals"
         )]
-        let per_span = (period / interval).round().clamp(1.0, f64::from(intervals)) as u32;
+        let per_span = (period / interval).round().max(1.0).min(f64::from(intervals)) as u32;
         let span = interval * f64::from(per_span);
         let start = Start::new(constants, y, span, scale);
         let spans = intervals.div_ceil(per_span);
