@@ -64,6 +64,12 @@ SEARCHES = {
     "accuracy experiments": ["models/limits", "evidence/reproduction"],
     "hinge stiffness formula": ["models/terms"],
     "hinge width": ["models/terms"],
+    "hinge thickness": ["how-to/questions", "models/terms"],
+    "target value": ["how-to/optimise", "how-to/questions"],
+    "supply power": ["how-to/questions", "models/bimorph"],
+    "altitude": ["how-to/questions"],
+    "air density": ["how-to/questions"],
+    "pgfplots": ["how-to/plots"],
 }
 
 
