@@ -70,6 +70,10 @@ SEARCHES = {
     "altitude": ["how-to/questions"],
     "air density": ["how-to/questions"],
     "pgfplots": ["how-to/plots"],
+    "marker": ["how-to/wings"],
+    "force sensor": ["how-to/experiments"],
+    "oscilloscope": ["how-to/experiments"],
+    "frame rate": ["how-to/experiments"],
 }
 
 
