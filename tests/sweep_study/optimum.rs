@@ -106,6 +106,20 @@ fn an_optimum_and_its_multiplier_are_those_of_a_formula() {
     assert_eq!(bound.name, "drive_frequency");
 }
 
+/// The goal is zero at the best design, so changes of the goal have no size of their own there.
+#[test]
+fn a_goal_may_be_zero_at_the_optimum() {
+    let text = r#"
+        preset = "jafferis2016"
+        [axes]
+        hinge_stiffness = { from = "1.5 uN*m/rad", to = "6 uN*m/rad", n = 5 }
+    "#;
+    let problem = problem(text, "(pitch_amplitude_deg - 60)^2", Aim::Smallest, &[]);
+    let best = solved(&problem);
+    assert_eq!((best.status, best.optima.len()), (Status::Optimal, 1), "{:?}", best.optima);
+    assert!((measure(&problem, &best, "pitch_amplitude_deg") - 60.0).abs() < 1e-2, "{best:?}");
+}
+
 #[test]
 fn multipliers_are_those_of_problems_with_other_limits() {
     let limit = |strain: f64| format!("strain_surface_max < {strain}");

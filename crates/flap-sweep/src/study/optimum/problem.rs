@@ -70,9 +70,26 @@ pub struct Problem {
     pub(super) goal: String,
     value: Expression,
     pub(super) limits: Vec<Limit>,
+    /// Smallest size of the goal, see [`Problem::size`].
+    least_size: f64,
 }
 
 impl Problem {
+    /// Returns the problem with a smallest size of the goal: a thousandth of the median magnitude of these `goals`.
+    pub(super) fn sized_by(&self, goals: impl Iterator<Item = f64>) -> Problem {
+        let mut sizes: Vec<f64> = goals.map(f64::abs).collect();
+        sizes.sort_by(f64::total_cmp);
+        let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        Problem { least_size: 1e-3 * median, ..self.clone() }
+    }
+
+    /// Returns the number to which changes of the goal are compared: the magnitude of the goal, unless the goal is almost
+    /// zero, as at the best point of a squared difference.
+    pub(super) fn size(&self, goal: f64) -> f64 {
+        let size = goal.abs().max(self.least_size);
+        if size == 0.0 { 1.0 } else { size }
+    }
+
     /// The problem of the point of `plan` with the best value of the expression `goal`, among the points that satisfy the
     /// `conditions` and the conditions of the plan.
     ///
@@ -120,7 +137,8 @@ impl Problem {
         } else {
             measured.clone().with_columns(&names).and_then(|plan| plan.with_slopes(by)).ok()
         };
-        Ok(Problem { plan, measured, sloped, region, aim, goal: goal.trim().to_owned(), value, limits })
+        let goal = goal.trim().to_owned();
+        Ok(Problem { plan, measured, sloped, region, aim, goal, value, limits, least_size: 0.0 })
     }
 
     /// The plan whose points are the starts.

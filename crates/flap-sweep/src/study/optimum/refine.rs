@@ -94,15 +94,14 @@ fn change(problem: &Problem, before: &Trial, behind: &Trial) -> f64 {
     if before.excess > 0.0 {
         return if behind.excess < before.excess { f64::INFINITY } else { 0.0 };
     }
-    let size = before.goal.abs().max(behind.goal.abs());
-    if size == 0.0 { 0.0 } else { problem.aim.sign() * (before.goal - behind.goal) / size }
+    let size = problem.size(before.goal).max(problem.size(behind.goal));
+    problem.aim.sign() * (before.goal - behind.goal) / size
 }
 
 /// The best point and the last point of a run of sequential quadratic programming.
 fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Trial>, Rc<Trial>) {
     let problem = points.problem;
-    let size = if begin.goal == 0.0 { 1.0 } else { begin.goal.abs() };
-    let factor = problem.aim.sign() / size;
+    let factor = problem.aim.sign() / problem.size(begin.goal);
     let best = RefCell::new(Rc::clone(begin));
     let last = RefCell::new(Rc::clone(begin));
     let local = |at: &[f64], has_slopes: bool| {

@@ -87,6 +87,7 @@ pub fn optimise(
     if is_stopped {
         return Ok(None);
     }
+    let problem = &problem.sized_by(found.iter().map(|start| start.trial.goal));
     let starts: Vec<Begin> = starts::best(problem, found, most).into_iter().map(Begin::of_start).collect();
     let Some(ends) = refined(problem, settings, &starts, |done| stops(computed + done, all))? else {
         return Ok(None);
@@ -104,6 +105,7 @@ pub fn optimise_from(
     designs: &[&Optimum],
     stops: &dyn Fn(u64, u64) -> bool,
 ) -> Result<Option<Optimum>, RunError> {
+    let problem = &problem.sized_by(designs.iter().map(|best| problem.value(best)));
     let begin = |best: &&Optimum| Begin {
         coordinates: problem.region.coordinates(&best.values),
         choice: problem.region.choice(&best.values),
@@ -239,7 +241,7 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
         at_end: at_end(problem, varied),
         active: if status == Status::Infeasible { Vec::new() } else { active },
         limits: limits.collect(),
-        optima: optima(&order),
+        optima: optima(problem, &order),
         starts: ends.len(),
         points: problem.plan.len(),
         computed,
@@ -287,11 +289,11 @@ fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> 
 }
 
 /// The distinct end points of the searches, in the given order.
-fn optima(order: &[&End]) -> Vec<Other> {
+fn optima(problem: &Problem, order: &[&End]) -> Vec<Other> {
     let mut found: Vec<(Other, &Trial)> = Vec::new();
     for end in order {
         let same = found.iter_mut().find(|(other, trial)| {
-            let size = other.goal.abs().max(end.trial.goal.abs());
+            let size = problem.size(other.goal).max(problem.size(end.trial.goal));
             let choice = end.trial.coordinates.len()..;
             other.is_feasible == (end.trial.excess == 0.0)
                 && other.varied[choice.clone()] == end.varied[choice]

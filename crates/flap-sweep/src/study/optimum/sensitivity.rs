@@ -70,8 +70,7 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
         .iter()
         .zip(multipliers.iter())
         .fold(DVector::zeros(goal.len()), |sum, (holder, multiplier)| sum - inward(holder) * *multiplier);
-    let size = if at.goal == 0.0 { 1.0 } else { at.goal.abs() };
-    let left_over = (&gain - held).amax() / size;
+    let left_over = (&gain - held).amax() / problem.size(at.goal);
     let mut active: Vec<Active> = holders
         .iter()
         .zip(multipliers.iter())
