@@ -71,15 +71,16 @@ pub(crate) const TRIM_LIMIT: f64 = 1e-2;
 /// Lever that turns the limit of forces into the limit of torques (m).
 const TRIM_LEVER: f64 = 1e-3;
 
-/// Returns the largest residual of the wrench (N and N·m) as a share of the weight. A torque is divided by the weight
-/// times 1 mm.
-pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
+/// Returns the force (N) or torque (N·m) to which each residual refers: the weight, or the weight times 1 mm.
+fn residual_sizes(body: &MassProperties) -> [f64; 6] {
     let weight = body.mass * body.gravity;
-    let share = |i: usize| match i {
-        2 => wrench[2] / weight - 1.0,
-        0 | 1 => wrench[i] / weight,
-        _ => wrench[i] / (weight * TRIM_LEVER),
-    };
+    core::array::from_fn(|i| if i < 3 { weight } else { weight * TRIM_LEVER })
+}
+
+/// Returns the largest residual of the wrench (N and N·m), relative to [`residual_sizes`].
+pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
+    let sizes = residual_sizes(body);
+    let share = |i: usize| wrench[i] / sizes[i] - if i == 2 { 1.0 } else { 0.0 };
     (0..6).map(|i| share(i).abs()).fold(0.0, f64::max)
 }
 
@@ -321,21 +322,20 @@ impl HoverModel {
         residual
     }
 
-    /// Returns the largest residual of forces (N) and of torques (N·m) at which a point counts as hover.
-    pub fn residual_limits(&self) -> [f64; 2] {
-        let force = TRIM_LIMIT * self.body.mass * self.body.gravity;
-        [force, force * TRIM_LEVER]
+    /// Returns the largest residual of each force (N) and torque (N·m) at which a point counts as hover.
+    pub fn residual_limits(&self) -> [f64; 6] {
+        residual_sizes(&self.body).map(|size| TRIM_LIMIT * size)
     }
 
     /// Returns the reasons to doubt the model, from the drive frequency (Hz) and the largest Floquet multiplier.
     ///
     /// If a Floquet multiplier is NaN, the decay rate of the wings is not checked.
     pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<String> {
-        let [force, torque] = self.residual_limits();
+        let limits = self.residual_limits();
         let mut warnings = Vec::new();
         for (i, residual) in self.residual().into_iter().enumerate() {
-            let (limit, of) = if i < 3 { (force, "the weight") } else { (torque, "the weight times 1 mm") };
-            if residual.abs() > limit {
+            if residual.abs() > limits[i] {
+                let of = if i < 3 { "the weight" } else { "the weight times 1 mm" };
                 warnings.push(format!(
                     "the point is no hover: the residual of {} is {residual:.3e} {}, more than 1 % of {of}",
                     component(i),

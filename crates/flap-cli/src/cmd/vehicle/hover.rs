@@ -23,9 +23,6 @@ use crate::table::{Table, six_digits};
 /// Parameter that keeps the motion of the wings unchanged when the body moves.
 const RESPONSE: &str = "body_response";
 
-/// The vertical force.
-const LIFT: usize = 2;
-
 /// Relative size below which an entry is only a rounding error: the entry divided by the largest entries of its row and
 /// column.
 const NOTHING: f64 = 1e-12;
@@ -145,11 +142,9 @@ pub(super) fn mode_cells(model: &LinearModel) -> (Vec<String>, Vec<Vec<String>>)
 /// Returns the trim residual and the modes as text.
 pub(super) fn mode_table(model: &LinearModel) -> String {
     let mut page = String::new();
-    let residual = model.hover.residual();
     let limits = model.hover.residual_limits();
     let mut table = Table::with_headings(&["residual", "unit", "value", "limit"]);
-    for (i, residual) in residual.into_iter().enumerate() {
-        let limit = limits[usize::from(i > LIFT)];
+    for (i, (residual, limit)) in model.hover.residual().into_iter().zip(limits).enumerate() {
         let residual = if residual.abs() < NOTHING * limit { 0.0 } else { residual };
         table.row([
             component(i).to_owned(),
