@@ -18,6 +18,9 @@ use crate::derivative::{Per, column_name, meaning};
 /// Units of the derivatives of a force and of a torque with respect to a velocity and to a rate.
 const DAMPING_UNITS: [[&str; 2]; 2] = [["mN/(m/s)", "mN/(rad/s)"], ["uN*m/(m/s)", "uN*m/(rad/s)"]];
 
+/// Number of columns between the measures of the vehicle and the inputs: growth rate, period and residual.
+const OF_HOVER: usize = 3;
+
 /// Column with the force or torque that a trim to hover does not balance.
 pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
@@ -80,19 +83,12 @@ impl BodyRows {
         self.inputs.as_ref().map(|inputs| trim(&flight, values, inputs))
     }
 
-    /// Returns the inputs that the search for hover changes; none if rows are computed at the given inputs.
-    fn inputs(&self) -> &[Input] {
-        self.inputs.as_deref().unwrap_or_default()
-    }
-
     /// Returns `values` with the inputs at hover, from the measures of a row.
     pub(crate) fn at_hover(&self, values: &[f64], measures: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
-        for input in self.inputs() {
-            let name = input_column(input);
-            if let Some(place) = self.columns.iter().position(|column| column.name == name) {
-                values[input.parameter] = measures[place] * input.factor;
-            }
+        let found = measures.iter().skip(self.vehicle.columns().len() + OF_HOVER);
+        for (input, found) in self.inputs.iter().flatten().zip(found) {
+            values[input.parameter] = found * input.factor;
         }
         values
     }
