@@ -208,11 +208,11 @@ pub(super) fn report<'p>(
 /// A parameter that is set, and the position of its entry in the file.
 pub(super) type Place = (usize, Range<usize>);
 
-/// A derived parameter and its entry in the section.
-type Draft<'t> = (usize, Entry<'t>);
-
 /// Returns the parameters in the section, each with its entry.
-pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<'_>) -> Vec<Draft<'t>> {
+pub(super) fn derived_drafts<'t>(
+    entry: Option<&Entry<'t>>,
+    lookup: &mut Lookup<'_>,
+) -> Vec<(usize, Entry<'t>)> {
     let mut drafts = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
         let Some((index, parameter)) = lookup.parameter(&entry) else {
@@ -232,7 +232,7 @@ pub(super) fn derived_drafts<'t>(entry: Option<&Entry<'t>>, lookup: &mut Lookup<
 /// Reports derived parameters that are also varied or set. Each list in `set` names the way in which its parameters are
 /// set.
 pub(super) fn report_derived_twice(
-    drafts: &[Draft<'_>],
+    drafts: &[(usize, Entry<'_>)],
     axes: &[Placed],
     set: &[(&str, &[Place])],
     problems: &mut Problems,
@@ -253,7 +253,7 @@ pub(super) fn report_derived_twice(
 }
 
 /// Returns the expressions of the section, in an order in which the expressions can be computed.
-pub(super) fn read_derived(drafts: &[Draft<'_>], names: &Names<'_>, problems: &mut Problems) -> Derived {
+pub(super) fn read_derived(drafts: &[(usize, Entry<'_>)], names: &Names<'_>, problems: &mut Problems) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
     for (parameter, entry) in drafts {
