@@ -93,7 +93,7 @@ pub(crate) fn expression(bytes: &[u8]) {
         Err(mistakes) => {
             assert!(!mistakes.is_empty());
             for mistake in mistakes {
-                assert!(text.get(mistake.span.clone()).is_some(), "{text}: {}", mistake.message());
+                assert!(text.get(mistake.span.clone()).is_some(), "{text}: {}", mistake.message);
             }
         }
     }

@@ -6,9 +6,7 @@ use std::sync::LazyLock;
 
 use csv::StringRecord;
 use flap_core::simulate::Status;
-use flap_sweep::notation::expression::{
-    Expression, ExpressionError, ExpressionProblem, Kind, Meaning, Scope,
-};
+use flap_sweep::notation::expression::{Expression, ExpressionError, Kind, Meaning, Mistake, Scope};
 use flap_sweep::notation::units;
 
 use super::columns::Table;
@@ -265,20 +263,16 @@ impl Scope for Names<'_> {
 /// Parses the comparison `plain`, which has no units. `text` is the comparison as the user wrote it, for messages.
 fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
-        let failure = Failure::usage(format!("--where {text}: {}", error.message()));
-        match &error.problem {
-            ExpressionProblem::Expected("the name of an option in quotes") => {
-                failure.help("write COLUMN=WORD")
-            }
-            ExpressionProblem::Expected("an operator") | ExpressionProblem::BadNumber(_) => failure
+        let failure = Failure::usage(format!("--where {text}: {}", error.message));
+        match error.mistake {
+            Mistake::NotInQuotes => failure.help("write COLUMN=WORD"),
+            Mistake::NoOperator => failure
                 .help("compare a number with a column, with or without its unit: drive_frequency > 95 Hz"),
-            ExpressionProblem::UnknownName { nearest: None, .. } => {
+            Mistake::UnknownName(_) if error.help.is_none() => {
                 failure.help(columns::listed(names.iter().map(String::as_str)))
             }
-            ExpressionProblem::Mismatch(_) => {
-                failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1")
-            }
-            _ => failure.helps(error.help()),
+            Mistake::Mismatch => failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1"),
+            _ => failure.helps(error.help),
         }
     };
     let expression = Expression::parse(plain, &Names(names)).map_err(|errors| {
@@ -286,10 +280,7 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
     })?;
     match expression.kind() {
         Kind::Condition => Ok(expression),
-        Kind::Number => {
-            let problem = ExpressionProblem::Mismatch(Kind::Condition);
-            Err(refused(ExpressionError { span: 0..plain.len(), problem }))
-        }
+        Kind::Number => Err(refused(ExpressionError::mismatch(0..plain.len(), Kind::Condition))),
     }
 }
 

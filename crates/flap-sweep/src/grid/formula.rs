@@ -11,9 +11,7 @@ use super::diagnostic::{Diagnostic, Problems};
 use super::lookup::Lookup;
 use super::table::{self, Entry};
 use super::value;
-use crate::notation::expression::{
-    self, Expression, ExpressionError, ExpressionProblem, Kind, Meaning, Scope,
-};
+use crate::notation::expression::{self, Expression, ExpressionError, Kind, Meaning, Mistake, Scope};
 use crate::plan::Value;
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::table::layout::is_fixed;
@@ -154,14 +152,14 @@ pub(super) fn read(
     let errors = match check(entry, names, problems) {
         Ok(Some(expression)) if expression.kind() != wanted => {
             let length = entry.value.get_ref().as_str().map_or(0, str::len);
-            vec![ExpressionError { span: 0..length, problem: ExpressionProblem::Mismatch(wanted) }]
+            vec![ExpressionError::mismatch(0..length, wanted)]
         }
         Ok(expression) => return expression,
         Err(errors) => errors,
     };
     for error in &errors {
         let diagnostic = report(entry, error, problems);
-        if let ExpressionProblem::UnknownName { name, .. } = &error.problem
+        if let Mistake::UnknownName(name) = &error.mistake
             && names.columns.iter().any(|column| column.name == *name)
         {
             diagnostic.help.clear();
@@ -198,9 +196,9 @@ pub(super) fn report<'p>(
 ) -> &'p mut Diagnostic {
     let text = entry.value.get_ref().as_str().unwrap_or_default();
     let span = value::inside(problems.text(), entry.value.span(), text, &error.span);
-    let diagnostic = problems.report(span, error.message());
-    if let Some(help) = error.help() {
-        diagnostic.help(help);
+    let diagnostic = problems.report(span, error.message.as_str());
+    if let Some(help) = &error.help {
+        diagnostic.help(help.as_str());
     }
     diagnostic
 }
@@ -253,7 +251,11 @@ pub(super) fn report_derived_twice(
 }
 
 /// Returns the expressions of the section, in an order in which the expressions can be computed.
-pub(super) fn read_derived(drafts: &[(usize, Entry<'_>)], names: &Names<'_>, problems: &mut Problems) -> Derived {
+pub(super) fn read_derived(
+    drafts: &[(usize, Entry<'_>)],
+    names: &Names<'_>,
+    problems: &mut Problems,
+) -> Derived {
     let mut formulas: Vec<(usize, Expression)> = Vec::new();
     let mut entries: Vec<&Entry<'_>> = Vec::new();
     for (parameter, entry) in drafts {
@@ -357,10 +359,8 @@ pub(super) fn read_measures(
             Ok(None) => {}
             Err(errors) => {
                 for error in errors {
-                    let unknown = match &error.problem {
-                        ExpressionProblem::UnknownName { name, .. } => {
-                            entries.iter().position(|entry| entry.key == name)
-                        }
+                    let unknown = match &error.mistake {
+                        Mistake::UnknownName(name) => entries.iter().position(|entry| entry.key == name),
                         _ => None,
                     };
                     // The mistake in the earlier measure is reported there.

@@ -14,7 +14,7 @@ mod scope;
 #[cfg(test)]
 mod tests;
 
-pub use error::{ExpressionError, ExpressionProblem};
+pub use error::{ExpressionError, Mistake};
 pub(crate) use evaluate::of_choice;
 use evaluate::{Binary, Operation};
 pub use scope::{Kind, Meaning, Scope};

@@ -3,10 +3,10 @@
 
 use std::ops::Range;
 
-use super::error::{ExpressionError, ExpressionProblem};
+use super::error::{ExpressionError, Mistake};
 use super::evaluate::{self, Binary, Function, Operation, Unary};
 use super::scope::{Kind, Meaning, Scope};
-use crate::notation::nearest;
+use crate::notation::{nearest, text};
 
 /// Largest nesting of parentheses, functions and operators. Deeper nesting is a mistake or an attack, and would
 /// overflow the stack.
@@ -29,7 +29,7 @@ mod power {
 /// Checks `text`. See [`super::Expression::parse`].
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operation>), Vec<ExpressionError>> {
     if text.trim().is_empty() {
-        return Err(vec![ExpressionError { span: 0..text.len(), problem: ExpressionProblem::Empty }]);
+        return Err(vec![ExpressionError::new(0..text.len(), "the expression is empty")]);
     }
     let mut parser = Parser {
         tokens: Tokens::new(text),
@@ -74,7 +74,7 @@ impl<'a> Parser<'a> {
         let operand = self.operand(power::ANY)?;
         match self.next.0 {
             Token::End => Ok(operand),
-            _ => Err(self.expected("an operator")),
+            _ => Err(self.no_operator()),
         }
     }
 
@@ -94,24 +94,35 @@ impl<'a> Parser<'a> {
             return self.advance().map(|(_, span)| span);
         }
         match self.next.0 {
-            Token::Number(_) | Token::Name(_) | Token::Text(_) => Err(self.expected("an operator")),
+            Token::Number(_) | Token::Name(_) | Token::Text(_) => Err(self.no_operator()),
             Token::Sign(_) | Token::End => Err(self.expected(expected)),
         }
     }
 
     /// Returns an error at the next token.
-    fn expected(&self, what: &'static str) -> ExpressionError {
-        ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::Expected(what) }
+    fn error(&self, message: impl Into<String>) -> ExpressionError {
+        ExpressionError::new(self.next.1.clone(), message)
     }
 
-    fn note(&mut self, span: Range<usize>, problem: ExpressionProblem) {
-        self.errors.push(ExpressionError { span, problem });
+    fn expected(&self, what: &str) -> ExpressionError {
+        self.error(format!("expected {what}"))
+    }
+
+    fn no_operator(&self) -> ExpressionError {
+        let help = "values are in SI units and written without them; products need a `*`";
+        self.expected("an operator").helps(help).of(Mistake::NoOperator)
+    }
+
+    /// Records a mistake in an operand, which then has no kind.
+    fn note(&mut self, error: ExpressionError, span: Range<usize>) -> Operand {
+        self.errors.push(error);
+        Operand { kind: None, span }
     }
 
     /// Records a mistake if `operand` is not of the kind `wanted`.
     fn want(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
-            self.note(operand.span.clone(), ExpressionProblem::Mismatch(wanted));
+            self.errors.push(ExpressionError::mismatch(operand.span.clone(), wanted));
         }
     }
 
@@ -119,7 +130,7 @@ impl<'a> Parser<'a> {
     fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
         self.nested += 1;
         if self.nested > MOST_NESTED {
-            return Err(ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::TooDeep });
+            return Err(self.error("the expression is nested too deeply"));
         }
         let mut left = self.prefix()?;
         let mut is_comparison = false;
@@ -127,7 +138,8 @@ impl<'a> Parser<'a> {
             && binds >= least
         {
             if binds == power::COMPARISON && is_comparison {
-                return Err(ExpressionError { span: self.next.1.clone(), problem: ExpressionProblem::Chain });
+                let error = self.error("comparisons cannot be chained");
+                return Err(error.helps("join two comparisons: 1 < x and x < 2"));
             }
             is_comparison = binds == power::COMPARISON;
             self.advance()?;
@@ -203,28 +215,23 @@ impl<'a> Parser<'a> {
             Some(Meaning::Constant(value)) => (Kind::Number, Operation::Push(value)),
             Some(Meaning::OfChoice(place, numbers)) => (Kind::Number, Operation::ReadOf(place, numbers)),
             Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
-            Some(Meaning::Unset(follows)) => {
-                self.note(span.clone(), ExpressionProblem::Unset { name: name.to_owned(), follows });
-                return Ok(Operand { kind: None, span });
-            }
-            None => {
-                let problem = self.unknown(name);
-                self.note(span.clone(), problem);
-                return Ok(Operand { kind: None, span });
-            }
+            Some(Meaning::Unset(follows)) => return Ok(self.note(unset(name, follows, &span), span)),
+            None => return Ok(self.note(self.unknown(name, &span), span)),
         };
         self.operations.push(operation);
         Ok(Operand { kind: Some(kind), span })
     }
 
-    fn unknown(&self, name: &str) -> ExpressionProblem {
+    fn unknown(&self, name: &str, span: &Range<usize>) -> ExpressionError {
         if evaluate::find(name).is_some() {
-            return ExpressionProblem::BareFunction(name.to_owned());
+            let error = ExpressionError::new(span.clone(), format!("`{name}` is a function"));
+            return error.helps(format!("write {name}(…)"));
         }
         let mut known = self.scope.names();
         known.extend(evaluate::constants().map(str::to_owned));
-        let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-        ExpressionProblem::UnknownName { name: name.to_owned(), nearest }
+        let help = nearest(name, known.iter().map(String::as_str)).map(did_you_mean);
+        let mistake = Mistake::UnknownName(name.to_owned());
+        ExpressionError { span: span.clone(), mistake, message: format!("unknown name `{name}`"), help }
     }
 
     /// Parses the comparison of a choice with one of its options, which is the only use of a choice.
@@ -237,24 +244,20 @@ impl<'a> Parser<'a> {
     ) -> Result<Operand, ExpressionError> {
         let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
             let first = options.first().copied().unwrap_or_default();
-            let (name, first) = (name.to_owned(), first.to_owned());
-            self.note(span.clone(), ExpressionProblem::ChoiceAsNumber { name, first });
-            return Ok(Operand { kind: None, span });
+            let message = format!("`{name}` is a choice between options, not a number");
+            let help = format!("compare it with an option: {name} == '{first}'");
+            return Ok(self.note(ExpressionError::new(span.clone(), message).helps(help), span));
         };
         self.advance()?;
         let (token, text_span) = self.advance()?;
         let Token::Text(text) = token else {
-            return Err(ExpressionError {
-                span: text_span,
-                problem: ExpressionProblem::Expected("the name of an option in quotes"),
-            });
+            let error = ExpressionError::new(text_span, "expected the name of an option in quotes");
+            return Err(error.of(Mistake::NotInQuotes));
         };
         let span = span.start..text_span.end;
         let Some(index) = options.iter().position(|option| *option == text) else {
-            let (name, option) = (name.to_owned(), text.to_owned());
-            let options = options.iter().copied().map(str::to_owned).collect();
-            self.note(text_span, ExpressionProblem::UnknownOption { name, option, options });
-            return Ok(Operand { kind: None, span });
+            let error = ExpressionError::new(text_span, format!("`{name}` has no option `{text}`"));
+            return Ok(self.note(error.helps(nearest_or_all(text, options, "options")), span));
         };
         self.operations.push(Operation::Read(place));
         self.operations.push(Operation::Push(index as f64));
@@ -265,8 +268,12 @@ impl<'a> Parser<'a> {
     /// Parses the arguments in parentheses of the function `name`.
     fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let Some(function) = evaluate::find(name) else {
-            let problem = ExpressionProblem::UnknownFunction(name.to_owned());
-            return Err(ExpressionError { span, problem });
+            let help = if name == "log" {
+                "write ln for the natural logarithm, or log10".to_owned()
+            } else {
+                nearest_or_all(name, &evaluate::names().collect::<Vec<_>>(), "functions")
+            };
+            return Err(ExpressionError::new(span, format!("there is no function `{name}`")).helps(help));
         };
         self.advance()?;
         let mut count = 0;
@@ -295,10 +302,31 @@ impl<'a> Parser<'a> {
             Function::Many(_) => (count < 2).then_some("two arguments or more"),
         };
         if let Some(takes) = takes {
-            self.note(span.clone(), ExpressionProblem::Arguments { name: name.to_owned(), takes });
+            self.errors.push(ExpressionError::new(span.clone(), format!("`{name}` takes {takes}")));
         }
         Ok(Operand { kind: Some(Kind::Number), span })
     }
+}
+
+fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
+}
+
+/// Returns the known name most similar to `name`, or else all known names, as help.
+fn nearest_or_all(name: &str, known: &[&str], what: &str) -> String {
+    let all = || format!("{what}: {}", known.join(", "));
+    nearest(name, known.iter().copied()).map_or_else(all, did_you_mean)
+}
+
+/// Returns the mistake of a parameter that is not set and is computed from the parameters `follows`.
+fn unset(name: &str, follows: &str, span: &Range<usize>) -> ExpressionError {
+    let why = text::no_default(follows).unwrap_or_else(|| format!("it follows other parameters ({follows})"));
+    let help = if name.contains('.') {
+        format!("{why}, so that there is no number to use")
+    } else {
+        format!("{why}: set `{name}` under [params] to use it here")
+    };
+    ExpressionError::new(span.clone(), format!("`{name}` is not set")).helps(help)
 }
 
 /// Returns the binary operator of `token`, and its precedence.
@@ -359,25 +387,26 @@ impl<'t> Tokens<'t> {
         let Some(first) = rest.chars().next() else {
             return Ok((Token::End, self.at..self.at));
         };
-        let (token, length) = match first {
-            '0'..='9' | '.' => number(rest).map_err(|error| self.place(error))?,
-            'a'..='z' | 'A'..='Z' | '_' => name(rest),
-            '\'' | '"' => text(rest, first).map_err(|error| self.place(error))?,
-            _ => sign(rest, first).map_err(|error| self.place(error))?,
+        let found = match first {
+            '0'..='9' | '.' => number(rest),
+            'a'..='z' | 'A'..='Z' | '_' => Ok(name(rest)),
+            '\'' | '"' => quoted(rest, first),
+            _ => sign(rest, first),
         };
+        // The position of a mistake is shifted from the rest of the text to the whole text.
+        let shifted = |error: ExpressionError| {
+            let span = self.at + error.span.start..self.at + error.span.end;
+            ExpressionError { span, ..error }
+        };
+        let (token, length) = found.map_err(shifted)?;
         let span = self.at..self.at + length;
         self.at = span.end;
         Ok((token, span))
     }
-
-    /// Shifts the position of an error from the rest of the text to the whole text.
-    fn place(&self, (length, problem): (usize, ExpressionProblem)) -> ExpressionError {
-        ExpressionError { span: self.at..self.at + length, problem }
-    }
 }
 
-/// A token and its length, or the length of the mistake.
-type Found<'t> = Result<(Token<'t>, usize), (usize, ExpressionProblem)>;
+/// A token and its length. Positions of mistakes are in the rest of the text.
+type Found<'t> = Result<(Token<'t>, usize), ExpressionError>;
 
 fn is_name(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
@@ -401,8 +430,12 @@ fn number(rest: &str) -> Found<'_> {
     let run = end + rest[end..].find(|c: char| !is_name(c) && c != '.').unwrap_or(rest.len() - end);
     match rest[..end].parse::<f64>() {
         Ok(value) if run == end && value.is_finite() => Ok((Token::Number(value), end)),
-        Ok(_) if run == end => Err((end, ExpressionProblem::TooLarge)),
-        _ => Err((run, ExpressionProblem::BadNumber(rest[..run].to_owned()))),
+        Ok(_) if run == end => {
+            Err(ExpressionError::new(0..end, "the number is too large (largest about 1.8e308)"))
+        }
+        _ => Err(ExpressionError::new(0..run, format!("`{}` is not a number", &rest[..run]))
+            .helps("numbers look like 12, 0.5 or 1.5e-6; products need a `*`")
+            .of(Mistake::NoOperator)),
     }
 }
 
@@ -411,23 +444,27 @@ fn name(rest: &str) -> (Token<'_>, usize) {
     (Token::Name(&rest[..length]), length)
 }
 
-fn text(rest: &str, quote: char) -> Found<'_> {
+fn quoted(rest: &str, quote: char) -> Found<'_> {
     match rest[1..].find(quote) {
         Some(length) => Ok((Token::Text(&rest[1..=length]), length + 2)),
-        None => Err((rest.len(), ExpressionProblem::OpenQuote)),
+        None => Err(ExpressionError::new(0..rest.len(), "a closing quote is missing")),
     }
 }
 
 fn sign(rest: &str, first: char) -> Found<'_> {
     let known = SIGNS.iter().find(|sign| rest.starts_with(**sign));
     let foreign = FOREIGN.iter().find(|(foreign, _)| rest.starts_with(foreign));
+    // `**` begins with `*`, and `!=` with `!`.
+    let foreign = foreign.filter(|(foreign, _)| known.is_none_or(|known| foreign.len() > known.len()));
     match (known, foreign) {
-        // `**` begins with `*`, and `!=` with `!`.
-        (Some(known), Some((foreign, right))) if foreign.len() > known.len() => {
-            Err((foreign.len(), ExpressionProblem::Foreign(foreign, right)))
+        (_, Some((foreign, right))) => {
+            let error = ExpressionError::new(0..foreign.len(), format!("`{foreign}` is not an operator"));
+            Err(error.helps(format!("write {right}")))
         }
-        (Some(known), _) => Ok((Token::Sign(known), known.len())),
-        (None, Some((foreign, right))) => Err((foreign.len(), ExpressionProblem::Foreign(foreign, right))),
-        (None, None) => Err((first.len_utf8(), ExpressionProblem::Character(first))),
+        (Some(known), None) => Ok((Token::Sign(known), known.len())),
+        (None, None) => {
+            let message = format!("`{}` is not allowed in an expression", first.escape_debug());
+            Err(ExpressionError::new(0..first.len_utf8(), message))
+        }
     }
 }

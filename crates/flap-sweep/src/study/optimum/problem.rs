@@ -190,14 +190,9 @@ fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Express
         without_units(text, unit, |error| error).map_err(|error| refused(error.message, error.help))?;
     let expression = Expression::parse(&plain, &names).map_err(|errors| {
         let explained = |error: &ExpressionError| {
-            let help = error.help().or_else(|| {
-                let known = plan.measured();
-                error
-                    .message()
-                    .contains("name")
-                    .then(|| format!("measures are {}", text::listed(known, "measure")))
-            });
-            refused(error.message(), help)
+            let listed = || format!("measures are {}", text::listed(plan.measured(), "measure"));
+            let help = error.help.clone().or_else(|| error.message.contains("name").then(listed));
+            refused(error.message.clone(), help)
         };
         errors.first().map_or_else(|| refused("not an expression".to_owned(), None), explained)
     })?;
