@@ -1,6 +1,7 @@
 //! Rows and derivatives at the points of a problem's region.
 
 use std::cell::{Cell, RefCell};
+use std::cmp::Ordering;
 use std::rc::Rc;
 
 use flap_core::simulate::{Interrupt, NoSlope, Row, Status};
@@ -57,6 +58,12 @@ impl Trial {
             return self.excess < other.excess;
         }
         problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
+    }
+
+    /// The order of two points: the smaller excess first, and of equal excesses the better goal.
+    pub(super) fn order(&self, problem: &Problem, other: &Trial) -> Ordering {
+        let goal = |trial: &Trial| problem.aim.sign() * trial.goal;
+        self.excess.total_cmp(&other.excess).then(goal(self).total_cmp(&goal(other)))
     }
 
     /// The distance from a limit, divided by the size of the limit. The distance is negative where the limit is

@@ -88,7 +88,8 @@ pub fn optimise(
         return Ok(None);
     }
     let problem = &problem.sized_by(found.iter().map(|start| start.trial.goal));
-    let starts: Vec<Begin> = starts::best(problem, found, most).into_iter().map(Begin::of_start).collect();
+    let begin = |start: Start| Begin { coordinates: start.trial.coordinates, choice: start.choice };
+    let starts: Vec<Begin> = starts::best(problem, found, most).into_iter().map(begin).collect();
     let Some(ends) = refined(problem, settings, &starts, |done| stops(computed + done, all))? else {
         return Ok(None);
     };
@@ -120,12 +121,6 @@ pub fn optimise_from(
 struct Begin {
     coordinates: Vec<f64>,
     choice: Vec<f64>,
-}
-
-impl Begin {
-    fn of_start(start: Start) -> Begin {
-        Begin { coordinates: start.trial.coordinates, choice: start.choice }
-    }
 }
 
 /// The end points of the refinements in the order of the starts; `None` if the search was stopped.
@@ -210,11 +205,7 @@ fn end_of(
 /// The result of the problem, from the end points of all refinements.
 fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     let mut order: Vec<&End> = ends.iter().collect();
-    let sign = problem.aim.sign();
-    order.sort_by(|one, other| {
-        let by_excess = one.trial.excess.total_cmp(&other.trial.excess);
-        by_excess.then((sign * one.trial.goal).total_cmp(&(sign * other.trial.goal)))
-    });
+    order.sort_by(|one, other| one.trial.order(problem, &other.trial));
     let best = *order.first()?;
     let End { trial, varied, missing, is_polished, .. } = best;
     let (active, left_over) = active(problem, trial, *is_polished);

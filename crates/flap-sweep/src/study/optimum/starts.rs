@@ -62,12 +62,8 @@ pub(super) fn computed(
 /// The best starts: first the best start of each choice, then further starts that are distinct from earlier starts. The
 /// list has at most `most` starts.
 pub(super) fn best(problem: &Problem, mut starts: Vec<Start>, most: usize) -> Vec<Start> {
-    let sign = problem.aim.sign();
     // A stable sort: of equal starts the first one comes first.
-    starts.sort_by(|one, other| {
-        let by_excess = one.trial.excess.total_cmp(&other.trial.excess);
-        by_excess.then((sign * one.trial.goal).total_cmp(&(sign * other.trial.goal)))
-    });
+    starts.sort_by(|one, other| one.trial.order(problem, &other.trial));
     let has_feasible = starts.first().is_some_and(|start| start.trial.excess == 0.0);
     starts.retain(|start| !has_feasible || start.trial.excess == 0.0);
     let mut chosen: Vec<Start> = Vec::new();

@@ -1,6 +1,7 @@
 //! One-line summary of a curve.
 
 use std::fmt;
+use std::mem::discriminant;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Row, Status};
@@ -86,7 +87,8 @@ impl Verdict {
                 Comparison::Different => BandKind::Bistable { jump: difference },
                 Comparison::Irregular => BandKind::irregular(&up.row, &down.row),
             };
-            match verdict.bands.last_mut().filter(|band| open && band.kind.goes_on_as(&kind)) {
+            let is_same = |band: &&mut Band| discriminant(&band.kind) == discriminant(&kind);
+            match verdict.bands.last_mut().filter(|band| open && is_same(band)) {
                 Some(band) => {
                     band.range[1] = up.value;
                     band.kind.add(kind);
@@ -109,10 +111,6 @@ impl BandKind {
         let mut kind = BandKind::Irregular { what: vec![(up.status, up.period)] };
         kind.add(BandKind::Irregular { what: vec![(down.status, down.period)] });
         kind
-    }
-
-    fn goes_on_as(&self, next: &BandKind) -> bool {
-        std::mem::discriminant(self) == std::mem::discriminant(next)
     }
 
     /// Adds the next value of a band.
