@@ -291,3 +291,33 @@ fn terms_change_the_measures_as_their_parameters_do() {
     assert!(page.contains("hinge_damping") && page.contains("100 pN*m*s"), "{page}");
     folder.ends(2, "test terms jafferis2016 --max-cycles 2").says("is not periodic");
 }
+
+/// The size of each term is small enough for a periodic motion, and some measure changes.
+#[test]
+fn terms_of_lift_drag_and_pressure_have_sizes_in_all_presets() {
+    const TERMS: [&str; 6] =
+        ["drag_term_0", "drag_term_1", "lift_term_1", "lift_term_2", "pressure_term_0", "pressure_term_1"];
+    let folder = Folder::new();
+    for preset in [
+        "jafferis2016",
+        "jafferis2016-improved",
+        "ozaki2018-small",
+        "ozaki2018-large",
+        "ozaki2018-small-kw-swapped",
+        "ozaki2018-large-kw-swapped",
+        "arabagi2013-75hz",
+        "arabagi2013-30hz",
+    ] {
+        let csv = folder.ends(0, &format!("test terms {preset} --format csv")).stdout;
+        let lines: Vec<Vec<&str>> = csv.lines().skip(1).map(|line| line.split(',').collect()).collect();
+        for name in TERMS {
+            let line =
+                lines.iter().find(|line| line[0] == name).unwrap_or_else(|| panic!("no {name} in\n{csv}"));
+            let size = if name.starts_with("pressure") { "0.05" } else { "0.3" };
+            assert_eq!(line[1..4], ["0.0", size, "periodic"], "{preset}");
+            let changes: Vec<f64> = line[4..].iter().map(|cell| cell.parse().unwrap()).collect();
+            assert!(changes.iter().all(|change| change.is_finite()), "{preset}: {line:?}");
+            assert!(changes.iter().any(|change| change.abs() > 0.05), "{preset}: {line:?}");
+        }
+    }
+}

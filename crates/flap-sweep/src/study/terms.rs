@@ -21,7 +21,7 @@ const fn term(parameter: &'static str, size: f64, models: &'static [&'static str
 }
 
 /// Terms in the order of the manual (`docs/models/terms.md`).
-const TERMS: [Term; 18] = [
+const TERMS: [Term; 24] = [
     // The effect of this size is similar to the effect of the loss factor below.
     term("stroke_damping", 5e-9, BIMORPH),
     term("stroke_damping", 5e-7, OTHERS),
@@ -32,6 +32,12 @@ const TERMS: [Term; 18] = [
     term("hinge_stiffening", 1e-6, BIMORPH),
     term("hinge_stiffening", 3e-5, OTHERS),
     term("hinge_stop_stiffness", 3e-5, ALL),
+    term("drag_term_0", 0.3, ALL),
+    term("drag_term_1", 0.3, ALL),
+    term("lift_term_1", 0.3, ALL),
+    term("lift_term_2", 0.3, ALL),
+    term("pressure_term_0", 0.05, ALL),
+    term("pressure_term_1", 0.05, ALL),
     term("circulation_factor", 1.0, ALL),
     term("rotation_force_factor", 1.0, ALL),
     term("added_mass_factor", 1.0, BIMORPH),
