@@ -380,6 +380,13 @@ fn a_point_takes_the_design_of_the_command_line() {
     assert_ne!(lift("--point 0"), lift("--point 10"));
     assert_eq!(lift("--set device=long"), lift("--point 10"));
     assert_eq!(lift("--each device=long"), lift("--point 10"));
+    let unit = ["run", "grid.toml", "--each", "drive_voltage_pp=100 V, 15 x"];
+    folder
+        .ends_with(2, &unit)
+        .says("error: --each drive_voltage_pp=15 x: unknown unit `x`\nhelp: use V, mV, kV\n");
+    folder
+        .ends(2, "run grid.toml --each drive_voltage_pp=100,abc")
+        .says("error: --each drive_voltage_pp=abc: `drive_voltage_pp` must start with a number\n");
     // Other parameters of the command line keep their values.
     let volts = "--set drive_voltage_pp=150";
     assert_eq!(lift(&format!("--set device=long {volts}")), lift(&format!("--point 10 {volts}")));

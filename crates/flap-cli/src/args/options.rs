@@ -31,6 +31,18 @@ pub(crate) struct ChangeArgs {
     /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
+
+    /// Parameters of --each, with one value of each
+    #[arg(skip)]
+    pub(crate) each: Vec<(String, String)>,
+}
+
+impl ChangeArgs {
+    /// Returns the option, the parameter and the value of each change.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (&'static str, &str, &str)> {
+        let set = self.set.iter().map(|(name, value)| ("--set", name.as_str(), value.as_str()));
+        set.chain(self.each.iter().map(|(name, value)| ("--each", name.as_str(), value.as_str())))
+    }
 }
 
 /// Options that set the solver.

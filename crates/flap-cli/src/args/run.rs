@@ -92,9 +92,9 @@ impl RunArgs {
         let mut all = vec![self.changes.clone()];
         for (name, values) in &self.each {
             let with = |changes: &ChangeArgs, value: &String| {
-                let mut set = changes.set.clone();
-                set.push((name.clone(), value.clone()));
-                ChangeArgs { set }
+                let mut changes = changes.clone();
+                changes.each.push((name.clone(), value.clone()));
+                changes
             };
             all =
                 all.iter().flat_map(|changes| values.iter().map(move |value| with(changes, value))).collect();

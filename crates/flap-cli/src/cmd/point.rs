@@ -1,4 +1,4 @@
-//! The design point of a command: a preset or a point of a grid file, with the parameters of `--set`.
+//! The design point of a command: a preset or a point of a grid file, with the parameters of `--set` and `--each`.
 
 use std::path::Path;
 
@@ -52,9 +52,9 @@ impl Chosen {
         }
         let mut values = plan.point(point.point).values;
         let (mut set, mut set_with_unit) = (Vec::new(), Vec::new());
-        for (name, value) in &point.changes.set {
+        for (option, name, value) in point.changes.all() {
             let index = find_parameter(plan.parameters(), name)?;
-            values[index] = self::value(&plan.parameters()[index], &set_option(name), value)?;
+            values[index] = self::value(&plan.parameters()[index], &format!("{option} {name}="), value)?;
             set.push(index);
             set_with_unit.extend(units::has_unit(value).then_some(index));
         }
@@ -206,11 +206,6 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
         }
         failure.nearest(name, names, "`flap models` lists the parameters of a model")
     })
-}
-
-/// Returns the beginning of the option that sets a parameter, up to the value.
-pub(super) fn set_option(name: &str) -> String {
-    format!("--set {name}=")
 }
 
 /// Returns the value of a parameter from the text given with `option`.

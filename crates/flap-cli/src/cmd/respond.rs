@@ -156,7 +156,7 @@ fn set(plan: Plan, along: &Along, name: &str, value: &str) -> Result<Plan, Failu
     if index == along.parameter {
         return Err(twice("varied"));
     }
-    let value = point::value(&plan.parameters()[index], &point::set_option(name), value)?;
+    let value = point::value(&plan.parameters()[index], &format!("--set {name}="), value)?;
     plan.with_parameter(index, value).map_err(|error| match error {
         ChangeError::Varied(_) => twice("varied"),
         ChangeError::Derived(_) => twice("derived"),

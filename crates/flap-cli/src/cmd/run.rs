@@ -73,9 +73,7 @@ fn check_designs(points: &[PointArgs], args: &RunArgs) -> Result<(), Failure> {
     }
     for (place, (name, _)) in args.each.iter().enumerate() {
         let is_twice = args.each[..place].iter().any(|(other, _)| other == name);
-        let is_set = points
-            .iter()
-            .any(|point| point.changes.set.iter().filter(|(other, _)| other == name).count() > 1);
+        let is_set = points.iter().any(|point| point.changes.set.iter().any(|(other, _)| other == name));
         if is_twice || is_set {
             return Err(Failure::usage(format!("the command line sets {name} twice"))
                 .help("remove --set or one --each"));
@@ -209,7 +207,7 @@ fn longer(design: &Design) -> String {
     if *point > 0 {
         let _ = write!(command, " --point {point}");
     }
-    for (name, value) in &changes.set {
+    for (_, name, value) in changes.all() {
         let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
     }
     let periods = count(cycles.into(), "drive period");

@@ -23,7 +23,7 @@ pub(super) fn apply(chosen: &mut Chosen, point: &PointArgs, args: &RunArgs) -> R
     };
     let samples = Record::read(path)?.samples(&quantity, repeat)?;
     warn_of_overshoot(&samples, path, if args.stroke.is_some() { " rad" } else { "" });
-    if point.changes.set.iter().all(|(name, _)| name != "drive_frequency") {
+    if point.changes.all().all(|(_, name, _)| name != "drive_frequency") {
         chosen.put("drive_frequency", 1.0 / samples.duration());
     }
     if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
