@@ -343,6 +343,10 @@ fn every_command_on_results_takes_a_device_axis() {
     let folder = three();
     folder.ends(0, "sweep grid.toml --out all.csv");
     folder.ends(0, "top all.csv --by lift_mean_mn -n 1 --where device=short").prints("short");
+    let compared = ["top", "all.csv", "--by", "lift_mean_mn", "--format", "csv", "--where"];
+    let rows =
+        |condition| folder.ends_with(0, &[&compared[..], &[condition]].concat()).stdout.lines().count() - 1;
+    assert_eq!(["device == 'short'", "device != 'short'"].map(rows), [5, 10]);
     folder.ends(0, "describe all.csv --by lift_mean_mn").prints("device ");
     folder.ends(0, "plot all.csv --x drive_frequency --y lift_mean_mn --by device --out all.svg");
     assert!(THREE.iter().all(|device| folder.read("all.svg").contains(&format!(">{device}<"))));

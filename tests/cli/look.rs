@@ -436,16 +436,26 @@ fn conditions_take_per_cent_and_quoted_words() {
         ("drive_shape='square'", 2),
         ("drive_shape=\"square\"", 2),
         ("drive_shape=square", 2),
+        ("drive_shape == 'square'", 2),
+        ("drive_shape != 'square'", 1),
+        ("drive_shape == 'sine' or drive_shape == \"square\" and lift_mean_mn > 2", 2),
+        ("not (drive_shape=='sine') and lift_mean_mn<2", 1),
     ] {
         let arguments = ["top", "t.csv", "--by", "lift_mean_mn", "--format", "csv", "--where", condition];
         let ended = folder.ends_with(0, &arguments);
         assert_eq!(ended.stdout.lines().count(), 1 + rows, "{condition}: {}", ended.stdout);
     }
-    let arguments = ["top", "t.csv", "--by", "lift_mean_mn", "--where", "drive_shape='squre'"];
-    let ended = folder.ends_with(2, &arguments);
-    ended
-        .says("no row of t.csv satisfies --where\n")
-        .says("help: the values of drive_shape are sine, square\n");
+    for condition in ["drive_shape='squre'", "drive_shape == 'squre'"] {
+        let arguments = ["top", "t.csv", "--by", "lift_mean_mn", "--where", condition];
+        let ended = folder.ends_with(2, &arguments);
+        ended
+            .says("no row of t.csv satisfies --where\n")
+            .says("help: the values of drive_shape are sine, square\n");
+    }
+    let condition = "drive_shape == 'sine' and drive_shape > 2";
+    folder
+        .ends_with(2, &["top", "t.csv", "--by", "lift_mean_mn", "--where", condition])
+        .says("`drive_shape` is a choice between options, not a number\nhelp: compare it with an option: drive_shape == 'sine'\n");
 }
 
 /// A part of a name leads to the first column that has it, and a table of many columns is not listed as a whole.

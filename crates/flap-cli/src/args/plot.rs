@@ -48,7 +48,8 @@ pub(crate) struct PlotArgs {
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
     /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A comparison may have
-    /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. If the picture does not show an axis of
+    /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Text in a comparison is in
+    /// quotes: "device == 'long'". If the picture does not show an axis of
     /// the sweep, flap draws only the rows at the middle value of this axis. Use --where to choose a different value of
     /// the axis.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]

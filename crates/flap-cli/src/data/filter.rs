@@ -40,11 +40,40 @@ struct Number {
 
 /// The condition that a cell has a given word.
 struct Word {
+    wanted: String,
+    cells: TextColumn,
+}
+
+/// A column that a condition compares with words.
+struct TextColumn {
     column: usize,
     name: String,
-    wanted: String,
-    /// Other words in the column, at most as many as a message lists.
-    others: RefCell<BTreeSet<String>>,
+    /// Words in the rows, at most one more than a message lists.
+    words: RefCell<BTreeSet<String>>,
+}
+
+impl TextColumn {
+    fn new(column: usize, name: &str) -> TextColumn {
+        TextColumn { column, name: name.to_owned(), words: RefCell::default() }
+    }
+
+    /// Returns the position of the row's word in `wanted`, or the number of wanted words if the word is another one.
+    fn place(&self, row: &StringRecord, wanted: &[impl AsRef<str>]) -> usize {
+        let word = cell(row, self.column);
+        let mut words = self.words.borrow_mut();
+        if !word.is_empty() && words.len() <= MOST_WORDS && !words.contains(word) {
+            words.insert(word.to_owned());
+        }
+        wanted.iter().position(|wanted| wanted.as_ref() == word).unwrap_or(wanted.len())
+    }
+
+    /// Returns a line with the words of the column, if there are words.
+    fn advice(&self) -> Option<String> {
+        let words = self.words.borrow();
+        let more = if words.len() > MOST_WORDS { ", …" } else { "" };
+        let words: Vec<&str> = words.iter().take(MOST_WORDS).map(String::as_str).collect();
+        (!words.is_empty()).then(|| format!("the values of {} are {}{more}", self.name, words.join(", ")))
+    }
 }
 
 /// Largest number of words of a column that a message lists.
@@ -56,6 +85,9 @@ struct Comparison {
     /// Names and units of all columns.
     names: Vec<String>,
     units: Vec<String>,
+    /// Words in quotes, and the columns that the condition compares with these words.
+    words: Vec<String>,
+    texts: Vec<TextColumn>,
     /// The numbers in the first row, of the columns that the comparison uses.
     first: OnceCell<Vec<f64>>,
 }
@@ -73,15 +105,26 @@ impl Filters {
                     let is_bare = text.parse::<f64>().is_ok();
                     Test::Number(Number { column, name, unit, wanted, is_bare, first })
                 } else {
-                    Test::Word(Word { column, name, wanted: text.clone(), others: RefCell::default() })
+                    Test::Word(Word { wanted: text.clone(), cells: TextColumn::new(column, &name) })
                 })
             }
             Filter::Comparison(text) => {
                 let names = source.names().to_vec();
                 let units = (0..names.len()).map(|column| source.unit(column)).collect();
                 let plain = quantity::without_units(text, &names, |column| source.unit(column))?;
-                let expression = comparison(text, &plain, &names)?;
-                Ok(Test::Comparison(Comparison { expression, names, units, first: OnceCell::new() }))
+                let compared = Compared::of(&plain);
+                let expression = comparison(text, &plain, &Names { names: &names, compared: &compared })?;
+                let texts = names.iter().enumerate().filter(|(_, name)| compared.is_text(name));
+                let texts = texts.map(|(column, name)| TextColumn::new(column, name)).collect();
+                let words = compared.words.into_iter().map(str::to_owned).collect();
+                Ok(Test::Comparison(Comparison {
+                    expression,
+                    names,
+                    units,
+                    words,
+                    texts,
+                    first: OnceCell::new(),
+                }))
             }
         };
         filters.iter().map(test).collect::<Result<_, _>>().map(Filters)
@@ -98,22 +141,16 @@ impl Filters {
                         is_same(value, *wanted)
                     })
                 }
-                Test::Word(Word { column, wanted, others, .. }) => {
-                    let word = cell(row, *column);
-                    let mut others = others.borrow_mut();
-                    if word != wanted
-                        && !word.is_empty()
-                        && others.len() <= MOST_WORDS
-                        && !others.contains(word)
-                    {
-                        others.insert(word.to_owned());
-                    }
-                    word == wanted
-                }
-                Test::Comparison(Comparison { expression, names, first, .. }) => {
+                Test::Word(Word { wanted, cells }) => cells.place(row, &[wanted]) == 0,
+                Test::Comparison(Comparison { expression, names, words, texts, first, .. }) => {
                     let mut values = vec![f64::NAN; names.len()];
                     for column in expression.reads() {
-                        values[column] = value(&names[column], cell(row, column))?;
+                        let cell = cell(row, column);
+                        let text = texts.iter().find(|text| text.column == column && !cell.is_empty());
+                        values[column] = match text {
+                            Some(text) => text.place(row, words) as f64,
+                            None => value(&names[column], cell)?,
+                        };
                     }
                     // An expression with an empty cell is NaN.
                     let holds = expression.value(&values) == 1.0;
@@ -140,17 +177,14 @@ impl Filters {
                         .and_then(|wanted| meant(name, unit, wanted, usual));
                     lines.extend(line.or_else(|| in_unit(name, unit, usual)));
                 }
-                Test::Word(Word { name, others, .. }) => {
-                    let others = others.borrow();
-                    if !others.is_empty() {
-                        let more = if others.len() > MOST_WORDS { ", …" } else { "" };
-                        let words: Vec<&str> = others.iter().take(MOST_WORDS).map(String::as_str).collect();
-                        lines.push(format!("the values of {name} are {}{more}", words.join(", ")));
-                    }
-                }
-                Test::Comparison(Comparison { expression, names, units, first }) => {
+                Test::Word(Word { cells, .. }) => lines.extend(cells.advice()),
+                Test::Comparison(Comparison { expression, names, units, texts, first, .. }) => {
                     let values = first.get().map_or(&[][..], Vec::as_slice);
+                    lines.extend(texts.iter().filter_map(TextColumn::advice));
                     for column in expression.reads() {
+                        if texts.iter().any(|text| text.column == column) {
+                            continue;
+                        }
                         let usual = values.get(column).copied().unwrap_or(f64::NAN);
                         lines.extend(in_unit(&names[column], &units[column], usual));
                     }
@@ -240,28 +274,57 @@ static STATUSES: LazyLock<Vec<&'static str>> =
     LazyLock::new(|| Status::ALL.into_iter().map(Status::name).collect());
 const BRANCHES: &[&str] = &["up", "down", "unstable"];
 
+/// Words in quotes in a comparison, and the names that are compared with them.
+struct Compared<'t> {
+    words: Vec<&'t str>,
+    names: Vec<&'t str>,
+}
+
+impl<'t> Compared<'t> {
+    fn of(text: &'t str) -> Compared<'t> {
+        // Every second part is in quotes.
+        let parts: Vec<&str> = text.split(['\'', '"']).collect();
+        let words = parts.iter().skip(1).step_by(2).copied().collect();
+        let names = parts.iter().step_by(2).filter_map(|part| {
+            let part = part.trim_end();
+            let left = part.strip_suffix("==").or_else(|| part.strip_suffix("!="))?.trim_end();
+            left.rsplit(|character: char| !character.is_ascii_alphanumeric() && character != '_').next()
+        });
+        Compared { words, names: names.collect() }
+    }
+
+    /// Returns true if the comparison compares the column `name` with words, except columns with words that flap knows.
+    fn is_text(&self, name: &str) -> bool {
+        self.names.contains(&name) && !["status", "branch"].contains(&name)
+    }
+}
+
 /// The names of columns.
-struct Names<'n>(&'n [String]);
+struct Names<'n> {
+    names: &'n [String],
+    compared: &'n Compared<'n>,
+}
 
 impl Scope for Names<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
-        let mut known = self.0.iter().map(String::as_str);
+        let mut known = self.names.iter().map(String::as_str);
         let column = known.position(|known| known == name)?;
         Some(match name {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),
             "stable" | "bistable" => Meaning::Condition(column),
+            _ if self.compared.is_text(name) => Meaning::Choice(column, &self.compared.words),
             _ => Meaning::Number(column),
         })
     }
 
     fn names(&self) -> Vec<String> {
-        self.0.to_vec()
+        self.names.to_vec()
     }
 }
 
 /// Parses the comparison `plain`, which has no units. `text` is the comparison as the user wrote it, for messages.
-fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, Failure> {
+fn comparison(text: &str, plain: &str, scope: &Names<'_>) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message));
         match error.mistake {
@@ -269,13 +332,13 @@ fn comparison(text: &str, plain: &str, names: &[String]) -> Result<Expression, F
             Mistake::NoOperator => failure
                 .help("compare a number with a column, with or without its unit: drive_frequency > 95 Hz"),
             Mistake::UnknownName(_) if error.help.is_none() => {
-                failure.help(columns::listed(names.iter().map(String::as_str)))
+                failure.help(columns::listed(scope.names.iter().map(String::as_str)))
             }
             Mistake::Mismatch => failure.help("write COLUMN=VALUE, or a comparison such as lift_mean_mn>1"),
             _ => failure.helps(error.help),
         }
     };
-    let expression = Expression::parse(plain, &Names(names)).map_err(|errors| {
+    let expression = Expression::parse(plain, scope).map_err(|errors| {
         errors.into_iter().next().map_or_else(|| Failure::usage(format!("--where {text}")), &refused)
     })?;
     match expression.kind() {
