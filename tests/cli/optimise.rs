@@ -88,6 +88,36 @@ fn without_a_feasible_design_the_exit_code_is_1() {
     assert!(page.contains("no, by "), "{page}");
 }
 
+/// A condition on a choice excludes designs.
+#[test]
+fn a_condition_chooses_the_device() {
+    let folder = Folder::new();
+    for (name, volts) in [("short", 60), ("long", 100)] {
+        let device = format!("preset = \"ozaki2018-large\"\n[params]\ndrive_voltage_pp = \"{volts} V\"\n");
+        fs::write(folder.path(&format!("{name}.toml")), device).unwrap();
+    }
+    let grid =
+        "device = [\"short.toml\", \"long.toml\"]\n[axes]\ndrive_frequency = [\"100 Hz\", \"110 Hz\"]\n";
+    fs::write(folder.path("grid.toml"), grid).unwrap();
+    let best = |options: &str| {
+        let command = format!("optimise grid.toml --maximise lift_mean_mn --format csv{options}");
+        value(&folder.ends(0, &command).stdout, "parameter", "device")
+    };
+    assert_eq!(
+        ["", " --where device=='short'", " --where device!='long'"].map(best),
+        ["long", "short", "short"]
+    );
+    folder.refuses(
+        "optimise grid.toml --maximise lift_mean_mn --where device=='shrt'",
+        "--where device=='shrt': `device` has no option `shrt`",
+    );
+    let condition = ["--where", "device=='short' or lift_mean_mn > 1"];
+    folder
+        .ends_with(2, &[&["optimise", "grid.toml", "--maximise", "lift_mean_mn"], &condition[..]].concat())
+        .says("a condition on measures consists of comparisons with <, <=, > or >=, joined with `and`\n")
+        .says("help: only conditions on parameters alone can contain `or`, `not`, == or !=\n");
+}
+
 #[test]
 fn mistakes_have_their_place_and_help() {
     let folder = Folder::with_grid(GRID);

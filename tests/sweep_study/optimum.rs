@@ -309,8 +309,8 @@ fn mistakes_have_a_place_and_help() {
         refused("lift_mean_mn", &["stroke_pp_deg < 90 deg or lift_mean_mn > 1"]),
         told(
             Which::Condition(0),
-            "not a comparison with <, <=, > or >=",
-            "join comparisons with `and`; fix options under [params]"
+            "a condition on measures consists of comparisons with <, <=, > or >=, joined with `and`",
+            "only conditions on parameters alone can contain `or`, `not`, == or !="
         )
     );
     assert_eq!(refused("lift_mean_mn", &["lift_mean_mn > 0", "stroke_pp_deg < 90 V"]).0, Which::Condition(1));

@@ -26,6 +26,8 @@ pub(crate) struct OptimiseArgs {
 
     /// Condition that the design must satisfy: a comparison of measures and parameters with <, <=, > or >=, or several
     /// comparisons joined with `and`. A number may have a unit. You can repeat --where
+    ///
+    /// A condition on parameters alone may also contain `or`, `not`, == and !=, such as "device == 'long'".
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 

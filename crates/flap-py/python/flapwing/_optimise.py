@@ -45,6 +45,7 @@ def optimise(
     where : str or sequence of str, optional
         Conditions that the design must satisfy: comparisons of measures and parameters with ``<``, ``<=``, ``>`` or
         ``>=``. You can join comparisons with ``and``. A number can have a unit: ``"stroke_pp_deg < 100 deg"``.
+        A condition on parameters alone can also contain ``or``, ``not``, ``==`` and ``!=``: ``"device == 'long'"``.
     starts : int, optional
         Largest number of searches. Each search begins at one of the best points of the grid. The default of `starts` is
         8 searches.

@@ -105,18 +105,23 @@ impl Problem {
             });
         }
         let value = parsed(&plan, goal, Which::Goal, Kind::Number)?;
-        let mut limits = Vec::new();
+        let (mut limits, mut kept) = (Vec::new(), Vec::new());
         for (number, condition) in conditions.iter().enumerate() {
             let which = Which::Condition(number);
             let expression = parsed(&plan, condition, which, Kind::Condition)?;
-            let found = Limit::of_condition(condition.trim(), &expression).ok_or_else(|| ProblemError {
-                which,
-                message: "not a comparison with <, <=, > or >=".to_owned(),
-                help: Some("join comparisons with `and`; fix options under [params]".to_owned()),
-            })?;
-            limits.extend(found);
+            let is_of_parameters = expression.reads().all(|place| place < plan.parameters().len());
+            match Limit::of_condition(condition.trim(), &expression) {
+                Some(found) => limits.extend(found),
+                None if is_of_parameters => kept.push(Condition { name: condition.clone(), expression }),
+                None => {
+                    return Err(ProblemError {
+                        which,
+                        message: "a condition on measures consists of comparisons with <, <=, > or >=, joined with `and`".to_owned(),
+                        help: Some("only conditions on parameters alone can contain `or`, `not`, == or !=".to_owned()),
+                    });
+                }
+            }
         }
-        let mut kept: Vec<Condition> = Vec::new();
         for condition in plan.conditions() {
             match Limit::of_condition(&condition.name, &condition.expression) {
                 Some(found) => limits.extend(found),
