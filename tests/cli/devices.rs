@@ -437,6 +437,26 @@ fn mistakes_in_a_list_of_devices_are_told_with_their_place() {
     );
     fs::write(folder.path("other.toml"), params("wing_aera = 1")).unwrap();
     told("[\"mybee.toml\", \"other.toml\"]", "has no parameter `wing_aera`", "other.toml:3:1");
+    // Formulas name the devices without a value.
+    fs::write(folder.path("other.toml"), params("hinge_length = \"80 um\"")).unwrap();
+    for (list, formula, unset) in [
+        ("[\"other.toml\", \"long.toml\"]", "device.hinge_length", "for the device `long`"),
+        (
+            "[\"long.toml\", \"other.toml\", \"short.toml\"]",
+            "hinge_length",
+            "for the devices `long`, `short`",
+        ),
+    ] {
+        let derived = format!("[derived]\nhinge_stiffness = \"0.019 * {formula}\"\n");
+        fs::write(folder.path("grid.toml"), format!("device = {list}\n{derived}")).unwrap();
+        folder.ends(2, "check grid.toml").says(&format!("error: `{formula}` is not set {unset}\n"));
+    }
+    fs::write(
+        folder.path("grid.toml"),
+        "device = [\"short.toml\", \"long.toml\"]\n[derived]\nhinge_stiffness = \"hinge_length\"\n",
+    )
+    .unwrap();
+    folder.ends(2, "check grid.toml").says("error: `hinge_length` is not set\n");
     // Devices differ in the mean, so that a share of it has no meaning.
     let sample = "[sample]\nmethod = \"random\"\nn = 2\nparameters.wing_length = { relative_sd = \"5 %\" }\n";
     fs::write(folder.path("grid.toml"), format!("device = [\"short.toml\", \"long.toml\"]\n{sample}"))

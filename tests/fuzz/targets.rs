@@ -70,7 +70,7 @@ impl Scope for Names {
             "arms" => Meaning::Choice(2, &["printed", "axis"]),
             "ok" => Meaning::Condition(3),
             "preset.x" => Meaning::Constant(2.5),
-            "width" => Meaning::Unset("half of the length"),
+            "width" => Meaning::Unset("half of the length", String::new()),
             _ => return None,
         })
     }

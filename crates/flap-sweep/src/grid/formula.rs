@@ -68,7 +68,11 @@ impl Names<'_> {
         let index = self.standing(index);
         match (&self.parameters[index].kind, self.unset[index]) {
             (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
-            (_, Some(follows)) => Meaning::Unset(follows),
+            (_, Some(follows)) => {
+                let designs = self.device.as_ref().unwrap_or(&self.preset);
+                let is_unset = designs.iter().map(|design| followed(design[index]).is_some());
+                Meaning::Unset(follows, self.unset_designs(&is_unset.collect::<Vec<_>>()))
+            }
             (_, None) => Meaning::Number(index),
         }
     }
@@ -84,7 +88,8 @@ impl Names<'_> {
         };
         let values: Vec<Value> = designs.iter().map(value).collect();
         if let Some(follows) = values.iter().find_map(|value| followed(*value)) {
-            return Some(Meaning::Unset(follows));
+            let is_unset: Vec<bool> = values.iter().map(|value| followed(*value).is_some()).collect();
+            return Some(Meaning::Unset(follows, self.unset_designs(&is_unset)));
         }
         let numbers: Vec<f64> = values.iter().map(|value| value.in_point()).collect();
         let first = *numbers.first()?;
@@ -92,6 +97,20 @@ impl Names<'_> {
         // The last parameter names the design.
         let design = self.parameters.len() - 1;
         Some(if are_equal { Meaning::Constant(first) } else { Meaning::OfChoice(design, numbers.into()) })
+    }
+
+    /// Returns the designs without a value, such as "the device `long`", or an empty text if no design has a value.
+    fn unset_designs(&self, is_unset: &[bool]) -> String {
+        // The last parameter names the design.
+        let Some(Parameter { name, kind: ParameterKind::Choice(labels), .. }) = self.parameters.last() else {
+            return String::new();
+        };
+        if is_unset.iter().all(|is_unset| *is_unset) {
+            return String::new();
+        }
+        let unset = labels.iter().zip(is_unset).filter(|(_, is_unset)| **is_unset);
+        let unset: Vec<String> = unset.map(|(label, _)| format!("`{label}`")).collect();
+        format!("the {name}{} {}", if unset.len() > 1 { "s" } else { "" }, unset.join(", "))
     }
 
     fn of_measure(&self, name: &str) -> Option<Meaning<'_>> {

@@ -215,7 +215,9 @@ impl<'a> Parser<'a> {
             Some(Meaning::Constant(value)) => (Kind::Number, Operation::Push(value)),
             Some(Meaning::OfChoice(place, numbers)) => (Kind::Number, Operation::ReadOf(place, numbers)),
             Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
-            Some(Meaning::Unset(follows)) => return Ok(self.note(unset(name, follows, &span), span)),
+            Some(Meaning::Unset(follows, designs)) => {
+                return Ok(self.note(unset(name, follows, &designs, &span), span));
+            }
             None => return Ok(self.note(self.unknown(name, &span), span)),
         };
         self.operations.push(operation);
@@ -318,15 +320,17 @@ fn nearest_or_all(name: &str, known: &[&str], what: &str) -> String {
     nearest(name, known.iter().copied()).map_or_else(all, did_you_mean)
 }
 
-/// Returns the mistake of a parameter that is not set and is computed from the parameters `follows`.
-fn unset(name: &str, follows: &str, span: &Range<usize>) -> ExpressionError {
+/// Returns the mistake of a parameter that is not set and is computed from the parameters `follows`. `designs` names the designs
+/// without a value; it is empty if no design has a value.
+fn unset(name: &str, follows: &str, designs: &str, span: &Range<usize>) -> ExpressionError {
     let why = text::no_default(follows).unwrap_or_else(|| format!("it follows other parameters ({follows})"));
     let help = if name.contains('.') {
         format!("{why}, so that there is no number to use")
     } else {
         format!("{why}: set `{name}` under [params] to use it here")
     };
-    ExpressionError::new(span.clone(), format!("`{name}` is not set")).helps(help)
+    let designs = if designs.is_empty() { String::new() } else { format!(" for {designs}") };
+    ExpressionError::new(span.clone(), format!("`{name}` is not set{designs}")).helps(help)
 }
 
 /// Returns the binary operator of `token`, and its precedence.

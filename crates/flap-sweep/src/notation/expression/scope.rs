@@ -24,8 +24,9 @@ pub enum Meaning<'a> {
     Constant(f64),
     /// Number that depends on the choice with this index in the values: a number for each option.
     OfChoice(usize, Arc<[f64]>),
-    /// Number that is not set. The text describes the parameters that it follows.
-    Unset(&'static str),
+    /// Number that is not set. The first text describes the parameters that it follows. The second text names the
+    /// designs without the number, such as "the device `long`", or is empty if all designs lack the number.
+    Unset(&'static str, String),
 }
 
 /// Names that an expression may use.

@@ -16,7 +16,7 @@ impl Scope for Names {
             "arms" => Meaning::Choice(3, OPTIONS),
             "ok" => Meaning::Condition(4),
             "preset.kappa" => Meaning::Constant(1.52e-6),
-            "width" => Meaning::Unset("half of the length"),
+            "width" => Meaning::Unset("half of the length", String::new()),
             _ => return None,
         })
     }

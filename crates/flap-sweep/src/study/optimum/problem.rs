@@ -249,7 +249,7 @@ impl Names<'_> {
         let index = shared.unwrap_or(index);
         match (&parameters[index].kind, follows(index)) {
             (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
-            (_, Some(follows)) => Meaning::Unset(follows),
+            (_, Some(follows)) => Meaning::Unset(follows, String::new()),
             (_, None) => Meaning::Number(index),
         }
     }
