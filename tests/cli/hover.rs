@@ -80,6 +80,24 @@ fn rows_at_hover_are_the_numbers_of_the_command() {
     assert!(growth[0] > 4.0 * growth[2], "{growth:?}");
     assert!(numbers(&rows, "hover_period_s")[0].is_nan() && numbers(&rows, "hover_period_s")[2] > 0.5);
 
+    // A single point has all columns of its row.
+    let single = folder.ends(0, "run grid.toml --point 2 --format csv").stdout;
+    let header = rows.lines().next().unwrap().split(',').skip_while(|name| *name != "hover_growth_1_s");
+    let names: Vec<&str> = header.take_while(|name| *name != "cycles").collect();
+    assert_eq!(names.len(), 3 + 4 + 36, "{names:?}");
+    for name in names {
+        let line = single.lines().find(|line| line.starts_with(&format!("{name},")));
+        let found: f64 = line
+            .unwrap_or_else(|| panic!("no {name} in\n{single}"))
+            .split(',')
+            .nth(1)
+            .unwrap()
+            .parse()
+            .unwrap();
+        let wanted = numbers(&rows, name)[2];
+        assert!((found - wanted).abs() <= 1e-4 * wanted.abs() + 1e-3, "{name}: {found}, not {wanted}");
+    }
+
     // The trim of the grid file applies to single points, too.
     let modes = folder.ends(0, "vehicle grid.toml --point 2 --hover --format csv");
     near(growth[2], numbers(&modes.stdout, "eigenvalue_real")[0], 1e-4);
@@ -136,6 +154,9 @@ fn measures_have_the_inputs_at_hover() {
     for (volts, at_hover) in numbers(&rows, "volts").into_iter().zip(numbers(&rows, "hover_amplitude_v")) {
         near(volts, at_hover, 1e-12);
     }
+    let single = folder.ends(0, "run grid.toml --format csv").stdout;
+    let volts = single.lines().find_map(|line| line.strip_prefix("volts,")).unwrap();
+    near(volts.split(',').next().unwrap().parse().unwrap(), numbers(&rows, "volts")[0], 1e-5);
     let noted = folder.ends(0, "run grid.toml --gradient power_mean_mw").stderr;
     assert!(noted.contains("the derivatives are at fixed drive_voltage_pp"), "{noted}");
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{PointRun, Rows, Simulator, never};
+use flap_core::simulate::{Column, PointRun, Row, Rows, Simulator, never};
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units;
@@ -122,6 +122,19 @@ impl Chosen {
     /// Returns the model of the point.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
+    }
+
+    /// Returns the columns of the point's row.
+    pub(crate) fn columns(&self) -> &[Column] {
+        self.plan.body().map_or_else(|| self.simulator().columns(), Rows::columns)
+    }
+
+    /// Runs the point. The row of a vehicle contains the columns of hover and damping that the grid file requests.
+    pub(crate) fn row(&self) -> Row {
+        let run = self.run();
+        self.plan
+            .body()
+            .map_or_else(|| self.simulator().run_point(&run, None), |body| body.row_at(&run, None))
     }
 
     /// Sets a parameter. Returns false if the model has no such parameter.

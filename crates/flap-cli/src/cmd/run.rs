@@ -156,7 +156,7 @@ fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
 fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
     let mut rows = Vec::new();
     for Design { chosen, .. } in designs {
-        let mut row = chosen.simulator().run_point(&chosen.run(), None);
+        let mut row = chosen.row();
         chosen.plan.add_own_measures(&chosen.values, &mut row.measures);
         if let (Status::Invalid, Some(reason)) = (row.status, &row.reason) {
             return Err(Failure::usage(format!("the parameters are impossible together: {reason}")));
@@ -278,7 +278,7 @@ fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
 
 /// Returns the measures in the columns [`NAMES`]; empty if the row has no measures.
 fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<String>> {
-    let columns = chosen.plan.simulator().columns();
+    let columns = chosen.columns();
     let of_model = columns.iter().zip(&row.measures).map(|(column, &measure)| {
         vec![column.name.clone(), number(measure), column.unit.to_owned(), column.doc.clone()]
     });

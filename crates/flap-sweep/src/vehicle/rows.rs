@@ -83,6 +83,16 @@ impl BodyRows {
         self.inputs.as_ref().map(|inputs| trim(&flight, values, inputs))
     }
 
+    /// Returns the row at the values of `run`, without a search for hover.
+    pub fn row_at(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
+        let mut row = self.vehicle.run_point(run, begin);
+        if row.status == Status::Periodic {
+            let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
+            self.extend(&flight, run.values, &mut row);
+        }
+        row
+    }
+
     /// Returns `values` with the inputs at hover, from the measures of a row.
     pub(crate) fn at_hover(&self, values: &[f64], measures: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
@@ -138,13 +148,11 @@ impl Rows for BodyRows {
 
     /// The search for hover begins at rest, so `begin` is ignored there.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
+        let Some(inputs) = &self.inputs else { return self.row_at(run, begin) };
         let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
-        let found = match &self.inputs {
-            None => Ok((run.values.to_vec(), self.vehicle.run_point(run, begin))),
-            Some(inputs) => trim(&flight, run.values, inputs).map(|at| (at.applied(run.values), at.row)),
-        };
-        match found {
-            Ok((values, mut row)) => {
+        match trim(&flight, run.values, inputs) {
+            Ok(found) => {
+                let (values, mut row) = (found.applied(run.values), found.row);
                 if row.status == Status::Periodic {
                     self.extend(&flight, &values, &mut row);
                 }
