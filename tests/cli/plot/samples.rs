@@ -136,6 +136,26 @@ fn a_sample_may_be_crossed_with_an_axis() {
     picture.has(&["Air density", "Hinge stiffness"]);
 }
 
+/// A scatter of a sample of several presets shows all presets, in different colours.
+#[test]
+fn a_scatter_has_colours_for_designs() {
+    let folder = Folder::with_grid(
+        "preset = [\"ozaki2018-large\", \"ozaki2018-small\"]\n[sample]\nn = 6\nmethod = \"sobol\"\n\
+         [sample.parameters]\nhinge_stiffness = { from = 8e-5, to = 1e-4 }\nair_density = { from = 1.1, to = 1.3 }\n",
+    );
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let picture = drawn(&folder, "rows.csv --kind scatter");
+    picture.has(&["ozaki2018-large", "ozaki2018-small", "12 designs"]);
+    // Six points of each preset, and a point in the legend.
+    for colour in ["#0072b2", "#d55e00"] {
+        let points = picture.svg.to_lowercase().matches(colour).count();
+        assert!(points >= 7, "{points} points of {colour}");
+    }
+    let picture = drawn(&folder, "rows.csv --kind scatter --where preset=ozaki2018-small");
+    picture.has(&["6 designs"]);
+    assert!(!picture.svg.contains(">ozaki2018-large<"));
+}
+
 /// Designs along one axis are a curve, of which a front says nothing.
 #[test]
 fn two_measures_along_one_axis_are_no_front() {

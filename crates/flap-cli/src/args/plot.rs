@@ -41,7 +41,8 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "COLUMN")]
     pub(crate) by: Option<String>,
 
-    /// Column that sets the colour of the cells of a map, or of the points of a scatter or Pareto picture
+    /// Column that sets the colour of the cells of a map, or of the points of a scatter or Pareto picture. In a scatter,
+    /// the column can contain text, such as device
     #[arg(long, value_name = "COLUMN")]
     pub(crate) color: Option<String>,
 
@@ -131,7 +132,7 @@ pub(crate) enum PictureKind {
     Response,
     /// A measure as the colour of cells, against two parameters
     Map,
-    /// Two measures of every design as points, coloured by a third column
+    /// Two measures of every design as points, coloured by a third column, or by device or preset if there are several
     Scatter,
     /// The number of designs in each range of a measure, with the 5th, 50th and 95th percentile
     Histogram,

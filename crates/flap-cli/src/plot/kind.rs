@@ -32,7 +32,7 @@ pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure
     match kind {
         PictureKind::Response => response(request, axes),
         PictureKind::Map => map(request, axes),
-        PictureKind::Scatter => scatter(request),
+        PictureKind::Scatter => scatter(request, axes),
         PictureKind::Pareto => pareto(request),
         PictureKind::Histogram | PictureKind::Tornado => {
             let x = request.required("x", request.x.or(request.three[0]), NO_MEASURES)?;
@@ -175,10 +175,12 @@ fn map(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     Ok(Columns { color: Some(color), ..Columns::plain(PictureKind::Map, x, y) })
 }
 
-fn scatter(request: &Request) -> Result<Columns, Failure> {
+fn scatter(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let [benefit, cost, motion] = request.three;
     let (x, y) = plane(request)?;
-    let color = request.color.or_else(|| request.free([motion, benefit, cost], &[x, y]));
+    // Colours distinguish devices, presets or other options along an axis.
+    let color = request.color.or_else(|| axes.words.first().copied());
+    let color = color.or_else(|| request.free([motion, benefit, cost], &[x, y]));
     Ok(Columns { color, ..Columns::plain(PictureKind::Scatter, x, y) })
 }
 

@@ -12,7 +12,8 @@ use super::scale;
 use super::selection::Selection;
 use super::shades::{self, Shades};
 use crate::console;
-use crate::data::columns::Table;
+use crate::data::columns::{Cells, Table};
+use crate::data::levels::Levels;
 use crate::failure::Failure;
 
 /// Draws column `y` over column `x`, coloured by column `color`.
@@ -22,7 +23,12 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     if drawn < all {
         console::say(&format!("{drawn} of {all} points are drawn, evenly chosen"));
     }
-    let (plots, bar) = points.plots(table, selection, "")?;
+    let words =
+        selection.columns.color.filter(|&color| matches!(table.columns[color].cells, Cells::Words { .. }));
+    let (plots, bar) = match words {
+        Some(color) => (points.by_word(table, color), None),
+        None => points.plots(table, selection, "")?,
+    };
     let mut notes = selection.notes.clone();
     notes.push(format!("{all} designs"));
     notes.extend(points.note());
@@ -34,7 +40,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         x: Axis::linear(x.text(), scale::padded(width, 0.04)),
         y: Axis::linear(y.text(), scale::padded(height, 0.04)),
         plots,
-        legend: None,
+        legend: words.map(|color| table.label(color).text()),
         bar: bar.is_some(),
     };
     let frame = ComputedLayout::from_layout(&panel.layout(size));
@@ -88,6 +94,20 @@ impl Points {
     pub(super) fn note(&self) -> Option<String> {
         let all = self.rows.len() + self.missing;
         (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))
+    }
+
+    /// Returns a plot for each word in the column `color`.
+    fn by_word(&self, table: &Table, color: usize) -> Vec<Plot> {
+        let levels = Levels::of(table, color, &self.rows);
+        let mut groups = vec![Vec::new(); levels.len()];
+        for &place in &self.shown {
+            groups[levels.codes[place]].push(self.places[place]);
+        }
+        let count = groups.len();
+        let plot = |(group, points): (usize, &Vec<(f64, f64)>)| {
+            ink::points(points, &levels.typed(group), &ink::line_colour(group, count, false), 2.6)
+        };
+        groups.iter().enumerate().map(plot).collect()
     }
 
     /// Returns the points as one plot called `name`, or coloured by the chosen column as several plots with their colour bar.
