@@ -46,7 +46,7 @@ const TERMS: [Term; 24] = [
     term("drive_offset", 20.0, BIMORPH),
     term("plate_ratio", 0.9, BIMORPH),
     term("dielectric_loss", 0.13, ALL),
-    term("charge_recovery", 0.58, ALL),
+    term("charge_recovery", 0.42, ALL),
 ];
 
 /// A term of a design that is switched on or off.
