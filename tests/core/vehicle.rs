@@ -224,8 +224,13 @@ fn derivatives_are_those_of_differences() {
         })
         .collect();
     let point = PointRun::new(Backend::best(), &solver, &flier.values);
-    let gradient = flier.vehicle.gradients().unwrap().gradient(&point, &row.state, &changes).unwrap();
-    for ((name, size), slopes) in names.iter().zip(&gradient.slopes) {
+    let gradient = |changes: &[Change]| {
+        flier.vehicle.gradients().unwrap().gradient(&point, &row.state, changes).unwrap()
+    };
+    let one_sided: Vec<Change> =
+        changes.iter().map(|change| Change { behind: flier.values.clone(), ..change.clone() }).collect();
+    let (gradient, one_sided) = (gradient(&changes), gradient(&one_sided));
+    for (((name, size), slopes), one_sided) in names.iter().zip(&gradient.slopes).zip(&one_sided.slopes) {
         let (ahead, behind) = (run(&moved(name, 0.1 * size)), run(&moved(name, -0.1 * size)));
         for (j, column) in flier.vehicle.columns().iter().enumerate() {
             if !FORCES.iter().chain(&TORQUES).any(|known| *known == column.name)
@@ -236,6 +241,11 @@ fn derivatives_are_those_of_differences() {
             let expected = (ahead.measures[j] - behind.measures[j]) / (0.2 * size);
             let found = slopes[j].unwrap();
             let scale = row.measures[j].abs().max(0.05) / size;
+            assert!(
+                (one_sided[j].unwrap() - found).abs() < 1e-4 * scale,
+                "{} by {name}, one-sided",
+                column.name
+            );
             assert!(
                 (found - expected).abs() < 1e-4 * scale,
                 "{} by {name}: {found}, not {expected}",

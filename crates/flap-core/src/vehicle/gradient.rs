@@ -39,7 +39,10 @@ impl Gradients for Vehicle {
                 let measures: Vec<&[f64]> = measures.iter().map(Vec::as_slice).collect();
                 self.measures(values, &measures)
             };
-            let (ahead, behind) = (moved(&change.ahead, change.size), moved(&change.behind, -change.size));
+            let is_one_sided =
+                change.behind.iter().zip(run.values).all(|(one, other)| one.total_cmp(other).is_eq());
+            let back = if is_one_sided { 0.0 } else { change.size };
+            let (ahead, behind) = (moved(&change.ahead, change.size), moved(&change.behind, -back));
             let trouble = wings.iter().find_map(|wing| wing.trouble(i));
             let nothing = wings.iter().all(|wing| wing.slopes[i].is_none()) && ahead == behind;
             let slope = |j: usize| {
@@ -49,7 +52,7 @@ impl Gradients for Vehicle {
                 if nothing {
                     return Err(NoSlope::Zero);
                 }
-                let slope = (ahead[j] - behind[j]) / (2.0 * change.size);
+                let slope = (ahead[j] - behind[j]) / (change.size + back);
                 match trouble {
                     Some(trouble) if slope.is_nan() => Err(trouble),
                     _ => Ok(slope),
