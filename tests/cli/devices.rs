@@ -348,8 +348,8 @@ fn every_command_on_results_takes_a_device_axis() {
         |condition| folder.ends_with(0, &[&compared[..], &[condition]].concat()).stdout.lines().count() - 1;
     assert_eq!(["device == 'short'", "device != 'short'"].map(rows), [5, 10]);
     folder.ends(0, "describe all.csv --by lift_mean_mn").prints("device ");
-    folder.ends(0, "plot all.csv --kind scatter --out all.svg");
-    assert!(THREE.iter().all(|device| folder.read("all.svg").contains(&format!(">{device}<"))));
+    folder.ends(0, "plot all.csv --kind scatter --out scatter.svg");
+    assert!(THREE.iter().all(|device| folder.read("scatter.svg").contains(&format!(">{device}<"))));
     folder.ends(0, "plot all.csv --x drive_frequency --y lift_mean_mn --by device --out all.svg");
     assert!(THREE.iter().all(|device| folder.read("all.svg").contains(&format!(">{device}<"))));
     // Points are run again with the recorded devices.

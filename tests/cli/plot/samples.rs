@@ -152,7 +152,7 @@ fn a_scatter_has_colours_for_designs() {
         assert!(points >= 7, "{points} points of {colour}");
     }
     let picture = drawn(&folder, "rows.csv --kind scatter --where preset=ozaki2018-small");
-    picture.has(&["6 designs"]);
+    picture.has(&["Preset ozaki2018-small · 6 designs"]);
     assert!(!picture.svg.contains(">ozaki2018-large<"));
 }
 
