@@ -293,7 +293,7 @@ impl<'t> Compared<'t> {
         Compared { words, names: names.collect() }
     }
 
-    /// Returns true if the comparison compares the column `name` with words, except columns with words that flap knows.
+    /// Returns true if the comparison compares the column `name` with words, except for columns whose words flap writes.
     fn is_text(&self, name: &str) -> bool {
         self.names.contains(&name) && !["status", "branch"].contains(&name)
     }

@@ -26,7 +26,7 @@ impl Terms {
         Terms { body, air, stiffening, is_plain }
     }
 
-    /// Returns the terms that either point has. The terms of the body's motion are those of the first point that moves.
+    /// Returns the terms that either point has. If both bodies move, the result has the first body's terms.
     pub fn or(self, other: Terms) -> Terms {
         let body = if self.body == BodyTerms::None { other.body } else { self.body };
         Terms::new(body, self.air || other.air, self.stiffening || other.stiffening)

@@ -147,8 +147,7 @@ impl Unfinished {
 /// An impossible request for a motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RequestError {
-    /// A frequency that is not more than zero, a rate whose sign differs from the sign of the change, or a frequency that
-    /// falls to zero within a cycle.
+    /// A frequency that is not more than zero, or falls to zero within a cycle; or a rate with the wrong sign.
     #[error(
         "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies must be more than zero, and the rate \
          must have the sign of the change and be more than {} Hz/s", -0.5 * to * to

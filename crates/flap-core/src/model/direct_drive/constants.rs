@@ -134,8 +134,8 @@ impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, a constant is not
-    /// finite, or the printed sign of the lift is combined with normal forces that the paper leaves out.
+    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or a constant is not
+    /// finite. Also if the printed sign of the lift is combined with normal forces that the paper leaves out.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         check(p)?;
         let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {

@@ -192,8 +192,9 @@ fn motion_in_air_inlined<R: Real>(
     (motion, Aerodynamics { rotation, ..air })
 }
 
-/// Returns the forces and moments of the air without the added mass, and the part of the added mass's lift that is due to the motion
-/// of the body.
+/// Returns the forces and moments of the air without the added mass.
+///
+/// The second number is the part of the added mass's lift that is due to the motion of the body.
 #[inline(always)]
 pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> (Aerodynamics<R>, R) {
     let (motion, air) = motion_in_air(c, model.terms.body == BodyTerms::All, side, y);

@@ -83,8 +83,9 @@ impl Problem {
         Problem { least_size: 1e-3 * median, ..self.clone() }
     }
 
-    /// Returns the number to which changes of the goal are compared: the magnitude of the goal, unless the goal is almost
-    /// zero, as at the best point of a squared difference.
+    /// Returns the number to which changes of the goal are compared: the magnitude of the goal, but at least `least_size`.
+    ///
+    /// At the best point of a squared difference, the goal is zero.
     pub(super) fn size(&self, goal: f64) -> f64 {
         let size = goal.abs().max(self.least_size);
         if size == 0.0 { 1.0 } else { size }
