@@ -116,7 +116,10 @@ fn a_goal_may_be_zero_at_the_optimum() {
     "#;
     let problem = problem(text, "(pitch_amplitude_deg - 60)^2", Aim::Smallest, &[]);
     let best = solved(&problem);
-    assert_eq!((best.status, best.optima.len()), (Status::Optimal, 1), "{:?}", best.optima);
+    assert_eq!(best.status, Status::Optimal);
+    // The other optimum is the largest stiffness.
+    let almost_zero = best.optima.iter().filter(|optimum| optimum.goal < 1.0);
+    assert_eq!(almost_zero.map(|optimum| optimum.starts).collect::<Vec<_>>(), [4], "{:?}", best.optima);
     assert!((measure(&problem, &best, "pitch_amplitude_deg") - 60.0).abs() < 1e-2, "{best:?}");
 }
 
