@@ -171,7 +171,7 @@ _Law = tuple[Callable[[Array], list[Array]], int, Callable[..., dict[str, float]
 
 
 def _laws(known: set[str]) -> dict[str, _Law]:
-    """Return the laws of the model whose parameters have the names `known`."""
+    """Return the laws of the coefficients in the model that has the parameters `known`."""
     if not {"lift_term_1", "drag_term_0", "pressure_term_0"} <= known:
         raise ValueError("the model of the design does not have these laws\nuse bimorph, direct-drive or four-bar")
     sine = "lift_amplitude" in known

@@ -376,10 +376,11 @@ def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
 
 
 def _column(values: Any) -> np.ndarray:
-    """Return a column as an array of numbers, flags or words. Data frames store words as objects."""
+    """Return a column as an array of numbers, flags or words."""
     column = np.asarray(values)
     if column.dtype.kind not in "OT":
         return column
+    # Columns of words in data frames have the type object.
     try:
         return column.astype(float)
     except (TypeError, ValueError):

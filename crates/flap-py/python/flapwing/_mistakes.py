@@ -12,9 +12,7 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """The error for an unknown name. The error is a KeyError, like the error of a dictionary, and also a ValueError,
-    like the error of a wrong argument.
-    """
+    """The error for an unknown name. You can catch this error as a KeyError or as a ValueError."""
 
     def __str__(self) -> str:
         # Without this, a KeyError shows its message in quotes on one line.

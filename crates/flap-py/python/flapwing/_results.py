@@ -340,7 +340,7 @@ class ActiveBound(_Result):
 
 @dataclass(frozen=True, eq=False)
 class ConditionValue(_Result):
-    """A condition at an optimum.
+    """The two sides of a condition, such as a limit on the stroke, at an optimum.
 
     Attributes
     ----------
