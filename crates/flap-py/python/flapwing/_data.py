@@ -133,8 +133,8 @@ class Data:
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a sample. If a crossed axis is not in `shown`, only the rows at the middle value of
-        this axis are kept."""
+        """Return the designs of a sample. If the sample is combined with an axis that is not in `shown`, return only
+        the rows at the middle value of the axis."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if not left or len(left) == len(self.axes()):
             return self
