@@ -111,7 +111,7 @@ def _is_known(values: Any) -> bool:
 
 
 def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
-    """Return the waveform and the stroke of a call in the form that the compiled module takes."""
+    """Return the arguments `waveform` and `stroke` in the form that the compiled module requires."""
     return {
         "waveform": None if waveform is None else record("waveform", waveform, "wave"),
         "stroke": None if stroke is None else record("stroke", stroke, "stroke_rad"),
@@ -164,8 +164,8 @@ def _is_missing(name: str, value: Any) -> bool:
 
 
 def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """Return states as the rows of an array, made from columns of components. Return None for motions that begin at
-    rest.
+    """Return an array with one state per row and one component of the state per column. Return None for motions that
+    begin at rest.
     """
     if initial_state is None:
         return None

@@ -32,7 +32,7 @@ export default { render };
 
 
 def _whole(name: str, value: Any) -> int:
-    """Return a whole number. Raise TypeError if the value is not a whole number."""
+    """Return `value` as an int. Raise TypeError if `value` is not a whole number."""
     allowed = "it must be a whole number"
     if not hasattr(type(value), "__index__"):
         raise _mistakes.refused(name, value, allowed)
