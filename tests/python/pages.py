@@ -143,8 +143,9 @@ class Page:
 
     def lines(self, lines: str) -> None:
         """Prints the output and the errors of `lines`. Raises if a line fails."""
-        ended = self.ran(lines, errors=subprocess.STDOUT)
-        print(ended.stdout, end="")
+        # In a pipeline, errors of the first command can appear at any place in the output of the last command.
+        ended = self.ran(lines, errors=subprocess.PIPE if " | " in lines else subprocess.STDOUT)
+        print(ended.stdout, ended.stderr or "", sep="", end="")
         if ended.returncode:
             raise ShellError(f"exit code {ended.returncode} of\n{lines}")
 
