@@ -62,13 +62,13 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         out = arguments.out or os.path.join(folder, "cluster.csv")
         with (
-            # Only this machine can reach the cluster; `dashboard_address=":8787"` would serve a page on its progress.
+            # Only this machine can reach the cluster. `cluster.dashboard_link` is the page on its progress, at a free port.
             LocalCluster(
                 n_workers=arguments.workers,
                 threads_per_worker=1,
                 processes=True,
                 host="127.0.0.1",
-                dashboard_address=None,
+                dashboard_address="127.0.0.1:0",
             ) as cluster,
             Client(cluster) as client,
         ):
