@@ -62,7 +62,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         out = arguments.out or os.path.join(folder, "cluster.csv")
         with (
-            # Only this machine can reach the cluster. `cluster.dashboard_link` is the page on its progress, at a free port.
+            # Only this machine can reach the cluster. `cluster.dashboard_link` is a page on its progress.
             LocalCluster(
                 n_workers=arguments.workers,
                 threads_per_worker=1,
