@@ -22,7 +22,7 @@ fn an_extremum_is_in_the_quarter_of_its_own_time() {
         let free = Params { drive_strength: 0.0, load: 0.0, decay: 1e-6 };
         let start = Oscillator.start(&free.to_values()).unwrap();
         let start = Start { y: [phase.sin(), OMEGA * phase.cos()], ..start };
-        let observer = Quarters(cycle::Signals::all(&Oscillator));
+        let observer = Quarters(cycle::SignalObserver::all(&Oscillator));
         let mut totals =
             InQuarters::<Signals, f64>::fill(0.0, &Observer::<Oscillator, 2>::nothing(&observer));
         let outcome = solve::<_, f64, 2>(

@@ -7,7 +7,7 @@
 use core::ops::ControlFlow;
 
 use crate::drive::Samples;
-use crate::measure::cycle::{Signals, Sums, finish};
+use crate::measure::cycle::{SignalObserver, Sums, finish};
 use crate::model::{Measure, Model, Motions, Signal, SignalSet};
 use crate::modes::Mode;
 use crate::num::{PerLane, Scalar};
@@ -15,18 +15,17 @@ use crate::ode::Start;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
 use crate::simulate::{
-    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, Question,
-    RequestError, Runner, Sampler, Simulator, Trajectory, Unfinished, ask, sampled, shown,
-    trajectory_columns,
+    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, RequestError, Runner,
+    Sampler, Simulator, Trajectory, Unfinished, on_scalars, sampled, shown, trajectory_columns,
 };
 
 impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
-        ask::<M, _, N>(&self.model, run, request)
+        on_scalars!(run, R => chirp::<M, R, N>(&self.model, run, request))
     }
 
     fn free_response(&self, run: &PointRun<'_>, request: &ImpulseRequest) -> Result<Trajectory, Unfinished> {
-        ask::<M, _, N>(&self.model, run, request)
+        on_scalars!(run, R => free_response::<M, R, N>(&self.model, run, request))
     }
 
     /// Evaluates forces at equal distances from the first sample to the last. Nothing is integrated.
@@ -63,67 +62,66 @@ impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
     }
 }
 
-/// The chirp begins at rest.
-impl<M: Motions<N>, const N: usize> Question<M, N> for &ChirpRequest {
-    type Answer = Result<ChirpResponse, Unfinished>;
-
-    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<ChirpResponse, Unfinished> {
-        let PointRun { solver, values, interrupted, .. } = *run;
-        let ChirpRequest { from, to, rate, samples_per_cycle } = *self;
-        // A cycle that begins with the frequency f ends with √(f² + 2r), see below.
-        if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0 && to * to + 2.0 * rate > 0.0) {
-            return Err(RequestError::Chirp { from, to, rate }.into());
-        }
-        let start = model.start(values)?;
-        let mut sampler = Sampler::new(samples_per_cycle);
-        let mut rows = Vec::new();
-        let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
-        // The final frequency is rounded, so the loop ends within 1e-9 of it.
-        while (to - frequency) * rate > 1e-9 * to * rate.abs() {
-            // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
-            let square = frequency * frequency + 2.0 * rate;
-            let end = square.sqrt();
-            let span = 2.0 / (frequency + end);
-            let (model, constants) = model.chirped(&start.constants, frequency, rate);
-            let cycle = Start { constants, y, span, ..start };
-            let observer = Signals::<M>::all(&model);
-            let mut totals = Sums::<M::Signals, R>::fill(R::new(0.0), &Observer::<M, N>::nothing(&observer));
-            sampler.begin_cycle(span);
-            let outcome = solve_until::<M, R, N>(
-                &model,
-                &solver.tolerances(),
-                &cycle,
-                interrupted,
-                &mut |c, attempt| {
-                    R::enter(
-                        #[inline(always)]
-                        || observer.add(c, attempt, true, &mut totals),
-                    );
-                    if samples_per_cycle > 0 {
-                        sampler.step(&model, c, attempt);
-                    }
-                },
-                &mut |end| {
-                    y = *end;
-                    ControlFlow::Break(())
-                },
-            );
-            Unfinished::check(outcome.ending, interrupted)?;
-
-            let mut row = vec![time, time + span, 1.0 / span];
-            let cycle = finish::<M::Signals>(&totals.get(0), span);
-            for (signal, cycle) in M::Signals::each(&cycle) {
-                row.extend(
-                    measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor),
-                );
-            }
-            rows.push(row);
-            time += span;
-            frequency = end;
-        }
-        let envelope = Trajectory { columns: envelope_columns::<M, N>(), rows };
-        Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N>() })
+/// Returns the response to a chirp that begins at rest.
+fn chirp<M: Motions<N>, R: Scalar, const N: usize>(
+    model: &M,
+    run: &PointRun<'_>,
+    request: &ChirpRequest,
+) -> Result<ChirpResponse, Unfinished> {
+    let PointRun { solver, values, interrupted, .. } = *run;
+    let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
+    // A cycle that begins with the frequency f ends with √(f² + 2r), see below.
+    if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0 && to * to + 2.0 * rate > 0.0) {
+        return Err(RequestError::Chirp { from, to, rate }.into());
     }
+    let model = model.variant(values);
+    let start = model.start(values)?;
+    let mut sampler = Sampler::new(samples_per_cycle);
+    let mut rows = Vec::new();
+    let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
+    // The final frequency is rounded, so the loop ends within 1e-9 of it.
+    while (to - frequency) * rate > 1e-9 * to * rate.abs() {
+        // One cycle: f T + r T²/2 = 1, ending with the frequency f + r T = √(f² + 2r).
+        let square = frequency * frequency + 2.0 * rate;
+        let end = square.sqrt();
+        let span = 2.0 / (frequency + end);
+        let (model, constants) = model.chirped(&start.constants, frequency, rate);
+        let cycle = Start { constants, y, span, ..start };
+        let observer = SignalObserver::<M>::all(&model);
+        let mut totals = Sums::<M::Signals, R>::fill(R::new(0.0), &Observer::<M, N>::nothing(&observer));
+        sampler.begin_cycle(span);
+        let outcome = solve_until::<M, R, N>(
+            &model,
+            &solver.tolerances(),
+            &cycle,
+            interrupted,
+            &mut |c, attempt| {
+                R::enter(
+                    #[inline(always)]
+                    || observer.add(c, attempt, true, &mut totals),
+                );
+                if samples_per_cycle > 0 {
+                    sampler.step(&model, c, attempt);
+                }
+            },
+            &mut |end| {
+                y = *end;
+                ControlFlow::Break(())
+            },
+        );
+        Unfinished::check(outcome.ending, interrupted)?;
+
+        let mut row = vec![time, time + span, 1.0 / span];
+        let cycle = finish::<M::Signals>(&totals.get(0), span);
+        for (signal, cycle) in M::Signals::each(&cycle) {
+            row.extend(measures(signal.measures).map(|measure| cycle.measure(measure) * signal.unit.factor));
+        }
+        rows.push(row);
+        time += span;
+        frequency = end;
+    }
+    let envelope = Trajectory { columns: envelope_columns::<M, N>(), rows };
+    Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N>() })
 }
 
 /// Returns the measures that are meaningful in a cycle that is not periodic.
@@ -143,41 +141,42 @@ fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// The drive voltage stays constant during the motion.
-impl<M: Motions<N>, const N: usize> Question<M, N> for &ImpulseRequest {
-    type Answer = Result<Trajectory, Unfinished>;
+/// Returns the motion after an impulse, during which the drive voltage stays constant.
+fn free_response<M: Motions<N>, R: Scalar, const N: usize>(
+    model: &M,
+    run: &PointRun<'_>,
+    request: &ImpulseRequest,
+) -> Result<Trajectory, Unfinished> {
+    let PointRun { solver, values, interrupted, .. } = *run;
+    let ImpulseRequest { stroke_rate, duration, intervals } = *request;
+    refuse_nonsense(request)?;
+    let model = model.variant(values);
+    let Start { constants, mut scale, .. } = model.start(values)?;
+    let period = M::modes(&constants).first().map_or(f64::NAN, |mode| 1.0 / mode.frequency);
+    let (model, constants, y) = model.released(&constants, stroke_rate);
 
-    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Trajectory, Unfinished> {
-        let PointRun { solver, values, interrupted, .. } = *run;
-        let ImpulseRequest { stroke_rate, duration, intervals } = *self;
-        refuse_nonsense(self)?;
-        let Start { constants, mut scale, .. } = model.start(values)?;
-        let period = M::modes(&constants).first().map_or(f64::NAN, |mode| 1.0 / mode.frequency);
-        let (model, constants, y) = model.released(&constants, stroke_rate);
-
-        // Absolute tolerances shrink with a small motion, so that its relative accuracy is the same as for a large
-        // one.
-        let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
-        for scale in &mut scale {
-            *scale *= largest.min(1.0);
-        }
-
-        // A span is about one period long and contains a whole number of intervals. The last span may end after the
-        // duration.
-        let interval = duration / f64::from(intervals);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "within the range of intervals"
-        )]
-        let per_span = (period / interval).round().max(1.0).min(f64::from(intervals)) as u32;
-        let span = interval * f64::from(per_span);
-        let start = Start::new(constants, y, span, scale);
-        let spans = intervals.div_ceil(per_span);
-        let mut motion = sampled::<M, R, N>(&model, solver, &start, spans, per_span, interrupted)?;
-        motion.rows.truncate(intervals as usize + 1);
-        Ok(motion)
+    // Absolute tolerances shrink with a small motion, so that its relative accuracy is the same as for a large
+    // one.
+    let largest = y.iter().zip(&scale).fold(0.0_f64, |largest, (y, scale)| largest.max(y.abs() / scale));
+    for scale in &mut scale {
+        *scale *= largest.min(1.0);
     }
+
+    // A span is about one period long and contains a whole number of intervals. The last span may end after the
+    // duration.
+    let interval = duration / f64::from(intervals);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "within the range of intervals"
+    )]
+    let per_span = (period / interval).round().max(1.0).min(f64::from(intervals)) as u32;
+    let span = interval * f64::from(per_span);
+    let start = Start::new(constants, y, span, scale);
+    let spans = intervals.div_ceil(per_span);
+    let mut motion = sampled::<M, R, N>(&model, solver, &start, spans, per_span, interrupted)?;
+    motion.rows.truncate(intervals as usize + 1);
+    Ok(motion)
 }
 
 /// Checks that the impulse is not zero, and that duration and intervals are more than zero.

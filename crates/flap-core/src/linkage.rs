@@ -53,7 +53,7 @@ impl<R: Real> SliderCrank<R> {
 
 crate::per_lane! {
     /// A four-bar, with the position that it has at zero stroke.
-    pub struct FourBar<R> {
+    pub struct FourBarLinkage<R> {
         /// Length of the ground link L₀ (m).
         ground: R,
         /// Length of the output link L₃ (m).
@@ -88,14 +88,14 @@ pub struct FourBarMotion<R> {
     pub turned: [R; 2],
 }
 
-impl FourBar<f64> {
+impl FourBarLinkage<f64> {
     /// Returns the four-bar with these lengths (m) of ground, input, coupler and output link.
     ///
     /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled there, the
     /// numbers are NaN.
-    pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBar<f64> {
+    pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBarLinkage<f64> {
         let [ground, input, coupler, output] = lengths;
-        let mut four_bar = FourBar {
+        let mut four_bar = FourBarLinkage {
             ground,
             output,
             input_square: input * input,
@@ -116,13 +116,13 @@ impl FourBar<f64> {
     ///
     /// `lengths` are in m. `None` if θ₁″ does not change its sign in this range.
     pub(crate) fn stationary_angle(lengths: [f64; 4]) -> Option<f64> {
-        let four_bar = FourBar::new(lengths, 0.0);
+        let four_bar = FourBarLinkage::new(lengths, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
         root(bend, [30.0 / 180.0 * PI, 80.0 / 180.0 * PI])
     }
 }
 
-impl<R: Real> FourBar<R> {
+impl<R: Real> FourBarLinkage<R> {
     /// Returns positions and derivatives at the stroke angle `theta` (rad).
     ///
     /// ```text

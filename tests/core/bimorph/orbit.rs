@@ -43,7 +43,7 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
 pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>, u64) {
     let start = start(p, y);
     let model = Bimorph::default().variant(&p.to_values());
-    let observer = cycle::Signals::all(&model);
+    let observer = cycle::SignalObserver::all(&model);
     let mut totals = Sums::<Signals, f64>::fill(0.0, &Observer::<Bimorph, 4>::nothing(&observer));
     let outcome = solve::<_, f64, 4>(
         &model,

@@ -6,28 +6,28 @@
 //! values. Each signal gets only the quantities that its measures need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
-use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Taken, Totals};
+use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Statistics, Totals};
 use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Replaces those sums in `total` that `taken` names, in the lanes in which the step was `accepted`.
+/// Replaces those sums in `total` that `statistics` names, in the lanes in which the step was `accepted`.
 #[inline(always)]
-fn replace<R: Lanes>(total: &mut Totals<R>, taken: Taken, accepted: R::Mask, sum: &Totals<R>) {
+fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R::Mask, sum: &Totals<R>) {
     total.integral = R::select(accepted, sum.integral, total.integral);
-    if taken.squared {
+    if statistics.squared {
         total.square = R::select(accepted, sum.square, total.square);
     }
-    if taken.harmonic {
+    if statistics.harmonic {
         total.cosine = R::select(accepted, sum.cosine, total.cosine);
         total.sine = R::select(accepted, sum.sine, total.sine);
     }
-    if taken.rectified {
+    if statistics.rectified {
         total.positive = R::select(accepted, sum.positive, total.positive);
     }
-    if taken.ranged {
+    if statistics.ranged {
         total.max = R::select(accepted, sum.max, total.max);
         total.min = R::select(accepted, sum.min, total.min);
     }
@@ -56,7 +56,7 @@ pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
 /// Observer that sums up the signals of a model along a run.
 #[derive(Clone, Copy, Debug)]
-pub struct Signals<'a, M> {
+pub struct SignalObserver<'a, M> {
     model: &'a M,
     /// True to find extrema and positive parts, which is most of the work. If false, these quantities are undefined.
     extrema: bool,
@@ -64,21 +64,21 @@ pub struct Signals<'a, M> {
     loads: bool,
 }
 
-impl<'a, M> Signals<'a, M> {
+impl<'a, M> SignalObserver<'a, M> {
     /// Returns an observer that computes all sums.
     pub fn all(model: &'a M) -> Self {
-        Signals { model, extrema: true, loads: false }
+        SignalObserver { model, extrema: true, loads: false }
     }
 
     /// Returns an observer that computes means and first harmonics only.
     pub(crate) fn means(model: &'a M) -> Self {
-        Signals { model, extrema: false, loads: false }
+        SignalObserver { model, extrema: false, loads: false }
     }
 
     /// Returns the observer with or without the load.
     #[must_use]
     pub(crate) fn with_loads(self, loads: bool) -> Self {
-        Signals { loads, ..self }
+        SignalObserver { loads, ..self }
     }
 
     /// Adds a step as [`Observer::add`] does. Returns the signals' ranges within the step, if extrema are enabled.
@@ -115,13 +115,13 @@ impl<'a, M> Signals<'a, M> {
                 &mut sums,
                 [&values],
                 #[inline(always)]
-                |taken, sum, [value]| {
+                |statistics, sum, [value]| {
                     let part = value * weight;
                     sum.integral = sum.integral + part;
-                    if taken.squared {
+                    if statistics.squared {
                         sum.square = part.mul_add(value, sum.square);
                     }
-                    if taken.harmonic {
+                    if statistics.harmonic {
                         sum.cosine = part.mul_add(cos, sum.cosine);
                         sum.sine = part.mul_add(sin, sum.sine);
                     }
@@ -131,8 +131,8 @@ impl<'a, M> Signals<'a, M> {
                 &mut positive,
                 [&values],
                 #[inline(always)]
-                |taken, sum, [value]| {
-                    if taken.rectified {
+                |statistics, sum, [value]| {
+                    if statistics.rectified {
                         *sum = value.max(zero).mul_add(weight, *sum);
                     }
                 },
@@ -146,8 +146,8 @@ impl<'a, M> Signals<'a, M> {
                 &mut positive,
                 [&within],
                 #[inline(always)]
-                |taken, part, [Within { min, max, positive_mean }]| {
-                    if taken.rectified {
+                |statistics, part, [Within { min, max, positive_mean }]| {
+                    if statistics.rectified {
                         let changes_sign = (max.value * min.value).lt(zero);
                         *part = R::select(changes_sign, positive_mean * h, *part);
                     }
@@ -157,8 +157,8 @@ impl<'a, M> Signals<'a, M> {
                 &mut sums,
                 [&within],
                 #[inline(always)]
-                |taken, sum, [Within { min, max, .. }]| {
-                    if taken.ranged {
+                |statistics, sum, [Within { min, max, .. }]| {
+                    if statistics.ranged {
                         sum.max = max.value.max(sum.max);
                         sum.min = min.value.min(sum.min);
                     }
@@ -168,8 +168,8 @@ impl<'a, M> Signals<'a, M> {
                 &mut sums,
                 [&positive],
                 #[inline(always)]
-                |taken, sum, [part]| {
-                    if taken.rectified {
+                |statistics, sum, [part]| {
+                    if statistics.rectified {
                         sum.positive = sum.positive + part;
                     }
                 },
@@ -181,7 +181,7 @@ impl<'a, M> Signals<'a, M> {
             totals,
             [&sums],
             #[inline(always)]
-            |taken, total, [sum]| replace(total, taken, accepted, &sum),
+            |statistics, total, [sum]| replace(total, statistics, accepted, &sum),
         );
         if self.loads {
             let sums = impulse(model, c, attempt);
@@ -193,7 +193,7 @@ impl<'a, M> Signals<'a, M> {
     }
 }
 
-impl<M: Model<N>, const N: usize> Observer<M, N> for Signals<'_, M> {
+impl<M: Model<N>, const N: usize> Observer<M, N> for SignalObserver<'_, M> {
     type Totals<R: Lanes> = Sums<M::Signals, R>;
 
     #[inline(always)]
@@ -278,14 +278,14 @@ fn within<M: Model<N>, R: Lanes, const N: usize>(
             &mut all,
             [&begin, &first, &middle, &third, &end],
             #[inline(always)]
-            |taken, within, values| {
+            |statistics, within, values| {
                 let polynomial = StepPolynomial::through(values);
-                if taken.ranged {
+                if statistics.ranged {
                     let [min, max] = polynomial.extrema();
                     within.min = min.within(place(0.5), share).or_smaller(within.min);
                     within.max = max.within(place(0.5), share).or_larger(within.max);
                 }
-                if taken.rectified {
+                if statistics.rectified {
                     within.positive_mean = within.positive_mean + polynomial.positive_mean() * share;
                 }
             },
@@ -332,19 +332,19 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
 
 /// Returns the measures of the signals `S` over a cycle of `period` seconds, given their sums.
 pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
-    S::map(totals, |taken, total: Totals<f64>| {
+    S::map(totals, |statistics, total: Totals<f64>| {
         // A signal that is not a number has no extrema and no positive part: `max` alone would skip NaN.
         let known =
-            |taken: bool, value: f64| if taken && !total.integral.is_nan() { value } else { f64::NAN };
+            |computed: bool, value: f64| if computed && !total.integral.is_nan() { value } else { f64::NAN };
         SignalCycle {
             mean: total.integral / period,
-            mean_square: known(taken.squared, total.square / period),
-            positive_mean: known(taken.rectified, total.positive / period),
+            mean_square: known(statistics.squared, total.square / period),
+            positive_mean: known(statistics.rectified, total.positive / period),
             // X = (2/T) ∫ x e^{−iωt} dt
             first: [2.0 * total.cosine / period, -2.0 * total.sine / period]
-                .map(|part| known(taken.harmonic, part)),
-            max: known(taken.ranged, total.max),
-            min: known(taken.ranged, total.min),
+                .map(|part| known(statistics.harmonic, part)),
+            max: known(statistics.ranged, total.max),
+            min: known(statistics.ranged, total.min),
         }
     })
 }

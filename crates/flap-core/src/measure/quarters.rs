@@ -5,7 +5,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::cycle::{Signals, Sums};
+use super::cycle::{SignalObserver, Sums};
 use super::step_polynomial::Extremum;
 use crate::model::{Each, Model, SignalSet, Totals};
 use crate::num::Lanes;
@@ -25,7 +25,7 @@ pub type InQuarters<S, R> = (Sums<S, R>, Each<S, [Range<R>; 4]>);
 
 /// Observer that sums up the signals of a model and finds their extrema in each quarter.
 #[derive(Clone, Copy, Debug)]
-pub struct Quarters<'a, M>(pub Signals<'a, M>);
+pub struct Quarters<'a, M>(pub SignalObserver<'a, M>);
 
 impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
     type Totals<R: Lanes> = InQuarters<M::Signals, R>;
@@ -57,8 +57,8 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
             ranges,
             [&within],
             #[inline(always)]
-            |taken, ranges, [within]| {
-                if taken.ranged {
+            |statistics, ranges, [within]| {
+                if statistics.ranged {
                     let (lower, upper) = (quarters(within.min), quarters(within.max));
                     for (i, [min, max]) in ranges.iter_mut().enumerate() {
                         *min = R::select(lower[i], within.min.value.min(*min), *min);

@@ -27,7 +27,7 @@ pub use definition::{Derived, Description, Instant, Model, SecondHalf, Symmetry}
 pub use load::Load;
 pub use motions::{Imposed, Motions};
 pub(crate) use signal::GRAVITY;
-pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Taken, Unit};
+pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Statistics, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};
 pub use terms::Terms;
 pub use totals::Totals;

@@ -70,23 +70,23 @@ impl Signal {
     }
 
     /// Returns the quantities that the measures of the signal and the error of a row require.
-    pub const fn taken(&self) -> Taken {
+    pub const fn statistics(&self) -> Statistics {
         let Signal { measures, needed, principal, .. } = *self;
-        let mut taken = Taken::of(measures).and(Taken::of(needed));
+        let mut statistics = Statistics::of(measures).or(Statistics::of(needed));
         if let Some(principal) = principal {
-            taken = taken.and(Taken::of(&[principal.measure()]));
+            statistics = statistics.or(Statistics::of(&[principal.measure()]));
             // The error is relative to the size of the signal, which is its root mean square if its range is not
             // computed.
-            taken.squared |= !taken.ranged;
+            statistics.squared |= !statistics.ranged;
         }
-        taken
+        statistics
     }
 }
 
 /// Quantities of a signal that are integrated or searched for over a drive period, besides its mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is independent of the others")]
-pub struct Taken {
+pub struct Statistics {
     /// The mean square.
     pub squared: bool,
     /// The mean of the positive part.
@@ -97,25 +97,25 @@ pub struct Taken {
     pub ranged: bool,
 }
 
-impl Taken {
+impl Statistics {
     /// Returns the quantities that the `measures` require. The positive part also requires the range.
-    const fn of(measures: &[Measure]) -> Taken {
-        let mut taken = Taken { squared: false, rectified: false, harmonic: false, ranged: false };
+    const fn of(measures: &[Measure]) -> Statistics {
+        let mut statistics = Statistics { squared: false, rectified: false, harmonic: false, ranged: false };
         let mut i = 0;
         while i < measures.len() {
             let measure = measures[i];
-            taken.squared |= matches!(measure, Measure::Rms);
-            taken.rectified |= matches!(measure, Measure::Supply | Measure::Magnitude);
-            taken.harmonic |= matches!(measure, Measure::First);
-            taken.ranged |= !matches!(measure, Measure::Mean | Measure::Rms);
+            statistics.squared |= matches!(measure, Measure::Rms);
+            statistics.rectified |= matches!(measure, Measure::Supply | Measure::Magnitude);
+            statistics.harmonic |= matches!(measure, Measure::First);
+            statistics.ranged |= !matches!(measure, Measure::Mean | Measure::Rms);
             i += 1;
         }
-        taken
+        statistics
     }
 
     /// Returns the union of both sets of quantities.
-    const fn and(self, other: Taken) -> Taken {
-        Taken {
+    const fn or(self, other: Statistics) -> Statistics {
+        Statistics {
             squared: self.squared | other.squared,
             rectified: self.rectified | other.rectified,
             harmonic: self.harmonic | other.harmonic,

@@ -1,6 +1,6 @@
 //! Sets of signals: structs with one field per signal.
 
-use super::signal::{Signal, Taken};
+use super::signal::{Signal, Statistics};
 use crate::num::{Lanes, PerLane};
 
 /// A set of signals, declared by [`signals!`](crate::signals).
@@ -18,7 +18,7 @@ pub trait SignalSet: Copy + 'static {
     fn zip<A: Copy, B: Copy, C: Copy>(
         one: &Self::Of<A>,
         other: &Self::Of<B>,
-        f: impl FnMut(Taken, A, B) -> C,
+        f: impl FnMut(Statistics, A, B) -> C,
     ) -> Self::Of<C>;
 
     /// Calls `f` for each signal, with the quantities to compute for it, a mutable reference to its value in `of`,
@@ -26,7 +26,7 @@ pub trait SignalSet: Copy + 'static {
     fn update<A: Copy, B: Copy, const L: usize>(
         of: &mut Self::Of<A>,
         from: [&Self::Of<B>; L],
-        f: impl FnMut(Taken, &mut A, [B; L]),
+        f: impl FnMut(Statistics, &mut A, [B; L]),
     );
 
     /// Returns each signal with its value, in the order of [`SignalSet::TABLE`].
@@ -34,12 +34,12 @@ pub trait SignalSet: Copy + 'static {
 
     /// Returns the results of `f` for each signal. `f` gets the quantities to compute for it and one value.
     #[inline(always)]
-    fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Taken, A) -> B) -> Self::Of<B> {
+    fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Statistics, A) -> B) -> Self::Of<B> {
         Self::zip(
             of,
             of,
             #[inline(always)]
-            |taken, value, _| f(taken, value),
+            |statistics, value, _| f(statistics, value),
         )
     }
 }
@@ -116,7 +116,7 @@ impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
 /// assert_eq!(now.stroke, 0.5);
 /// let names: Vec<&str> = Signals::TABLE.iter().map(|signal| signal.name).collect();
 /// assert_eq!(names, ["stroke", "power"]);
-/// assert!(Signals::TABLE[1].taken().rectified);
+/// assert!(Signals::TABLE[1].statistics().rectified);
 /// ```
 #[macro_export]
 macro_rules! signals {
@@ -158,23 +158,23 @@ macro_rules! signals {
             fn zip<A: Copy, B: Copy, C: Copy>(
                 one: &$Name<A>,
                 other: &$Name<B>,
-                mut f: impl FnMut($crate::model::Taken, A, B) -> C,
+                mut f: impl FnMut($crate::model::Statistics, A, B) -> C,
             ) -> $Name<C> {
-                $Name { $($signal: f(const { $Name::SIGNALS.$signal.taken() }, one.$signal, other.$signal)),* }
+                $Name { $($signal: f(const { $Name::SIGNALS.$signal.statistics() }, one.$signal, other.$signal)),* }
             }
 
             #[inline(always)]
             fn update<A: Copy, B: Copy, const L: usize>(
                 of: &mut $Name<A>,
                 from: [&$Name<B>; L],
-                mut f: impl FnMut($crate::model::Taken, &mut A, [B; L]),
+                mut f: impl FnMut($crate::model::Statistics, &mut A, [B; L]),
             ) {
                 $(
                     let mut values = [from[0].$signal; L];
                     for i in 1..L {
                         values[i] = from[i].$signal;
                     }
-                    f(const { $Name::SIGNALS.$signal.taken() }, &mut of.$signal, values);
+                    f(const { $Name::SIGNALS.$signal.statistics() }, &mut of.$signal, values);
                 )*
             }
 

@@ -12,29 +12,21 @@ pub struct Terms {
     pub air: bool,
     /// True with nonlinear springs.
     pub stiffening: bool,
-    /// Stored, because each step reads it many times.
-    is_plain: bool,
 }
 
 impl Terms {
     /// No terms.
-    pub const NONE: Terms = Terms::new(BodyTerms::None, false, false);
-
-    /// Terms of a point.
-    pub const fn new(body: BodyTerms, air: bool, stiffening: bool) -> Terms {
-        let is_plain = !matches!(body, BodyTerms::All) && !air && !stiffening;
-        Terms { body, air, stiffening, is_plain }
-    }
+    pub const NONE: Terms = Terms { body: BodyTerms::None, air: false, stiffening: false };
 
     /// Returns the terms that either point has. If both bodies move, the result has the first body's terms.
     pub fn or(self, other: Terms) -> Terms {
         let body = if self.body == BodyTerms::None { other.body } else { self.body };
-        Terms::new(body, self.air || other.air, self.stiffening || other.stiffening)
+        Terms { body, air: self.air || other.air, stiffening: self.stiffening || other.stiffening }
     }
 
     /// Returns true if the equations of motion contain none of the terms.
     #[inline(always)]
     pub fn is_plain(&self) -> bool {
-        self.is_plain
+        self.body != BodyTerms::All && !self.air && !self.stiffening
     }
 }

@@ -85,7 +85,7 @@ pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(
                 let h_next = if verdict.accepted && landing { proposal.max(h) } else { proposal };
                 let mut crossing = Crossing { accepted: verdict.accepted, h: h_next, arrived: false };
                 if O::SWITCHES {
-                    crossing = switching.judge(ode, &c, &step, h_try, verdict.accepted, h_next);
+                    crossing = switching.decide(ode, &c, &step, h_try, verdict.accepted, h_next);
                 }
                 h = crossing.h;
                 let accepted = crossing.accepted;

@@ -84,7 +84,7 @@ impl<R: Lanes> Switching<R> {
 
     /// Returns the decision on a step. `accepted` is the result of the error control, `h_next` its next step size.
     #[inline(always)]
-    pub(super) fn judge<O: Ode<N>, const N: usize>(
+    pub(super) fn decide<O: Ode<N>, const N: usize>(
         &mut self,
         ode: &O,
         c: &O::Constants<R>,

@@ -22,8 +22,8 @@ use super::begin::begin;
 use super::orbit_row::{MANY_SWITCHES, measures};
 use super::request::Unfinished;
 use super::settings::SolverSettings;
-use super::single::{PointRun, Question};
-use crate::measure::cycle::{Signals, Sums, finish};
+use super::single::PointRun;
+use crate::measure::cycle::{SignalObserver, Sums, finish};
 use crate::measure::quarters::{InQuarters, Quarters, with_equal_extrema};
 use crate::model::{Model, SignalSet};
 use crate::num::{Kernel, Scalar, Simd};
@@ -147,42 +147,31 @@ pub struct Gradient {
     pub rhs_evals: u64,
 }
 
-/// Task: derivatives along `changes` of the orbit that begins at `state`.
-pub(super) struct GradientAt<'a> {
-    pub(super) state: &'a [f64],
-    pub(super) changes: &'a [Change],
-}
-
-impl<M: Model<N>, const N: usize> Question<M, N> for GradientAt<'_> {
-    type Answer = Result<Gradient, Unfinished>;
-
-    fn answer<R: Scalar>(self, model: &M, run: &PointRun<'_>) -> Result<Gradient, Unfinished> {
-        let changed = self.changes.iter().flat_map(|change| [&change.ahead, &change.behind]);
-        let model = &changed.fold(model.clone(), |model, values| model.with_terms_of(&model.variant(values)));
-        let mut start = begin(model, run.values, Some(self.state))?;
-        start.tolerance_factor = tolerance_factor(run.solver.rtol);
-        let (recording, outcome) =
-            record::<M, R, N>(model, &run.solver.tolerances(), &start, run.interrupted);
-        let sides = self.changes.iter().map(|change| sides(model, change)).collect();
-        let orbit = Orbit {
-            model,
-            solver: run.solver,
-            values: run.values,
-            start: &start,
-            recording: &recording,
-            changes: self.changes,
-            sides,
-        };
-        let mut gradient = if outcome.ending != Ending::Stopped {
-            orbit.without(NoSlope::Lost)
-        } else if outcome.switches > MANY_SWITCHES {
-            orbit.without(NoSlope::Sliding)
-        } else {
-            run.backend.dispatch(orbit)
-        };
-        gradient.rhs_evals += outcome.rhs_evals;
-        if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
-    }
+/// Returns derivatives along `changes` of the orbit that begins at `state`.
+pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
+    model: &M,
+    run: &PointRun<'_>,
+    state: &[f64],
+    changes: &[Change],
+) -> Result<Gradient, Unfinished> {
+    let PointRun { backend, solver, values, interrupted } = *run;
+    let changed = changes.iter().flat_map(|change| [&change.ahead, &change.behind]);
+    let model =
+        &changed.fold(model.variant(values), |model, values| model.with_terms_of(&model.variant(values)));
+    let mut start = begin(model, values, Some(state))?;
+    start.tolerance_factor = tolerance_factor(solver.rtol);
+    let (recording, outcome) = record::<M, R, N>(model, &solver.tolerances(), &start, interrupted);
+    let sides = changes.iter().map(|change| sides(model, change)).collect();
+    let orbit = Orbit { model, solver, values, start: &start, recording: &recording, changes, sides };
+    let mut gradient = if outcome.ending != Ending::Stopped {
+        orbit.without(NoSlope::Lost)
+    } else if outcome.switches > MANY_SWITCHES {
+        orbit.without(NoSlope::Sliding)
+    } else {
+        backend.dispatch(orbit)
+    };
+    gradient.rhs_evals += outcome.rhs_evals;
+    if interrupted() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
 }
 
 /// Returns the factor on the tolerances of a recorded period.
@@ -253,7 +242,7 @@ impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
         }
         let moves = self.moves(&response, &ends);
         let measured = self.along(&moves);
-        let signals = Quarters(Signals::all(model).with_loads(self.solver.loads));
+        let signals = Quarters(SignalObserver::all(model).with_loads(self.solver.loads));
         let cycles = replay(simd, model, &signals, recording, &measured);
         let slopes = self.slopes(&measured, &cycles);
         Gradient { slopes, rhs_evals: self.rhs_evals(periods + measured.len()) }

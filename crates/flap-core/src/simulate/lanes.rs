@@ -20,10 +20,10 @@ use super::periods::{Exchange, Kind, PeriodEnd};
 use super::row::Row;
 use super::search::{Settled, settle};
 use super::settings::SolverSettings;
-use crate::measure::cycle::{Signals, Sums, SumsOf};
+use crate::measure::cycle::{SignalObserver, SumsOf};
 use crate::measure::multipliers::monodromy;
 use crate::measure::size::Size;
-use crate::model::{Model, SignalSet};
+use crate::model::Model;
 use crate::num::{Kernel, Lanes, OneLane, Scalar, Simd, Vector};
 use crate::ode::ensemble::{
     MOST_LANES, Next, Observer, Occupancy, Queue, Restart, SpanEnd, Unobserved, run, run_with_responses,
@@ -268,15 +268,31 @@ where
     fn integrate(&mut self, kind: Kind) -> Occupancy {
         let (simd, model, tolerances) = (self.simd, self.model, self.solver.tolerances());
         let loads = self.solver.loads;
-        let mut periods = Periods { driver: self, kind, runs: [const { None }; MOST_LANES] };
         match kind {
-            Kind::States => run(simd, model, &Size, &tolerances, &mut periods),
-            Kind::Responses => run_with_responses(simd, model, &Unobserved, &tolerances, &mut periods),
-            Kind::Means => run(simd, model, &Signals::means(model), &tolerances, &mut periods),
-            Kind::Signals => {
-                run(simd, model, &Signals::all(model).with_loads(loads), &tolerances, &mut periods)
+            Kind::States => {
+                let mut periods = self.periods(kind, |size, end| end.largest = *size);
+                run(simd, model, &Size, &tolerances, &mut periods)
+            }
+            Kind::Responses => {
+                let mut periods = self.periods(kind, |(), _| {});
+                run_with_responses(simd, model, &Unobserved, &tolerances, &mut periods)
+            }
+            Kind::Means | Kind::Signals => {
+                let all = SignalObserver::all(model).with_loads(loads);
+                let signals = if kind == Kind::Means { SignalObserver::means(model) } else { all };
+                let mut periods = self.periods(kind, |sums, end| end.sums = Some(Box::new(*sums)));
+                run(simd, model, &signals, &tolerances, &mut periods)
             }
         }
+    }
+
+    /// Returns the queue of periods of one kind. The function `store` adds the totals of a period to its end.
+    fn periods<'d, V>(
+        &'d mut self,
+        kind: Kind,
+        store: fn(&V, &mut PeriodEnd<SumsOf<M, N>, N>),
+    ) -> Periods<'a, 's, 'd, I, M, Q, T, V, N> {
+        Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
 
     /// Continues a search to its next request. Returns the search if the request is of this kind; otherwise it waits
@@ -339,43 +355,20 @@ where
     }
 }
 
-/// The periods of one kind, as the queue of an ensemble.
-struct Periods<'a, 's, 'd, I, M: Model<N>, Q, T, const N: usize> {
+/// The periods of one kind, as the queue of an ensemble whose totals over a period have the type `V`.
+struct Periods<'a, 's, 'd, I, M: Model<N>, Q, T, V, const N: usize> {
     driver: &'d mut Driver<'a, 's, I, M, Q, T, N>,
     kind: Kind,
+    store: fn(&V, &mut PeriodEnd<SumsOf<M, N>, N>),
     /// Search of the period in each lane.
     runs: [Option<Run<'a, T, M, N>>; MOST_LANES],
 }
 
-/// Totals over a period that a search needs. Totals over the signals have the type `T`.
-trait PeriodTotals<T, const N: usize> {
-    /// Adds the totals to the end of their period, in a box from the exchange if there is one.
-    fn add_to(&self, end: &mut PeriodEnd<T, N>, exchange: &Exchange<T, N>);
-}
-
-/// The largest magnitudes of the states, from [`Size`].
-impl<T, const N: usize> PeriodTotals<T, N> for [f64; N] {
-    fn add_to(&self, end: &mut PeriodEnd<T, N>, _exchange: &Exchange<T, N>) {
-        end.largest = *self;
-    }
-}
-
-impl<T, const N: usize> PeriodTotals<T, N> for () {
-    fn add_to(&self, _end: &mut PeriodEnd<T, N>, _exchange: &Exchange<T, N>) {}
-}
-
-impl<S: SignalSet, const N: usize> PeriodTotals<Sums<S, f64>, N> for Sums<S, f64> {
-    fn add_to(&self, end: &mut PeriodEnd<Sums<S, f64>, N>, exchange: &Exchange<Sums<S, f64>, N>) {
-        end.sums = Some(exchange.boxed(*self));
-    }
-}
-
-impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'a, '_, '_, I, M, Q, T, N>
+impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'a, '_, '_, I, M, Q, T, V::Totals<f64>, N>
 where
     I: Simd,
     M: Model<N>,
     V: Observer<M, N>,
-    V::Totals<f64>: PeriodTotals<SumsOf<M, N>, N>,
     Q: Source<'a, T, M, N>,
 {
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<M::Constants<f64>, N>> {
@@ -388,7 +381,7 @@ where
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {
         let run = self.runs[lane].take()?;
         let mut period = PeriodEnd::new(*end.y, end.outcome);
-        end.totals.add_to(&mut period, &run.exchange);
+        (self.store)(end.totals, &mut period);
         if self.kind == Kind::Responses {
             period.monodromy = monodromy(end.responses, &run.start.scale);
         }

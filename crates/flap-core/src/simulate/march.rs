@@ -5,9 +5,10 @@
 use super::settings::SolverSettings;
 use crate::measure::strobe::Strobe;
 
-/// Number of marched periods before the first Newton iteration: from rest, and from a state that may be close to an
-/// orbit.
+/// Number of marched periods from rest before the first Newton iteration.
 const FIRST_TRY: u32 = 6;
+
+/// Number of marched periods before the first Newton iteration from a state that may be close to an orbit.
 const FIRST_TRY_NEARBY: u32 = 1;
 
 /// Largest change of the state over a period at which Newton's iteration is tried, in units of the states' typical

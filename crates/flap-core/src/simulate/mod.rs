@@ -37,7 +37,7 @@ pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator, run_list};
 pub use single::PointRun;
 
 pub(crate) use sampler::{Sampler, columns as trajectory_columns, sampled, shown};
-pub(crate) use single::{Question, ask};
+pub(crate) use single::on_scalars;
 
 pub use crate::ode::{Interrupt, never};
 

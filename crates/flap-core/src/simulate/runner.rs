@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use super::gradient::{Change, Gradient, GradientAt};
+use super::gradient::{self, Change, Gradient};
 use super::jobs::Jobs;
 use super::lanes::LanesKernel;
 use super::moving_wing::{MovingWing, moving_wing};
@@ -12,7 +12,7 @@ use super::row::{Column, Row, columns};
 use super::sampler;
 use super::settings::SolverSettings;
 use super::simulator::{Experiments, Gradients, Motions, Rows, Simulator};
-use super::single::{PeriodFrom, PointRun, RowFrom, TrajectoryFrom, ask};
+use super::single::{self, PointRun, on_scalars};
 use crate::aero::Wing;
 use crate::model::{self, Model, Signal, SignalSet};
 use crate::num::Backend;
@@ -192,7 +192,7 @@ impl<M: Model<N>, const N: usize> Rows for Runner<M, N> {
     }
 
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
-        ask::<M, _, N>(&self.model, run, RowFrom(begin))
+        on_scalars!(run, R => single::row::<M, R, N>(&self.model, run, begin))
     }
 }
 
@@ -249,13 +249,13 @@ impl<M: Model<N>, const N: usize> Gradients for Runner<M, N> {
         state: &[f64],
         changes: &[Change],
     ) -> Result<Gradient, Unfinished> {
-        ask::<M, _, N>(&self.model, run, GradientAt { state, changes })
+        on_scalars!(run, R => gradient::gradient::<M, R, N>(&self.model, run, state, changes))
     }
 }
 
 impl<M: Model<N>, const N: usize> Motions for Runner<M, N> {
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished> {
-        ask::<M, _, N>(&self.model, run, PeriodFrom(begin))
+        on_scalars!(run, R => single::period::<M, R, N>(&self.model, run, begin))
     }
 
     fn trajectory_columns(&self) -> Vec<String> {
@@ -272,7 +272,7 @@ impl<M: Model<N>, const N: usize> Motions for Runner<M, N> {
         begin: Option<&[f64]>,
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Unfinished> {
-        ask::<M, _, N>(&self.model, run, TrajectoryFrom { begin, request })
+        on_scalars!(run, R => single::trajectory::<M, R, N>(&self.model, run, begin, request))
     }
 
     fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished> {

@@ -36,6 +36,9 @@ use crate::ode::{Ending, Outcome, Start, input, slope};
 
 /// Relative tolerance at the beginning of a search. Rows with a larger tolerance begin at their own tolerance.
 const LOOSE_RTOL: f64 = 3e-4;
+
+/// Largest relative tolerance of a row whose search begins at [`LOOSE_RTOL`]. For larger tolerances this costs more
+/// than it saves.
 const LOOSE_FOR: f64 = 4e-6;
 
 /// Largest number of drive periods marched at the loose tolerance.
@@ -78,10 +81,14 @@ const MAX_ITERATIONS: u32 = 8;
 
 /// Residual, in units of `settle_tol`, below which the iteration is limited by jumps of the period map.
 const JUMPS: f64 = 100.0;
+
+/// Factor on the tolerances of the next integration if the error is unknown or the orbit was not found.
 const FINER: f64 = 1.0 / 32.0;
 
-/// Smallest tolerances at which a point is integrated: relative to the requested tolerances, and as `rtol`.
+/// Smallest tolerances at which a point is integrated, relative to the requested tolerances.
 const FINEST: f64 = 1e-5;
+
+/// Smallest relative tolerance at which a point is integrated.
 const FINEST_RTOL: f64 = 1e-12;
 
 /// Largest number of repeated integrations for the accuracy of a row.
@@ -552,7 +559,6 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 chord.step(&end.y);
             }
             (residual, presumes) = (confirmed, false);
-            self.exchange.reuse(end.sums);
         }
     }
 

@@ -308,7 +308,7 @@ impl Model<4> for Bimorph {
             drive: self.drive.of_point(waveform.drive_shape, StrokeMode::Free),
             law: if *transmission_growth == 0.0 { Law::Constant } else { Law::Square },
             centre_of_pressure: *centre_of_pressure,
-            terms: Terms::new(p.body.terms(), air, stiffening),
+            terms: Terms { body: p.body.terms(), air, stiffening },
         }
     }
 

@@ -48,6 +48,8 @@ impl Moving<f64> {
 /// c = c̄ r̂^(P−1) (1 − r̂)^(Q−1)/B(P, Q)
 /// P = r̂₁ K     Q = (1 − r̂₁) K     K = r̂₁ (1 − r̂₁)/(r̂₂² − r̂₁²) − 1
 /// ```
+///
+/// By default r̂₁ follows the relation r̂₂ = 0.929 r̂₁^0.732 of insect wings (Ellington 1984).
 struct Chord {
     length: f64,
     mean: f64,

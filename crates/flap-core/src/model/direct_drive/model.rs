@@ -225,7 +225,7 @@ impl Model<4> for DirectDrive {
         DirectDrive {
             drive: self.drive.of_point(waveform.drive_shape, stroke.stroke_mode),
             flow: *flow_direction,
-            terms: Terms::new(p.body.terms(), air, stiffening),
+            terms: Terms { body: p.body.terms(), air, stiffening },
         }
     }
 

@@ -9,7 +9,7 @@ use super::params::{AddedMassSign, MAX_STRIPS, Params};
 use super::strips::{Moving, arms, strips};
 use crate::aero::{Circulation, Cut, Harmonics, Strips, sum};
 use crate::drive::DriveConstants;
-use crate::linkage::{FourBar, LinkInertias, SliderCrank};
+use crate::linkage::{FourBarLinkage, LinkInertias, SliderCrank};
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::num::PerLane;
 use crate::parameter::Invalid;
@@ -118,7 +118,7 @@ crate::per_lane! {
         /// Slider-crank, from the tip's displacement to the four-bar's input link.
         pub(crate) slider_crank: SliderCrank<R>,
         /// Four-bar, from the input link to the stroke.
-        pub four_bar: FourBar<R>,
+        pub four_bar: FourBarLinkage<R>,
         /// Inertias of the links.
         pub links: LinkInertias<R>,
         /// Inertia of the wing, and its hinges.
@@ -187,7 +187,8 @@ impl Constants<f64> {
 
 /// Returns actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
 ///
-/// The unimorph's tip follows Smits and Choi (1991): δ = γV − F/k_a.
+/// The unimorph's tip follows Smits and Choi (1991): δ = γV − F/k_a. The factor 33/140 is that of a cantilever which
+/// bends as under a force at its tip (Rayleigh's method).
 ///
 /// ```text
 /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
@@ -225,16 +226,16 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
 const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
 
 /// Returns the four-bar in its neutral position.
-fn four_bar(p: &Params) -> Result<FourBar<f64>, Invalid> {
+fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     let lengths = [p.ground_link, p.input_link, p.coupler_link, p.output_link];
-    let Some(neutral) = p.neutral_angle.or_else(|| FourBar::stationary_angle(lengths)) else {
+    let Some(neutral) = p.neutral_angle.or_else(|| FourBarLinkage::stationary_angle(lengths)) else {
         return Err(Invalid::together(
             &LINKS,
             "the transmission of the four-bar has no maximum for output links between 30 and 80 deg: set neutral_angle",
         ));
     };
-    let four_bar = FourBar::new(lengths, neutral);
-    if <FourBar<f64> as PerLane<f64>>::is_finite(&four_bar) {
+    let four_bar = FourBarLinkage::new(lengths, neutral);
+    if <FourBarLinkage<f64> as PerLane<f64>>::is_finite(&four_bar) {
         Ok(four_bar)
     } else {
         Err(Invalid::together(

@@ -226,7 +226,7 @@ impl Model<4> for FourBar {
         let stiffening = !Stiffening::of(p.stroke_stiffening, &p.hinge).is_zero();
         FourBar {
             drive: self.drive.of_point(p.waveform.drive_shape, p.stroke.stroke_mode),
-            terms: Terms::new(p.body.terms(), air, stiffening),
+            terms: Terms { body: p.body.terms(), air, stiffening },
         }
     }
 

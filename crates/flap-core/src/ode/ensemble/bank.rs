@@ -176,7 +176,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         let mut crossing =
             Crossing { accepted: verdict.accepted, h: h_next, arrived: R::mask(self.token, 0) };
         if O::SWITCHES {
-            crossing = self.switching.judge(ode, &self.constants, &self.step, h, verdict.accepted, h_next);
+            crossing = self.switching.decide(ode, &self.constants, &self.step, h, verdict.accepted, h_next);
         }
         self.h = crossing.h;
         let accepted = crossing.accepted;
