@@ -35,7 +35,7 @@ pub(crate) fn print(effort: Effort) {
          | instructions | executed | arithmetic | of which fused | divisions | with the stack | peak, GFLOP/s | \
          share of the peak's instructions |\n|---|---|---|---|---|---|---|---|"
     );
-    for backend in Backend::available().into_iter().filter(|backend| backend.name() != "sse2") {
+    for backend in Backend::available().into_iter().filter(|backend| backend.name() != "scalar") {
         println!(
             "{}",
             line(backend, effort).unwrap_or_else(|error| format!("| {backend} | not counted: {error} |"))

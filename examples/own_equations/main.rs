@@ -6,7 +6,7 @@
 //!
 //! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for 40
 //! drive periods from rest. OUT.csv gets the amplitudes of tip and pitch and the mean lift, over the last five periods.
-//! The time of the runs goes to stdout, as JSON. SET names the instructions: avx512, avx2, sse2 or neon. Default: the
+//! The time of the runs goes to stdout, as JSON. SET names the instructions: avx512, avx2, neon or scalar. Default: the
 //! fastest set of the processor.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]

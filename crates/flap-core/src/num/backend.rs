@@ -2,23 +2,23 @@
 
 use core::fmt;
 
-use fearless_simd::Level;
-#[cfg(target_arch = "aarch64")]
-use fearless_simd::Neon;
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::{Avx2, Sse2};
+use fearless_simd::{Avx2, Level};
+#[cfg(target_arch = "aarch64")]
+use fearless_simd::{Level, Neon};
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::register::Instructions;
-use super::{Lanes, Simd, Vector};
+use super::{Lanes, OneLane, Simd, Unfused, Vector};
 
 /// Rounding of `mul_add`: once or twice. Within a class, results are equal to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Fused multiply-add: AVX2, AVX-512, NEON.
     Fused,
-    /// Separate multiplication and addition: x86-64 before FMA.
+    /// Separate multiplication and addition: processors without a fused multiply-add.
     Unfused,
 }
 
@@ -32,7 +32,7 @@ impl Arithmetic {
     }
 }
 
-/// Computing hardware of this machine: its processor with one set of SIMD instructions.
+/// Computing hardware of this machine: its processor with one set of SIMD instructions, or with scalars alone.
 ///
 /// Choose a backend once at the beginning of a computation, with [`Backend::best`] or [`Backend::by_name`], and pass
 /// it on. Code that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
@@ -60,12 +60,9 @@ enum Proof {
     Avx512(Avx512),
     #[cfg(target_arch = "x86_64")]
     Avx2(Instructions<Avx2>),
-    #[cfg(target_arch = "x86_64")]
-    Sse2(Instructions<Sse2>),
     #[cfg(target_arch = "aarch64")]
     Neon(Instructions<Neon>),
-    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    Other(Level),
+    Scalar,
 }
 
 impl Backend {
@@ -76,17 +73,15 @@ impl Backend {
 
     /// Returns all backends of this machine, the fastest first.
     pub fn available() -> Vec<Backend> {
-        let level = Level::new();
-        #[cfg(target_arch = "x86_64")]
         let proofs = [
+            #[cfg(target_arch = "x86_64")]
             ("avx512", Arithmetic::Fused, Avx512::detect().map(Proof::Avx512)),
-            ("avx2", Arithmetic::Fused, level.as_avx2().map(Instructions).map(Proof::Avx2)),
-            ("sse2", Arithmetic::Unfused, level.as_sse2().map(Instructions).map(Proof::Sse2)),
+            #[cfg(target_arch = "x86_64")]
+            ("avx2", Arithmetic::Fused, Level::new().as_avx2().map(Instructions).map(Proof::Avx2)),
+            #[cfg(target_arch = "aarch64")]
+            ("neon", Arithmetic::Fused, Level::new().as_neon().map(Instructions).map(Proof::Neon)),
+            ("scalar", Arithmetic::Unfused, Some(Proof::Scalar)),
         ];
-        #[cfg(target_arch = "aarch64")]
-        let proofs = [("neon", Arithmetic::Fused, level.as_neon().map(Instructions).map(Proof::Neon))];
-        #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-        let proofs = [("scalar", Arithmetic::Unfused, Some(Proof::Other(level)))];
         let backend = |(name, arithmetic, proof): (_, _, Option<_>)| {
             proof.map(|proof| Backend { name, arithmetic, proof })
         };
@@ -98,7 +93,7 @@ impl Backend {
         Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
-    /// Returns the name that a run's sidecar records: `avx512`, `avx2`, `sse2` or `neon`.
+    /// Returns the name that a run's sidecar records: `avx512`, `avx2`, `neon` or `scalar`.
     pub fn name(self) -> &'static str {
         self.name
     }
@@ -108,7 +103,7 @@ impl Backend {
         self.arithmetic
     }
 
-    /// Returns the number of SIMD lanes: two registers of `f64`.
+    /// Returns the number of SIMD lanes: two registers of `f64`, or one scalar.
     pub fn lanes(self) -> usize {
         struct Count;
 
@@ -132,12 +127,9 @@ impl Backend {
             Proof::Avx512(simd) => enter(simd, kernel),
             #[cfg(target_arch = "x86_64")]
             Proof::Avx2(simd) => enter(simd, kernel),
-            #[cfg(target_arch = "x86_64")]
-            Proof::Sse2(simd) => enter(simd, kernel),
             #[cfg(target_arch = "aarch64")]
             Proof::Neon(simd) => enter(simd, kernel),
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-            Proof::Other(level) => fearless_simd::dispatch!(level, simd => enter(Instructions(simd), kernel)),
+            Proof::Scalar => enter(OneLane::<Unfused>::new(), kernel),
         }
     }
 }

@@ -84,7 +84,7 @@ pub trait Simd: Copy {
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
 }
 
-/// SIMD lanes: 16 with AVX-512, 8 with AVX2, 4 with SSE2 and NEON.
+/// Lanes: 16 with AVX-512, 8 with AVX2, 4 with NEON, 1 with scalars.
 pub type Vector<S> = <S as Simd>::Vector;
 
 /// 1.5 · 2^52. Adding it rounds to a whole number, whose two's complement is then in the low bits.

@@ -23,7 +23,7 @@ impl<S: Simd> lanes::Simd for Instructions<S> {
     }
 }
 
-/// 4 lanes with AVX2, 2 with SSE2 and NEON.
+/// A register: 4 lanes with AVX2, 2 with NEON.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Register<S: Simd>(S::f64s);
 
