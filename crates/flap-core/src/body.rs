@@ -52,7 +52,7 @@ impl BodyParameters {
         body_response: BodyResponse::Passive,
     };
 
-    /// Names of velocity and rates, in the order of the table.
+    /// Names of the parameters of velocity and rates, in the order of the parameter table.
     pub const MOTION: [&'static str; 6] = [
         "body_velocity_forward",
         "body_velocity_left",
@@ -62,7 +62,7 @@ impl BodyParameters {
         "body_rate_yaw",
     ];
 
-    /// Returns the terms that this motion adds to the equations.
+    /// Returns the terms that the motion of the body adds to the equations.
     pub fn terms(&self) -> BodyTerms {
         let BodyMotion { velocity, rate } = self.motion();
         if velocity.into_iter().chain(rate).all(|component| component == 0.0) {
@@ -74,7 +74,7 @@ impl BodyParameters {
         }
     }
 
-    /// Returns velocity and rates as constants.
+    /// Returns the velocity and the rates of the body as constants of the equations.
     pub fn motion(&self) -> BodyMotion<f64> {
         BodyMotion {
             velocity: [self.body_velocity_forward, self.body_velocity_left, self.body_velocity_up],
@@ -83,7 +83,7 @@ impl BodyParameters {
     }
 }
 
-/// Terms of the body's motion on which the equations of a wing branch.
+/// Terms that the motion of the body adds to the equations of a wing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BodyTerms {
     /// The body is at rest.
@@ -98,7 +98,7 @@ pub enum BodyTerms {
 crate::per_lane! {
     /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air.
     ///
-    /// The axes are along a positive stroke, along the span at zero stroke, and along the stroke axis.
+    /// The axes point in the direction of a positive stroke, along the span at zero stroke, and along the stroke axis.
     pub struct BodyMotion<R> {
         /// Velocity V.
         pub velocity: [R; 3],
@@ -113,7 +113,8 @@ impl BodyMotion<f64> {
 }
 
 impl<R: Real> BodyMotion<R> {
-    /// Returns the motion of the shoulder along the moving axes of a wing at a stroke (rad).
+    /// Returns the motion of the shoulder along the axes of a wing, which rotate with the wing, at a stroke angle
+    /// (rad).
     ///
     /// ```text
     /// e_s = (sin φ, cos φ, 0)     e_t = (cos φ, −sin φ, 0)
@@ -133,8 +134,8 @@ impl<R: Real> BodyMotion<R> {
     }
 }
 
-/// Motion of a wing's shoulder along the axes e_t, e_s, e_z of the wing: direction of a positive stroke, span, stroke
-/// axis.
+/// Motion of a wing's shoulder along the axes of the wing: e_t (direction of a positive stroke), e_s (span) and e_z
+/// (stroke axis).
 #[derive(Clone, Copy, Debug)]
 pub struct Shoulder<R> {
     /// Velocity along e_t (m/s).
@@ -152,7 +153,7 @@ pub struct Shoulder<R> {
 }
 
 impl<R: Real> Shoulder<R> {
-    /// Returns a shoulder at rest. `number` is any number.
+    /// Returns a shoulder at rest, in the number type of `number`.
     #[inline(always)]
     pub fn rest(number: R) -> Shoulder<R> {
         let zero = number.lit(0.0);
@@ -166,7 +167,8 @@ impl<R: Real> Shoulder<R> {
         }
     }
 
-    /// Returns the motion of the wing's sections. `stroke_rate` and `pitch_rate` are φ̇ and ψ̇ (rad/s), `cos` is cos ψ.
+    /// Returns the motion of the wing's sections. `stroke_rate` and `pitch_rate` are φ̇ and ψ̇ (rad/s), and `cos` is
+    /// the cosine of the pitch ψ.
     #[inline(always)]
     pub fn sections(&self, stroke_rate: R, pitch_rate: R, cos: R) -> Sections<R> {
         Sections {
@@ -184,10 +186,11 @@ impl<R: Real> Shoulder<R> {
         pitch_rate + self.rate_s
     }
 
-    /// Returns the inertial moment g per rate (N·m·s) of a thin wing on a turning body, at first order in Ω. `inertia` is
-    /// ∫ d² dm, `product` is ∫ r d dm (kg·m²), with the distance d behind the pitch axis.
+    /// Returns the inertial moment g per rate (N·m·s) of a thin wing on a turning body, at first order in the angular
+    /// velocity Ω. `inertia` is ∫ d² dm and `product` is ∫ r d dm (kg·m²), with the distance d behind the pitch axis.
     ///
-    /// The moment about the pitch axis is −g φ̇, about the stroke axis g ψ̇. Their power is zero.
+    /// The inertial moment is −g φ̇ about the pitch axis and g ψ̇ about the stroke axis. The total power of both
+    /// moments is zero.
     ///
     /// ```text
     /// g = 2 sin ψ (I (Ω_t sin ψ + Ω_z cos ψ) − I_xz Ω_s)
@@ -197,10 +200,11 @@ impl<R: Real> Shoulder<R> {
         sin * (inertia * (self.rate_t * sin + self.rate_z * cos) - product * self.rate_s) * 2.0
     }
 
-    /// Returns the changes [e₀, e₁, e₂] of the normal acceleration of a wing's sections by the body's motion.
+    /// Returns the changes [e₀, e₁, e₂] that the motion of the body causes in the normal acceleration of the wing's
+    /// sections.
     ///
-    /// e₀ is the change of the constant part, e₁ of the part per radius, and e₂ of the pitch acceleration. `rates` are φ̇
-    /// and ψ̇ (rad/s).
+    /// e₀ is the change of the constant part, e₁ the change of the part per radius, and e₂ the change of the pitch
+    /// acceleration. `rates` are the stroke rate φ̇ and the pitch rate ψ̇ (rad/s).
     ///
     /// ```text
     /// u̇_n = r (A + e₁) + e₀ − d (ψ̈ + e₂)
@@ -218,21 +222,21 @@ impl<R: Real> Shoulder<R> {
 
 /// Motion of the sections of a wing relative to still air, in the plane of e_t and e_z.
 ///
-/// A section at the radius r, whose velocity is taken at the distance d behind the pitch axis, moves with
+/// At the radius r and the distance d behind the pitch axis, the velocity of the section has these components:
 ///
 /// ```text
 /// u = r (φ̇ − Ω_z) + a − d (ψ̇ + Ω_s) cos ψ     w = V_z + r Ω_t
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sections<R> {
-    /// φ̇ − Ω_z (rad/s).
+    /// Stroke rate relative to still air, φ̇ − Ω_z (rad/s).
     pub stroke_rate: R,
-    /// (ψ̇ + Ω_s) cos ψ (rad/s).
+    /// Sweep rate relative to still air, (ψ̇ + Ω_s) cos ψ (rad/s).
     pub sweep_rate: R,
-    /// a (m/s).
+    /// Velocity a, which is equal for all sections (m/s).
     pub along: R,
-    /// V_z (m/s).
+    /// Velocity V_z along the stroke axis (m/s).
     pub up: R,
-    /// Ω_t (rad/s).
+    /// Angular velocity Ω_t about e_t (rad/s).
     pub tilt_rate: R,
 }

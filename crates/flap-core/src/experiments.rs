@@ -1,8 +1,8 @@
 //! Experiments on single points of a model: the implementation of [`Experiments`].
 //!
-//! A chirp is a drive whose frequency changes at a constant rate. It is integrated as a chain of cycles. Each cycle
-//! begins at phase zero with the final frequency of the cycle before. Every cycle can then be measured like a drive
-//! period, and phases stay small, so they lose no digits.
+//! A chirp is a drive whose frequency changes at a constant rate. A chirp is integrated as a chain of cycles. Each
+//! cycle begins at phase zero with the final frequency of the previous cycle. Each cycle is therefore measured like a
+//! drive period, and small phases avoid rounding errors.
 
 use core::ops::ControlFlow;
 
@@ -28,7 +28,8 @@ impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
         on_scalars!(run, R => free_response::<M, R, N>(&self.model, run, request))
     }
 
-    /// Evaluates forces at equal distances from the first sample to the last. Nothing is integrated.
+    /// Evaluates the forces at equally spaced times, from the first sample of the motion to the last, without
+    /// integration.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
         let ImposedMotion { stroke, pitch, samples } = motion;
         let (duration, other) = (stroke.duration(), pitch.duration());
@@ -124,7 +125,7 @@ fn chirp<M: Motions<N>, R: Scalar, const N: usize>(
     Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N>() })
 }
 
-/// Returns the measures that are meaningful in a cycle that is not periodic.
+/// Returns the measures that are meaningful even if the motion of a cycle is not periodic.
 fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
     of_signal.iter().copied().filter(|&measure| measure != Measure::First)
 }
@@ -179,7 +180,7 @@ fn free_response<M: Motions<N>, R: Scalar, const N: usize>(
     Ok(motion)
 }
 
-/// Checks that the impulse is not zero, and that duration and intervals are more than zero.
+/// Checks that the impulse is not zero, and that the duration and the number of intervals are more than zero.
 fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), RequestError> {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     if !(stroke_rate.is_finite() && stroke_rate != 0.0) {

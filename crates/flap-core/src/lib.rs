@@ -2,7 +2,7 @@
 //!
 //! # Layers
 //!
-//! Each layer uses only those above it:
+//! Each layer uses only the layers that are above it in this list:
 //!
 //! - [`num`]: number types of models and integrators: scalars and SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
@@ -10,9 +10,9 @@
 //! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`springs`], [`body`], [`aero`], [`modes`]: components that several models use
 //! - [`model`]: the published models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, for any model
-//! - [`simulate`]: design points in, rows out
+//! - [`simulate`]: computation of rows from design points
 //! - `experiments`: chirps, impulses and imposed motions of a model
-//! - [`vehicle`]: several wings, whose forces and torques add up
+//! - [`vehicle`]: sums of the forces and torques of several wings
 
 pub mod aero;
 pub mod body;

@@ -1,8 +1,8 @@
 //! Linkages of transmissions: slider-crank and planar four-bar.
 //!
-//! In the planar four-bar the input link L₁ turns about the origin and the output link L₃ about (L₀, 0). The coupler
-//! L₂ connects their ends A and B. The independent variable is the stroke angle θ: the output link is at the angle ψ
-//! = ψ_n + θ.
+//! In the planar four-bar the input link L₁ turns about the origin and the output link L₃ about (L₀, 0). The coupler L₂
+//! connects the end A of the input link with the end B of the output link. The independent variable is the stroke angle
+//! θ: the output link is at the angle ψ = ψ_n + θ.
 
 use core::f64::consts::PI;
 
@@ -19,19 +19,19 @@ crate::per_lane! {
     }
 }
 
-/// Displacement of the slider from rest δ (m), and its derivatives with respect to the crank's angle (m).
+/// Displacement δ of the slider from rest (m), and the derivatives of δ with respect to the crank angle (m).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SliderMotion<R> {
-    /// δ.
+    /// Displacement δ of the slider.
     pub(crate) displacement: R,
-    /// δ_η.
+    /// First derivative δ_η.
     pub(crate) slope: R,
-    /// δ_ηη.
+    /// Second derivative δ_ηη.
     pub(crate) bend: R,
 }
 
 impl<R: Real> SliderCrank<R> {
-    /// Returns the slider's motion at the crank angle η, given its sine and cosine.
+    /// Returns the motion of the slider at the crank angle η, given the sine and the cosine of η.
     ///
     /// ```text
     /// e = L_c (1 − cos η)     g = √(L_s² − e²)     δ = L_c sin η + L_s − g
@@ -52,7 +52,7 @@ impl<R: Real> SliderCrank<R> {
 }
 
 crate::per_lane! {
-    /// A four-bar, with the position that it has at zero stroke.
+    /// A four-bar linkage, with the position of its links at zero stroke.
     pub struct FourBarLinkage<R> {
         /// Length of the ground link L₀ (m).
         ground: R,
@@ -60,39 +60,41 @@ crate::per_lane! {
         output: R,
         /// Square of the input link's length, L₁² (m²).
         input_square: R,
-        /// ½(L₁² − L₂²) (m²).
+        /// Half of the difference of the squares of the lengths of input link and coupler, ½(L₁² − L₂²) (m²).
         half_difference: R,
-        /// 1/L₂² (1/m²).
+        /// Inverse of the square of the coupler's length, 1/L₂² (1/m²).
         inverse_coupler_square: R,
         /// Angle of the output link at zero stroke ψ_n (rad).
         pub neutral: R,
-        /// Direction of the input link at zero stroke, over its length: component along the ground link (1/m).
+        /// Component, along the ground link, of the input link's unit vector at zero stroke, divided by the input
+        /// link's length (1/m).
         direction_x: R,
-        /// Component of the same vector perpendicular to the ground link (1/m).
+        /// Component, perpendicular to the ground link, of the input link's unit vector at zero stroke, divided by the
+        /// input link's length (1/m).
         direction_y: R,
     }
 }
 
-/// Positions at one stroke angle, and their derivatives with respect to it: ( )′ = d/dθ.
+/// Positions of the links at one stroke angle θ, and the derivatives of the positions with respect to θ: ( )′ = d/dθ.
 #[derive(Clone, Copy, Debug)]
 pub struct FourBarMotion<R> {
-    /// End of the input link A (m), A′, A″.
+    /// End A of the input link (m), and its derivatives A′ and A″.
     pub a: [[R; 2]; 3],
-    /// End of the output link B (m), B′, B″.
+    /// End B of the output link (m), and its derivatives B′ and B″.
     pub b: [[R; 2]; 3],
-    /// Derivative θ₁′ of the input link's angle with respect to the stroke, and θ₁″.
+    /// First and second derivatives θ₁′ and θ₁″ of the input link's angle with respect to the stroke.
     pub input: [R; 2],
-    /// Derivative θ₂′ of the coupler's angle with respect to the stroke, and θ₂″.
+    /// First and second derivatives θ₂′ and θ₂″ of the coupler's angle with respect to the stroke.
     pub coupler: [R; 2],
-    /// Sine and cosine of the angle η through which the input link has turned since zero stroke.
+    /// Sine and cosine of the angle η of the input link, relative to its direction at zero stroke.
     pub turned: [R; 2],
 }
 
 impl FourBarLinkage<f64> {
-    /// Returns the four-bar with these lengths (m) of ground, input, coupler and output link.
+    /// Returns the four-bar linkage, given the `lengths` (m) of ground link, input link, coupler and output link.
     ///
-    /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled there, the
-    /// numbers are NaN.
+    /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled at zero stroke,
+    /// all numbers of the four-bar are NaN.
     pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBarLinkage<f64> {
         let [ground, input, coupler, output] = lengths;
         let mut four_bar = FourBarLinkage {
@@ -111,10 +113,10 @@ impl FourBarLinkage<f64> {
         four_bar
     }
 
-    /// Returns the angle of the output link (rad), between 30° and 80°, at which the transmission θ₁′ is stationary
-    /// (θ₁″ = 0).
+    /// Returns the angle of the output link (rad), between 30° and 80°, at which the derivative θ₁′ is stationary (θ₁″
+    /// = 0).
     ///
-    /// `lengths` are in m. `None` if θ₁″ does not change its sign in this range.
+    /// `lengths` are in metres. The result is `None` if θ₁″ does not change its sign between 30° and 80°.
     pub(crate) fn stationary_angle(lengths: [f64; 4]) -> Option<f64> {
         let four_bar = FourBarLinkage::new(lengths, 0.0);
         let bend = |angle: f64| four_bar.motion(angle).input[1];
@@ -123,7 +125,7 @@ impl FourBarLinkage<f64> {
 }
 
 impl<R: Real> FourBarLinkage<R> {
-    /// Returns positions and derivatives at the stroke angle `theta` (rad).
+    /// Returns the positions of the links, and their derivatives, at the stroke angle `theta` (rad).
     ///
     /// ```text
     /// B = (L₀ + L₃ cos ψ, L₃ sin ψ)     A = (P B + Q B⊥)/|B|²     P = ½(|B|² + L₁² − L₂²)     Q² = L₁²|B|² − P²
@@ -174,13 +176,13 @@ impl<R: Real> FourBarLinkage<R> {
 }
 
 crate::per_lane! {
-    /// Inertias of the moving links.
+    /// Inertias of the moving links of a four-bar.
     pub struct LinkInertias<R> {
         /// Inertia of the input link about its pivot (kg·m²).
         pub input: R,
         /// A quarter of the coupler's mass (kg).
         pub quarter_coupler_mass: R,
-        /// Inertia of the coupler about its centre (kg·m²).
+        /// Inertia of the coupler about its centre of mass (kg·m²).
         pub coupler: R,
         /// Inertia of the output link about its pivot (kg·m²).
         pub output: R,
@@ -188,14 +190,14 @@ crate::per_lane! {
 }
 
 impl<R: Real> LinkInertias<R> {
-    /// Returns the links' inertia about the stroke axis G (kg·m²), and half of its derivative G′/2; Arabagi 2013,
-    /// (13).
+    /// Returns the inertia G of the links about the stroke axis (kg·m²), and half of its derivative, G′/2 (Arabagi et
+    /// al. 2013, Eq. 13).
     ///
     /// ```text
     /// G = Σ m_i |x_i′|² + Σ J_i θ_i′²     ½G′ = Σ m_i x_i′·x_i″ + Σ J_i θ_i′ θ_i″
     /// ```
     ///
-    /// The links are uniform, so their centres are A/2, (A + B)/2 and the middle of the output link.
+    /// The links are uniform, so their centres of mass are A/2, (A + B)/2 and the middle of the output link.
     #[inline(always)]
     pub(crate) fn about_stroke(&self, motion: &FourBarMotion<R>) -> [R; 2] {
         let [_, a_p, a_pp] = motion.a;
@@ -214,7 +216,8 @@ impl<R: Real> LinkInertias<R> {
     }
 }
 
-/// Returns the root of `f` in the bracket, to rounding. `None` if `f` has the same sign at both ends.
+/// Returns the root of `f` in the bracket, to rounding errors. The result is `None` if `f` has the same sign at both
+/// ends of the bracket.
 ///
 /// The method is regula falsi with the Illinois rule.
 fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
@@ -246,43 +249,43 @@ fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
 
 // Vectors in the plane of the linkage.
 
-/// a + b.
+/// Returns a + b.
 #[inline(always)]
 fn add<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-/// a − b.
+/// Returns a − b.
 #[inline(always)]
 fn sub<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// k a.
+/// Returns k a.
 #[inline(always)]
 fn scale<R: Real>(k: R, a: [R; 2]) -> [R; 2] {
     [k * a[0], k * a[1]]
 }
 
-/// k a + b.
+/// Returns k Returns a + b.
 #[inline(always)]
 fn scale_add<R: Real>(k: R, a: [R; 2], b: [R; 2]) -> [R; 2] {
     [k.mul_add(a[0], b[0]), k.mul_add(a[1], b[1])]
 }
 
-/// a · b.
+/// Returns the scalar product a · b.
 #[inline(always)]
 fn dot<R: Real>(a: [R; 2], b: [R; 2]) -> R {
     a[0].mul_add(b[0], a[1] * b[1])
 }
 
-/// a × b, the component out of the plane.
+/// Returns the component of the cross product a × b perpendicular to the plane.
 #[inline(always)]
 fn cross<R: Real>(a: [R; 2], b: [R; 2]) -> R {
     a[0].mul_add(b[1], -(a[1] * b[0]))
 }
 
-/// a turned by 90° to the left.
+/// Returns the vector a, rotated by 90° to the left.
 #[inline(always)]
 fn turn<R: Real>(a: [R; 2]) -> [R; 2] {
     [-a[1], a[0]]

@@ -14,15 +14,15 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// Returns modes with these names and natural frequencies (Hz).
+    /// Returns modes with the given names and natural frequencies (Hz).
     pub(crate) fn of<const N: usize>(names: [&'static str; N], frequencies: [f64; N]) -> Vec<Mode> {
         names.into_iter().zip(frequencies).map(|(name, frequency)| Mode { name, frequency }).collect()
     }
 
-    /// Returns the modes of M q̈ + diag(K) q = 0, the lower one first.
+    /// Returns the two modes of M q̈ + diag(K) q = 0, in ascending order of frequency.
     ///
-    /// `mass` [M₁₁, M₁₂, M₂₂] must be positive definite, and both entries of `stiffness` positive. Otherwise
-    /// frequencies are NaN.
+    /// If the mass matrix `mass` [M₁₁, M₁₂, M₂₂] is not positive definite, or an entry of `stiffness` is not positive,
+    /// the frequencies are NaN.
     pub(crate) fn coupled([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> Vec<Mode> {
         // M = L Lᵀ leads to an ordinary symmetric eigenvalue problem, L⁻¹ K L⁻ᵀ.
         let inverse =

@@ -3,7 +3,7 @@
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
 
-/// Permittivity of free space (F/m), to the digits used for the presets.
+/// Permittivity of free space (F/m), rounded as in the values of the presets.
 pub(crate) const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// One layer of a laminate.
@@ -17,7 +17,7 @@ pub struct Layer {
     pub density: f64,
 }
 
-/// A beam of bonded layers from z = 0 upwards; Ozaki and Hamaguchi 2018.
+/// A beam of bonded layers, of which the lowest begins at z = 0. Equation numbers refer to Ozaki and Hamaguchi (2018).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laminate<const L: usize> {
     /// Heights of the layers' mid-planes (m): `z_i = Σ_{j≤i} t_j − t_i/2`.
@@ -31,7 +31,7 @@ pub struct Laminate<const L: usize> {
 }
 
 impl<const L: usize> Laminate<L> {
-    /// Returns the laminate of these layers, the lowest first.
+    /// Returns the laminate of the given layers, beginning with the lowest layer.
     pub fn of(layers: [Layer; L]) -> Laminate<L> {
         let mut top = 0.0;
         let mid_planes = layers.map(|layer| {
@@ -58,8 +58,8 @@ crate::parameters! {
     /// Dielectric loss and charge recovery.
     pub struct ElectricalParameters {
         /// Dielectric loss factor tan delta of the actuator. The loss adds the current G (V - mean of V) with G = w C
-        /// tan delta. Here w is the angular drive frequency, C the capacitance and V the voltage. Impedances measured
-        /// on such actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
+        /// tan delta. Here w is the angular drive frequency, C the capacitance and V the voltage. Measured impedances
+        /// of piezoelectric actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
         /// Fraction, between 0 and 1, of the power returned by the actuator that the power supply recovers. The
         /// fraction affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power
@@ -69,19 +69,21 @@ crate::parameters! {
 }
 
 impl ElectricalParameters {
-    /// No loss and no recovery.
+    /// No dielectric loss and no charge recovery.
     pub(crate) const NONE: ElectricalParameters =
         ElectricalParameters { dielectric_loss: 0.0, charge_recovery: 0.0 };
 
-    /// Returns the equivalent conductance (S) of a `capacitance` (F) at the angular frequency `rate` (rad/s).
+    /// Returns the conductance (S) equivalent to the dielectric loss of a `capacitance` (F) at the angular frequency
+    /// `rate` (rad/s).
     pub(crate) fn conductance(&self, capacitance: f64, rate: f64) -> f64 {
         rate * capacitance * self.dielectric_loss
     }
 }
 
-/// Returns the mean power (W) of a supply: the mean positive part minus a share of the returned power.
+/// Returns the mean power (W) that the supply delivers: the mean positive part of the actuator's power, minus the
+/// recovered share of the returned power.
 ///
-/// `mean` is the mean of the whole power.
+/// `mean` is the mean of the actuator's power, including negative values.
 pub(crate) fn supplied(positive_mean: f64, mean: f64, recovery: f64) -> f64 {
     positive_mean - recovery * (positive_mean - mean)
 }

@@ -12,17 +12,19 @@ use nalgebra::{DMatrix, SymmetricEigen};
 pub struct Node {
     /// Position of the node.
     pub x: f64,
-    /// Weight of the function's value there. The weights of a rule add up to 1.
+    /// Weight of the function's value at the node. The weights of a rule add up to 1.
     pub weight: f64,
 }
 
-/// Returns the midpoints of `n` equal parts. The rule is exact for linear functions.
+/// Returns the midpoint rule: the midpoints of `n` equal parts, with equal weights. The rule is exact for linear
+/// functions.
 pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()
 }
 
-/// Returns the Gauss-Legendre rule of `n` nodes, in ascending order. It is exact for polynomials of degree 2n − 1.
+/// Returns the Gauss-Legendre rule of `n` nodes, in ascending order. The rule is exact for polynomials of degree 2n −
+/// 1.
 ///
 /// ```
 /// let rule = flap_core::quadrature::gauss_legendre(4);
@@ -59,8 +61,9 @@ fn find_gauss_legendre(n: usize) -> Rc<[Node]> {
 
 /// Returns the Gauss rule of `n` nodes, in ascending order, for the beta distribution x^(p−1) (1−x)^(q−1) with p, q > 0.
 ///
-/// Weights add up to 1. The rule is exact for polynomials of degree 2n − 1 times the distribution. Nodes and weights are
-/// the eigenvalues and squared first components of the Jacobi matrix (Golub and Welsch 1969).
+/// The weights add up to 1. The rule is exact for polynomials of degree 2n − 1 times the distribution. The nodes are
+/// the eigenvalues of the Jacobi matrix, and the weights are the squared first components of its eigenvectors (Golub
+/// and Welsch 1969).
 ///
 /// ```
 /// let rule = flap_core::quadrature::gauss_beta(4, 2.0, 1.5);
@@ -98,7 +101,7 @@ pub fn gauss_beta(n: usize, p: f64, q: f64) -> Vec<Node> {
     nodes
 }
 
-/// Returns the Legendre polynomial of degree `n` at `z` inside (−1, 1), and its derivative.
+/// Returns the value and the derivative of the Legendre polynomial of degree `n` at `z`, with −1 < `z` < 1.
 fn legendre(n: usize, z: f64) -> [f64; 2] {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 0..n {

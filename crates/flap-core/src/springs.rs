@@ -1,4 +1,4 @@
-//! Springs of stroke and hinge: losses, stiffening, and the stop of the hinge.
+//! Springs of the stroke and of the wing hinge: losses, stiffening, and the stop of the hinge.
 
 use core::f64::consts::FRAC_PI_3;
 
@@ -8,9 +8,9 @@ use crate::parameter::Range::{Any, NonNegative, Positive};
 
 /// Returns the viscous damping γ k/ω equivalent to the loss factor γ of a spring.
 ///
-/// k is the spring's `stiffness`, ω the angular frequency `rate` (rad/s). The equivalence is exact for the first
-/// harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured such losses in insect thoraxes and
-/// robot hinges.
+/// Here k is the `stiffness` of the spring, and ω is the angular frequency `rate` (rad/s). The equivalence is exact for
+/// the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured loss factors of insect
+/// thoraxes and robot hinges.
 pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
     loss_factor * stiffness / rate
 }
@@ -26,8 +26,8 @@ crate::parameters! {
         hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
         /// Magnitude of the pitch at which the stop of the hinge begins to act, in both directions.
         hinge_stop_angle: f64 = ("rad", "", Number(NonNegative), default: FRAC_PI_3),
-        /// Stiffness of the stop of the hinge. Beyond hinge_stop_angle, the stop adds this stiffness to the stiffness of
-        /// the hinge.
+        /// Stiffness of the stop of the hinge. Beyond hinge_stop_angle, the stop adds hinge_stop_stiffness to the
+        /// stiffness of the hinge.
         hinge_stop_stiffness: f64 = ("N*m/rad", "", Number(NonNegative), default: 0.0),
         /// Thickness of the flexure of the wing hinge. The thickness affects only the column hinge_strain_max.
         hinge_thickness: Option<f64> = ("m", "t_h", Following(Positive, "nothing: hinge_strain_max is empty")),
@@ -37,7 +37,7 @@ crate::parameters! {
     }
 }
 
-/// Powers with which the stiffness E w t^3 / (12 l) of a bending flexure scales with its thickness t and length l.
+/// Exponents of thickness t and length l in the stiffness E w t^3 / (12 l) of a bending flexure.
 pub(crate) const FLEXURE: &[(&str, f64)] = &[("hinge_thickness", 3.0), ("hinge_length", -1.0)];
 
 impl HingeParameters {
@@ -51,13 +51,13 @@ impl HingeParameters {
         hinge_length: None,
     };
 
-    /// Returns the equivalent damping (N·m·s) of the loss factor. `stiffness` is the hinge's (N·m/rad), `rate` the
-    /// angular frequency (rad/s).
+    /// Returns the viscous damping that is equivalent to the loss factor of the hinge (N·m·s). `stiffness` is the
+    /// stiffness of the hinge (N·m/rad), and `rate` is the angular frequency (rad/s).
     pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
         structural_damping(self.hinge_loss_factor, stiffness, rate)
     }
 
-    /// Returns the strain of the flexure's faces per pitch (1/rad): thickness over twice the length.
+    /// Returns the strain of the flexure's faces per pitch angle (1/rad): the thickness divided by twice the length.
     ///
     /// The flexure is assumed to bend to an arc of a circle. The strain is zero if the dimensions of the flexure are
     /// not set.
@@ -70,13 +70,13 @@ impl HingeParameters {
 }
 
 crate::per_lane! {
-    /// Nonlinear parts of the springs, which the papers leave out.
+    /// Nonlinear parts of the springs. The papers of the models contain only linear springs.
     pub struct Stiffening<R> {
         /// Cubic stiffness of the stroke k₃ (N·m/rad³).
         pub stroke: R,
         /// Cubic stiffness of the hinge κ₃ (N·m/rad³).
         pub hinge: R,
-        /// Pitch at which the stop of the hinge begins to act ψ_s (rad).
+        /// Pitch ψ_s at which the stop of the hinge begins to act (rad).
         pub stop_angle: R,
         /// Stiffness of the stop κ_s (N·m/rad).
         pub stop_stiffness: R,
@@ -84,7 +84,8 @@ crate::per_lane! {
 }
 
 impl Stiffening<f64> {
-    /// Returns the nonlinear parts of a stroke with this cubic stiffness (N·m/rad³) and of a hinge.
+    /// Returns the nonlinear parts of the springs, given the cubic stiffness of the stroke (N·m/rad³) and the
+    /// parameters of the hinge.
     pub(crate) fn of(stroke: f64, hinge: &HingeParameters) -> Stiffening<f64> {
         Stiffening {
             stroke,
@@ -101,13 +102,13 @@ impl Stiffening<f64> {
 }
 
 impl<R: Real> Stiffening<R> {
-    /// Returns the moment against the stroke φ (rad) about the stroke axis (N·m): k₃ φ³.
+    /// Returns the nonlinear moment about the stroke axis, against the stroke φ (rad): k₃ φ³ (N·m).
     #[inline(always)]
     pub(crate) fn stroke_moment(&self, stroke: R) -> R {
         self.stroke * stroke * (stroke * stroke)
     }
 
-    /// Returns the moment against the pitch ψ (rad) about the hinge's axis (N·m).
+    /// Returns the nonlinear moment about the hinge's axis, against the pitch ψ (rad) (N·m):
     ///
     /// ```text
     /// κ₃ ψ³ + κ_s max(|ψ| − ψ_s, 0) sign ψ

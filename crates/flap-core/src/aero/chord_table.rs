@@ -1,6 +1,6 @@
 //! The chord of a wing as a table.
 //!
-//! Use it for wings whose chord no polynomial describes.
+//! Use the table if no polynomial describes the chord of your wing.
 
 use super::wing::Outline;
 use crate::parameter::Invalid;
@@ -11,11 +11,11 @@ use crate::parameter::Range::NonNegative;
 pub const STATIONS: usize = 11;
 
 crate::choice! {
-    /// Use of the table.
+    /// Source of the chord of the wing.
     pub enum Tabulated {
-        /// The model's own chord shape.
+        /// The model computes the chord from its own chord shape.
         Off = "off",
-        /// The table of chords.
+        /// The model interpolates the chord in the table.
         On = "on",
     }
 }
@@ -59,12 +59,12 @@ impl ChordTable {
         ChordTable::from_values(&values)
     }
 
-    /// Returns a table that is switched off.
+    /// Returns a chord table that the model does not use.
     pub(crate) fn off() -> ChordTable {
         ChordTable::new(Tabulated::Off, [0.0; STATIONS])
     }
 
-    /// The chords at the stations (m).
+    /// Returns the chords at the stations (m).
     fn chords(&self) -> Vec<f64> {
         self.to_values().split_off(1)
     }
@@ -108,7 +108,7 @@ impl ChordTable {
     }
 }
 
-/// Returns the parameters of the table for an outline, with the table switched on.
+/// Returns the parameters of the chord table for the outline of a wing, with `chord_table` set to "on".
 pub(crate) fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
     for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Aerodynamics that several models use.
 //!
-//! The files contain strips of the wing, force coefficients, added mass and rotational circulation. Further files contain
-//! the table of the chord, and outline and mass of the wing.
+//! The module contains the strips of the wing, the force coefficients, the added mass and the rotational circulation.
+//! The module also contains the table of the chord, and the outline and the mass of the wing.
 
 mod chord_table;
 mod harmonics;

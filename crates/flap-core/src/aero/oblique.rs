@@ -9,13 +9,13 @@ crate::per_lane! {
     pub struct ObliqueStrip<R> {
         /// Weight ½ρcΔr (kg/m).
         pub weight: R,
-        /// Radius at which its velocity is taken r (m).
+        /// Distance r from the stroke axis to the point at which the velocity of the strip is computed (m).
         pub radius: R,
-        /// Lever of its forces about the stroke axis (m).
+        /// Lever arm of the forces on the strip about the stroke axis (m).
         pub lever: R,
-        /// Distance behind the pitch axis at which its velocity is taken d (m).
+        /// Distance d behind the pitch axis of the point at which the velocity of the strip is computed (m).
         pub behind: R,
-        /// Chord to which its centre of pressure refers c (m).
+        /// Chord c of the strip, the unit of its centre of pressure (m).
         pub chord: R,
     }
 }
@@ -26,23 +26,24 @@ impl ObliqueStrip<f64> {
         ObliqueStrip { weight: 0.0, radius: 0.0, lever: 0.0, behind: 0.0, chord: 0.0 };
 }
 
-/// Flow past a strip: the strip's velocity along the wing's normal, and along the chord towards the leading edge.
+/// Flow past a strip: the velocity of the strip along the normal of the wing, and along the chord towards the leading
+/// edge.
 ///
 /// ```text
 /// u_N = u cos ψ − w sin ψ     u_C = u sin ψ + w cos ψ
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Flow<R> {
-    /// u_N (m/s).
+    /// Velocity u_N along the normal (m/s).
     pub normal: R,
-    /// u_C (m/s).
+    /// Velocity u_C along the chord (m/s).
     pub chordwise: R,
-    /// U = √(u_N² + u_C²) (m/s).
+    /// Speed of the strip U = √(u_N² + u_C²) (m/s).
     pub speed: R,
 }
 
 impl<R: Real> Flow<R> {
-    /// Returns the flow past a strip at a pitch with this sine and cosine.
+    /// Returns the flow past a strip, given the sine and the cosine of the pitch.
     #[inline(always)]
     pub fn past(sections: &Sections<R>, strip: &ObliqueStrip<R>, [sin, cos]: [R; 2]) -> Flow<R> {
         let ObliqueStrip { radius, behind, .. } = *strip;
@@ -51,7 +52,7 @@ impl<R: Real> Flow<R> {
         Flow { normal: u * cos - w * sin, chordwise: u * sin + w * cos, speed: (u * u + w * w).sqrt() }
     }
 
-    /// Returns 1/U² (s²/m²), or zero without flow.
+    /// Returns 1/U² (s²/m²), or zero if the speed U is zero.
     #[inline(always)]
     fn inverse_square(&self) -> R {
         let (square, zero, one) = (self.speed * self.speed, self.speed.lit(0.0), self.speed.lit(1.0));
@@ -65,7 +66,7 @@ impl<R: Real> Flow<R> {
         self.normal.abs().angle_over(self.chordwise.abs())
     }
 
-    /// Returns the attack angle against the motion, in [0, π] (rad): A = atan2(|u_N|, u_C).
+    /// Returns the attack angle relative to the direction of motion, in [0, π] (rad): A = atan2(|u_N|, u_C).
     #[inline(always)]
     pub fn attack(&self) -> R {
         let folded = self.folded_attack();
@@ -73,8 +74,8 @@ impl<R: Real> Flow<R> {
         R::select(self.chordwise.lt(folded.lit(0.0)), reversed, folded)
     }
 
-    /// Returns the forces along normal and chord per weight, for C_L = b_L sin 2ψ and C_D = b₁ + b₂ cos 2ψ of the effective
-    /// pitch. The `harmonics` change C_D and b_L.
+    /// Returns the forces along normal and chord, divided by the weight ½ρcΔr of the strip. The coefficients are C_L =
+    /// b_L sin 2ψ and C_D = b₁ + b₂ cos 2ψ of the effective pitch. The `harmonics` change C_D and b_L.
     ///
     /// ```text
     /// C_D = b₁ + b₂ (u_N² − u_C²)/U²     F_N = U u_N (C_D + 2 b_L u_C²/U²)     F_C = U u_C (2 b_L u_N²/U² − C_D)
@@ -94,23 +95,23 @@ impl<R: Real> Flow<R> {
     }
 }
 
-/// Sums of the forces on the strips, along the wing's normal (against it) and along the chord.
+/// Sums of the forces on the strips, against the direction of the normal of the wing, and along the chord.
 #[derive(Clone, Copy, Debug)]
 pub struct ObliqueForces<R> {
-    /// ΣF_N (N).
+    /// Sum of F_N over the strips (N).
     pub normal: R,
-    /// ΣF_C (N).
+    /// Sum of F_C over the strips (N).
     pub chordwise: R,
-    /// ΣF_N times lever (N·m).
+    /// Sum of F_N times lever arm (N·m).
     pub normal_moment: R,
-    /// ΣF_C times lever (N·m).
+    /// Sum of F_C times lever arm (N·m).
     pub chordwise_moment: R,
-    /// ΣF_N times the distance of the centre of pressure behind the pitch axis (N·m).
+    /// Sum of F_N times the distance of the centre of pressure behind the pitch axis (N·m).
     pub pitch_moment: R,
 }
 
 impl<R: Real> ObliqueForces<R> {
-    /// Returns no forces. `number` is any number.
+    /// Returns forces of zero, in the number type of `number`.
     #[inline(always)]
     pub(crate) fn none(number: R) -> ObliqueForces<R> {
         let zero = number.lit(0.0);
@@ -123,7 +124,7 @@ impl<R: Real> ObliqueForces<R> {
         }
     }
 
-    /// Adds the forces of a strip, as the law of [`oblique_forces`] returns them.
+    /// Adds the forces of a strip, in the form that the argument `law` of [`oblique_forces`] returns.
     #[inline(always)]
     pub(crate) fn add(&mut self, strip: &ObliqueStrip<R>, ([normal, chordwise], pressure): ([R; 2], R)) {
         let ObliqueStrip { weight, lever, chord, .. } = *strip;
@@ -151,10 +152,10 @@ impl<R: Real> ObliqueForces<R> {
     }
 }
 
-/// Returns the sums of the forces on the strips of a wing, at a pitch with this sine and cosine.
+/// Returns the sums of the forces on the strips of a wing, given the sine and the cosine of the pitch.
 ///
-/// For a strip and the flow past it, `law` returns the forces along normal and chord per weight (m²/s²). It also returns
-/// the centre of pressure behind the pitch axis (chords).
+/// For a strip and its flow, `law` returns the forces along normal and chord, divided by the weight of the strip
+/// (m²/s²). `law` also returns the position of the centre of pressure behind the pitch axis (chords).
 #[inline(always)]
 pub fn oblique_forces<R: Real>(
     strips: impl Iterator<Item = ObliqueStrip<R>>,

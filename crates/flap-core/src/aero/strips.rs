@@ -16,7 +16,7 @@ pub(crate) struct Cut {
     pub(crate) width: f64,
 }
 
-/// Cuts a wing of this `length` (m) into one strip for each node of a quadrature rule.
+/// Cuts a wing of the given `length` (m) into one strip for each node of a quadrature rule.
 ///
 /// The wing begins at the distance `offset` (m) from the stroke axis. `chord` returns the chord (m) at a position
 /// from 0 at the root to 1 at the tip.
@@ -42,27 +42,27 @@ pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) ->
     ))
 }
 
-/// Σ f(r, c) Δr over the strips.
+/// Returns the sum Σ f(r, c) Δr over the strips.
 pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
     cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
 }
 
 /// The strips of a wing, at most `MAX`.
 ///
-/// All lanes loop over as many strips as the lane that has the most. Surplus strips have weight zero: they add zeros,
-/// which change no bit of the sums.
+/// All lanes loop over the same number of strips: the largest number of strips in any lane. In lanes with fewer strips,
+/// the remaining strips have weight zero and do not change the sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,
-    /// √a r and √a κc: weighted velocities per stroke rate and per sweep rate, with a = ½ρcΔr. Then radius r and
-    /// chord c (m).
+    /// Four numbers for each strip: √a r, √a κc, radius r (m) and chord c (m), with a = ½ρcΔr. √a r and √a κc are
+    /// weighted velocities per stroke rate and per sweep rate.
     strips: [[R; 4]; MAX],
 }
 
 impl<const MAX: usize> Strips<f64, MAX> {
-    /// Returns the strips of a wing in air of this density (kg/m³); at most `MAX`.
+    /// Returns the strips of a wing in air of density `air_density` (kg/m³); at most `MAX` strips.
     ///
-    /// The velocity of a strip is taken `lever` chords (κ) from the pitch axis.
+    /// The velocity of a strip is computed at a distance of `lever` chords (κ) from the pitch axis.
     pub(crate) fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
         let mut strips = [[0.0; 4]; MAX];
         for (strip, &Cut { radius, chord, width }) in strips.iter_mut().zip(cuts) {
@@ -76,16 +76,16 @@ impl<const MAX: usize> Strips<f64, MAX> {
 /// Sums over the strips of ½ρ u|u| c Δr, where u is the strip's velocity.
 #[derive(Clone, Copy, Debug)]
 pub struct StripSums<R> {
-    /// Σ ½ρ u|u| c Δr (N).
+    /// Sum without a further factor, Σ ½ρ u|u| c Δr (N).
     pub force: R,
-    /// Σ r ½ρ u|u| c Δr (N·m).
+    /// Sum with the radius r as a factor, Σ r ½ρ u|u| c Δr (N·m).
     pub radius: R,
-    /// Σ c ½ρ u|u| c Δr (N·m).
+    /// Sum with the chord c as a factor, Σ c ½ρ u|u| c Δr (N·m).
     pub chord: R,
 }
 
 impl<R: Real, const MAX: usize> Strips<R, MAX> {
-    /// Returns the strips for oblique flow, with velocities taken `behind` chords (κ) behind the pitch axis.
+    /// Returns the strips for oblique flow. The velocities are computed `behind` chords (κ) behind the pitch axis.
     #[inline(always)]
     pub(crate) fn oblique(&self, behind: R) -> impl Iterator<Item = ObliqueStrip<R>> + '_ {
         self.strips[..self.count.min(MAX)].iter().map(
@@ -107,7 +107,7 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
     /// u = r · stroke rate + κ c · sweep rate
     /// ```
     ///
-    /// Every term contains u|u|, so one sum covers both directions of flow, strip by strip.
+    /// Because each term contains u|u|, the sums are correct even if the flow past some strips is reversed.
     #[inline(always)]
     pub fn sums(&self, stroke_rate: R, sweep_rate: R) -> StripSums<R> {
         let zero = stroke_rate.lit(0.0);

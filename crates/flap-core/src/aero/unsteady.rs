@@ -1,14 +1,14 @@
 //! Forces along the wing's normal from added mass, rotational circulation and rotational drag.
 //!
-//! The normal is (cos ψ e_t − sin ψ e_z), with the axes of [`crate::body`]. These forces depend on the section only by powers of
-//! chord and radius, so integrals over the wing replace the strips.
+//! The normal is (cos ψ e_t − sin ψ e_z), with the axes of [`crate::body`]. The forces of a section depend only on
+//! powers of chord and radius, so integrals over the wing replace sums over strips.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
 use crate::body::Sections;
 use crate::num::Real;
 
-/// Force along the wing's normal, and its moments.
+/// Force along the normal of the wing, and the moments of this force.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalLoad<R> {
     /// Force F (N).
@@ -34,7 +34,7 @@ impl<R: Real> NormalLoad<R> {
 
 /// Integral ∫ c^n r^m dr over a wing as a function of n and m.
 ///
-/// The chord is c, the distance from the stroke axis r.
+/// Here c is the chord, and r is the distance from the stroke axis.
 pub type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
 
 crate::per_lane! {
@@ -56,11 +56,11 @@ crate::per_lane! {
 }
 
 impl AddedMass<f64> {
-    /// Without added mass.
+    /// No added mass.
     pub const NONE: AddedMass<f64> = AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
 
-    /// Returns the added mass in air of this density (kg/m³), with the rotation about the mid-chord. The pitch axis is
-    /// `axis` chords behind the leading edge.
+    /// Returns the added mass in air of the given `density` (kg/m³), including the rotation about the mid-chord. The
+    /// pitch axis is `axis` chords behind the leading edge.
     pub fn of(density: f64, axis: f64, integral: &ChordIntegral<'_>) -> AddedMass<f64> {
         let (mass, behind) = (FRAC_PI_4 * density, 0.5 - axis);
         AddedMass {
@@ -75,7 +75,7 @@ impl AddedMass<f64> {
 }
 
 impl<R: Real> AddedMass<R> {
-    /// Returns the load at the normal acceleration r e₁ + e₀ − d e₂ of the sections.
+    /// Returns the load of the added mass, given the normal acceleration r e₁ + e₀ − d e₂ of the sections.
     ///
     /// ```text
     /// F = −(f₁ e₁ + f₀ e₀ − f₂ e₂)     M_c = −(a₁₁ e₁ + f₁ e₀ − a₁₂ e₂)     M_s = a₁₂ e₁ + f₂ e₀ − a₂₂ e₂
@@ -94,22 +94,23 @@ crate::per_lane! {
     /// Rotational circulation κ c² ω of the sections of a wing, with κ = π (3/4 − x₀) times a factor (Kramer 1932; Sane and
     /// Dickinson 2002). The pitch axis is x₀ chords behind the leading edge.
     ///
-    /// Its force ρ u_C κ c² ω Δr acts at a quarter of the chord. u_C is the velocity along the chord, as in potential flow.
-    /// Sane and Dickinson multiply by the speed instead, which is the same at small attack angles.
+    /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. u_C is the velocity along the
+    /// chord, as in potential flow. Sane and Dickinson multiply by the speed instead of u_C. At small attack angles,
+    /// the speed equals u_C.
     pub struct Circulation<R> {
-        /// κρ ∫ c² r^m dr for m from 0 to 2 (kg/m, kg, kg·m).
+        /// Factors κρ ∫ c² r^m dr of the force, for m from 0 to 2 (kg/m, kg, kg·m).
         pub force: [R; 3],
-        /// κρ (1/4 − x₀) ∫ c³ r^m dr for m from 0 to 1 (kg, kg·m).
+        /// Factors κρ (1/4 − x₀) ∫ c³ r^m dr of the moment, for m from 0 to 1 (kg, kg·m).
         pub moment: [R; 2],
     }
 }
 
 impl Circulation<f64> {
-    /// Without circulation.
+    /// No rotational circulation.
     pub const NONE: Circulation<f64> = Circulation { force: [0.0; 3], moment: [0.0; 2] };
 
-    /// Returns the circulation times `factor`, in air of this density (kg/m³), for a pitch axis `axis` chords behind the
-    /// leading edge.
+    /// Returns the circulation times `factor`, in air of the given `density` (kg/m³). The pitch axis is `axis` chords
+    /// behind the leading edge.
     pub fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
         if factor == 0.0 {
             return Circulation::NONE;
@@ -123,7 +124,7 @@ impl Circulation<f64> {
 }
 
 impl<R: Real> Circulation<R> {
-    /// Returns the load at a pitch rate ω relative to still air (rad/s).
+    /// Returns the load of the circulation at a pitch rate ω relative to still air (rad/s).
     ///
     /// ```text
     /// u_C = r P + Q     P = (φ̇ − Ω_z) sin ψ + Ω_t cos ψ     Q = a sin ψ + V_z cos ψ
@@ -142,21 +143,22 @@ impl<R: Real> Circulation<R> {
 }
 
 crate::per_lane! {
-    /// Normal force of the rotational drag of the sections of a wing, without a moment about the span axis.
+    /// Normal force that the rotational drag exerts on the sections of a wing, without a moment about the span axis.
     pub struct RotationalForce<R> {
-        /// ½Cρ I ∫ c³ dr (kg·m). I is the integral of z|z| over a chord of 1, with the distance z behind the pitch axis.
+        /// Factor ½Cρ I ∫ c³ dr of the force (kg·m). I is the integral of z|z| over a chord of 1, with the distance z
+        /// behind the pitch axis.
         pub force: R,
-        /// ½Cρ I ∫ r c³ dr (kg·m²).
+        /// Factor ½Cρ I ∫ r c³ dr of the moment about the chord's axis (kg·m²).
         pub moment: R,
     }
 }
 
 impl RotationalForce<f64> {
-    /// Without the force.
+    /// No force of the rotational drag.
     pub const NONE: RotationalForce<f64> = RotationalForce { force: 0.0, moment: 0.0 };
 
-    /// Returns the force for a drag coefficient, in air of this density (kg/m³), for a pitch axis `axis` chords behind the
-    /// leading edge.
+    /// Returns the force for a drag coefficient, in air of the given density (kg/m³). The pitch axis is `axis` chords
+    /// behind the leading edge.
     pub fn of(
         coefficient: f64,
         density: f64,
@@ -173,7 +175,8 @@ impl RotationalForce<f64> {
 }
 
 impl<R: Real> RotationalForce<R> {
-    /// Returns the load at a pitch rate ω relative to still air (rad/s): proportional to ω|ω|.
+    /// Returns the load of the rotational drag at a pitch rate ω relative to still air (rad/s). The load is
+    /// proportional to ω|ω|.
     #[inline(always)]
     pub fn load(&self, pitch_rate: R) -> NormalLoad<R> {
         let square = pitch_rate * pitch_rate.abs();

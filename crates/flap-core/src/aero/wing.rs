@@ -2,12 +2,12 @@
 
 use crate::quadrature::gauss_legendre;
 
-/// One station of the outline (m).
+/// One station of the outline of a wing; all lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Distance from the root along the span.
     pub span: f64,
-    /// Distance of the leading edge ahead of the hinge's axis; negative behind it.
+    /// Distance of the leading edge ahead of the hinge's axis; negative if the leading edge is behind the axis.
     pub leading: f64,
     /// Distance of the trailing edge behind the hinge's axis.
     pub trailing: f64,
@@ -16,7 +16,7 @@ pub struct Station {
 /// Error in the stations of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// Fewer than two stations.
+    /// The outline has fewer than two stations.
     #[error("an outline has at least two stations, not {0}")]
     TooFew(usize),
     /// The first station is not at the root.
@@ -46,42 +46,43 @@ pub struct Material {
     pub membrane: f64,
     /// Mass of the spar per length (kg/m).
     pub spar: f64,
-    /// Mass of the whole wing (kg), if it was weighed. Membrane and spar are then scaled to this mass.
+    /// Mass of the whole wing (kg), if it was weighed. The masses of membrane and spar are scaled to the weighed mass.
     pub weighed: Option<f64>,
 }
 
 /// A wing and the density of the air around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wing {
-    /// Its outline.
+    /// Outline of the wing.
     pub outline: Outline,
-    /// Distance of its root from the stroke axis (m).
+    /// Distance from the stroke axis to the root of the wing (m).
     pub offset: f64,
-    /// Mass distribution, if it is known.
+    /// Material of the wing, if the material is known.
     pub material: Option<Material>,
     /// Density of the air (kg/m³).
     pub air_density: f64,
 }
 
-/// Mass and moments of mass. Distances are r from the stroke axis and z behind the hinge's axis.
+/// Mass and moments of mass of a wing, with the distances r from the stroke axis and z behind the hinge's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Masses {
-    /// ∫ dm (kg).
+    /// Mass ∫ dm (kg).
     pub mass: f64,
     /// Distance of the centre of mass from the stroke axis (m).
     pub radius: f64,
     /// Distance of the centre of mass behind the hinge's axis (m).
     pub depth: f64,
-    /// ∫ r² dm (kg·m²).
+    /// Second moment of mass about the stroke axis, ∫ r² dm (kg·m²).
     pub rr: f64,
-    /// ∫ r z dm (kg·m²).
+    /// Product of inertia ∫ r z dm (kg·m²).
     pub rz: f64,
-    /// ∫ z² dm (kg·m²).
+    /// Second moment of mass about the hinge's axis, ∫ z² dm (kg·m²).
     pub zz: f64,
 }
 
 impl Masses {
-    /// Returns the moments about the centre of mass (kg·m²): [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm].
+    /// Returns the moments of mass about the centre of mass (R, Z) (kg·m²): [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z −
+    /// Z)² dm].
     pub(crate) fn about_centre(&self) -> [f64; 3] {
         let Masses { mass, radius, depth, rr, rz, zz } = *self;
         [rr - mass * radius * radius, rz - mass * radius * depth, zz - mass * depth * depth]
@@ -112,13 +113,13 @@ impl Outline {
         }
     }
 
-    /// Returns the distance from root to tip (m).
+    /// Returns the distance from the root to the tip of the wing (m).
     pub fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1].span
     }
 
-    /// Returns the positions of leading and trailing edge (m), as in [`Station`]. `span` is the distance from the
-    /// root (m).
+    /// Returns the positions of the leading and the trailing edge (m), as in [`Station`]. `span` is the distance from
+    /// the root (m).
     fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);
@@ -132,7 +133,7 @@ impl Outline {
         self.edges(span).iter().sum()
     }
 
-    /// Returns the largest distance of an edge from the hinge's axis (m).
+    /// Returns the largest distance between the hinge's axis and the outline (m).
     pub fn width(&self) -> f64 {
         self.stations
             .iter()
@@ -140,12 +141,14 @@ impl Outline {
             .fold(0.0, f64::max)
     }
 
-    /// Returns ∫ f(span, leading, trailing) d span. The result is exact if f is a polynomial of degree 11 or less.
+    /// Returns ∫ f(span, leading, trailing) d span. The result is exact if f is a polynomial of degree 11 or less on
+    /// each straight piece of the outline.
     pub(crate) fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
         self.lengths(|span, leading, trailing, _| f(span, leading, trailing))
     }
 
-    /// Returns the same integral with another argument of f: the length of the leading edge per span.
+    /// Returns ∫ f(span, leading, trailing, edge) d span, where edge is the length of the leading edge per length of
+    /// span.
     fn lengths(&self, f: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let rule = gauss_legendre(6);
         let piece = |ends: &[Station]| {
@@ -163,18 +166,18 @@ impl Outline {
 }
 
 impl Wing {
-    /// Returns the area (m²).
+    /// Returns the area of the wing (m²).
     pub fn area(&self) -> f64 {
         self.outline.integral(|_, leading, trailing| leading + trailing)
     }
 
-    /// Returns ∫ rⁿ c d span (m^(n+2)), with the distance r from the stroke axis.
+    /// Returns the moment of area ∫ rⁿ c d span (m^(n+2)), with the distance r from the stroke axis.
     pub(crate) fn area_moment(&self, power: i32) -> f64 {
         self.outline
             .integral(|span, leading, trailing| (self.offset + span).powi(power) * (leading + trailing))
     }
 
-    /// Returns ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
+    /// Returns the moment of area ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
     pub(crate) fn width_moment(&self, power: i32) -> f64 {
         let one_side = |edge: f64| edge.signum() * edge.abs().powi(power + 1) / f64::from(power + 1);
         self.outline.integral(|_, leading, trailing| one_side(leading) + one_side(trailing))
@@ -189,7 +192,7 @@ impl Wing {
         core::f64::consts::FRAC_PI_4 * self.air_density * strips
     }
 
-    /// Returns mass and moments of mass, if the material is known.
+    /// Returns mass and moments of mass of the wing, if the material is known.
     pub fn masses(&self) -> Option<Masses> {
         let Material { membrane, spar, weighed } = self.material?;
         // Integrand per span: the membrane between the edges, and the spar on the leading edge.

@@ -1,4 +1,4 @@
-//! The drive of a point, and the waveforms.
+//! The constants of the drive of a point, and the waveforms.
 //!
 //! Sine, square wave and chirp begin a period at zero and rise.
 
@@ -7,7 +7,8 @@ use core::f64::consts::PI;
 use super::parameters::{Shape, WaveformParameters};
 use crate::num::Real;
 
-/// A quantity at one time: a wave of unit amplitude, a voltage (V), or a prescribed stroke (rad).
+/// A quantity at one instant, with its derivatives: a wave of unit amplitude, a voltage (V), or a prescribed stroke
+/// (rad).
 #[derive(Clone, Copy, Debug)]
 pub struct Wave<R> {
     /// Value.
@@ -19,7 +20,7 @@ pub struct Wave<R> {
 }
 
 impl<R: Real> Wave<R> {
-    /// Returns a quantity without second derivative, such as a voltage.
+    /// Returns a quantity whose second derivative is not needed, such as a voltage.
     #[inline(always)]
     pub fn with_rate(value: R, rate: R) -> Wave<R> {
         Wave { value, rate, bend: value.lit(0.0) }
@@ -50,17 +51,17 @@ crate::per_lane! {
         pub bias: R,
         /// Amplitude of the voltage (V), or of the prescribed stroke (rad).
         pub amplitude: R,
-        /// Angular frequency (rad/s). For a chirp: at the beginning.
+        /// Angular frequency (rad/s). For a chirp, the angular frequency at the beginning.
         pub rate: R,
         /// Rate of change of the angular frequency (rad/s²); zero except for a chirp.
         pub growth: R,
-        /// Second harmonic: factors of sin 2θ and cos 2θ.
+        /// Factors of sin 2θ and cos 2θ in the second harmonic.
         pub second: [R; 2],
-        /// Third harmonic: factors of sin 3θ and cos 3θ.
+        /// Factors of sin 3θ and cos 3θ in the third harmonic.
         pub third: [R; 2],
         /// Half of the period (s).
         pub half_period: R,
-        /// Square wave: half of the rise time (s).
+        /// Half of the rise time of the square wave (s).
         pub half_rise: R,
         /// Smallest and largest value of the waveform over a period.
         pub range: [R; 2],
@@ -68,8 +69,8 @@ crate::per_lane! {
 }
 
 impl DriveConstants<f64> {
-    /// Returns a drive of `frequency` (Hz) with this constant part and amplitude. Units: V for a voltage, rad for a
-    /// prescribed stroke.
+    /// Returns a drive of the given `frequency` (Hz), constant part and amplitude. The units of constant part and
+    /// amplitude are V for a voltage, rad for a prescribed stroke.
     pub fn new(
         frequency: f64,
         waveform: &WaveformParameters,
@@ -165,8 +166,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the square wave, with edges at 0, at half the period and at its end. Each edge is a sine from −90° to
-    /// 90°.
+    /// Returns the square wave, with edges at the beginning, the middle and the end of the period. Each edge has the
+    /// shape of a sine from −90° to 90°.
     #[inline(always)]
     pub(super) fn square(&self, t: R) -> Wave<R> {
         let zero = t.lit(0.0);
@@ -191,8 +192,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the next time after `t` at which a derivative of the square wave jumps: where an edge begins or ends.
-    /// Infinite if there is none.
+    /// Returns the next time after `t` at which a derivative of the square wave jumps, because an edge begins or ends.
+    /// The result is infinite if the derivatives do not jump after `t`.
     #[inline(always)]
     pub(super) fn next_edge(&self, t: R) -> R {
         let period = self.half_period * 2.0;

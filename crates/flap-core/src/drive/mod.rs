@@ -1,7 +1,7 @@
 //! The drive of a wing: a voltage that follows a waveform, or a prescribed stroke.
 //!
-//! A model has a [`Drive`], common to the lanes of an ensemble, and [`DriveConstants`] of each point. Its parameter table
-//! contains [`WaveformParameters`], and [`StrokeParameters`] if its stroke can be prescribed.
+//! A model has one [`Drive`] for all lanes of an ensemble, and [`DriveConstants`] for each point. The parameter table
+//! of a model contains [`WaveformParameters`], and [`StrokeParameters`] if the stroke can be prescribed.
 
 mod constants;
 mod parameters;

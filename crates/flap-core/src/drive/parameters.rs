@@ -1,4 +1,4 @@
-//! Parameters of the drive, as parts of a model's table.
+//! Parameters of the drive, which are part of the parameter table of each model.
 
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
@@ -10,7 +10,7 @@ crate::choice! {
         Sine = "sine",
         /// sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
         Harmonics = "harmonics",
-        /// ±1, with edges of a half sine wave.
+        /// A square wave between −1 and 1 whose edges are half sine waves.
         Square = "square",
     }
 }
@@ -18,9 +18,10 @@ crate::choice! {
 crate::choice! {
     /// Quantity that the drive prescribes.
     pub enum StrokeMode {
-        /// The voltage: the stroke results from the equations of motion.
+        /// The drive prescribes the voltage: the stroke results from the equations of motion.
         Free = "free",
-        /// The stroke: the stroke equals the prescribed waveform. Only the pitch results from the equations of motion.
+        /// The drive prescribes the stroke: the stroke equals the prescribed waveform. Only the pitch results from the
+        /// equations of motion.
         Prescribed = "prescribed",
     }
 }
@@ -44,7 +45,7 @@ crate::parameters! {
         /// Here w is the angular drive frequency, t the time, and h_3 is drive_third_harmonic.
         drive_third_phase: f64 = ("rad", "", Number(Any)),
         /// Rise time of the square wave as a fraction of the drive period, for drive_shape = "square". The fall time
-        /// equals the rise time. The fraction is at most 0.5.
+        /// equals the rise time. The value of drive_rise is at most 0.5.
         drive_rise: f64 = ("", "", Number(Positive)),
     }
 }
@@ -53,7 +54,8 @@ impl WaveformParameters {
     /// A sine.
     pub const SINE: WaveformParameters = WaveformParameters::new(Shape::Sine);
 
-    /// Returns a waveform without harmonics. The edges of a square wave take a twentieth of the period.
+    /// Returns a waveform without harmonics. If `drive_shape` is a square wave, each edge takes a twentieth of the
+    /// period.
     pub const fn new(drive_shape: Shape) -> WaveformParameters {
         WaveformParameters {
             drive_shape,
@@ -70,7 +72,8 @@ crate::parameters! {
     /// Parameters of a prescribed stroke.
     pub struct StrokeParameters {
         /// Motion of the stroke: driven by the actuator, or prescribed. A prescribed stroke is stroke_amplitude times
-        /// the waveform of the drive, and the force for this motion is not limited. The pitch is free in both modes.
+        /// the waveform of the drive, and the force for this motion is not limited. The pitch results from the
+        /// equations of motion in both modes.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
         /// Amplitude of the prescribed stroke, for stroke_mode = "prescribed".
         stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),
@@ -78,16 +81,17 @@ crate::parameters! {
 }
 
 impl StrokeParameters {
-    /// A stroke that is driven by the actuator. The amplitude, 10°, applies if `stroke_mode` is set to prescribed.
+    /// A stroke that is driven by the actuator. If you set `stroke_mode` to "prescribed", the amplitude of the stroke
+    /// is 10°.
     pub const FREE: StrokeParameters =
         StrokeParameters { stroke_mode: StrokeMode::Free, stroke_amplitude: 10.0_f64.to_radians() };
 
-    /// Returns a prescribed stroke of this amplitude (rad).
+    /// Returns a prescribed stroke of the given amplitude (rad).
     pub const fn prescribed(stroke_amplitude: f64) -> StrokeParameters {
         StrokeParameters { stroke_mode: StrokeMode::Prescribed, stroke_amplitude }
     }
 
-    /// Returns constant part and amplitude of the driven quantity: the `voltage` (V), or the prescribed stroke (rad).
+    /// Returns the constant part and the amplitude of the prescribed quantity: the `voltage` (V) or the stroke (rad).
     pub fn levels(&self, voltage: [f64; 2]) -> [f64; 2] {
         match self.stroke_mode {
             StrokeMode::Free => voltage,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::num::Real;
 
-/// Smallest number of samples in a record.
+/// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
 
 /// Continuation of a record after its last sample.
@@ -19,7 +19,7 @@ pub enum Repeat {
 /// Error in the samples of a record.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SamplesError {
-    /// Fewer than four samples.
+    /// The record has fewer than four samples.
     #[error("{count} samples are too few: a record has at least {FEWEST}")]
     TooFew {
         /// Number of samples.
@@ -28,20 +28,20 @@ pub enum SamplesError {
     /// A time or a value is infinite or not a number.
     #[error("sample {sample} is not a number")]
     NotANumber {
-        /// Position of the sample, from 1.
+        /// Position of the sample in the record, counted from 1.
         sample: usize,
     },
-    /// Times do not increase.
+    /// The times of the samples do not increase.
     #[error("times do not increase: sample {sample} is at {time} s, the sample before at {before} s")]
     TimesNotIncreasing {
-        /// Position of the later sample, from 1.
+        /// Position of the later sample in the record, counted from 1.
         sample: usize,
-        /// Time of this sample (s).
+        /// Time of the later sample (s).
         time: f64,
-        /// Time of the sample before it (s).
+        /// Time of the previous sample (s).
         before: f64,
     },
-    /// First and last value of a periodic record differ.
+    /// The first and the last value of a periodic record differ.
     #[error("the first and last value of a periodic record must be equal, not {first} and {last}")]
     NotClosed {
         /// First value.
@@ -54,7 +54,8 @@ pub enum SamplesError {
 /// A record of samples as a smooth function of the phase, from 0 (first sample) to 1 (last sample).
 ///
 /// The function is a cubic spline: value, rate and second derivative are continuous, and the second derivative is
-/// linear between samples. Clones share the samples. Two records are equal only if one is a clone of the other.
+/// linear between samples. Clones of a record share the samples. Two records are equal only if one is a clone of the
+/// other.
 #[derive(Clone, Debug)]
 pub struct Samples(Arc<Record>);
 
@@ -64,9 +65,9 @@ struct Record {
     duration: f64,
     phases: Vec<f64>,
     values: Vec<f64>,
-    /// Mean value over the duration.
+    /// Mean value of the function over its duration.
     mean: f64,
-    /// Smallest and largest value, also between samples.
+    /// Smallest and largest value of the function, also between samples.
     range: [f64; 2],
     /// Second derivative with respect to phase at each sample.
     bends: Vec<f64>,
@@ -86,7 +87,7 @@ impl Samples {
     /// - `NotANumber` if a time or value is not finite.
     /// - `TimesNotIncreasing` if times do not increase.
     /// - `NotClosed` if first and last value of a periodic record differ by more than a thousandth of its range. A
-    ///   smaller difference is removed.
+    ///   smaller difference between the first and the last value is removed.
     pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, SamplesError> {
         let count = times.len().min(values.len());
         if count < FEWEST {
@@ -120,41 +121,41 @@ impl Samples {
         self.0.duration
     }
 
-    /// Returns the mean value over the duration.
+    /// Returns the mean value of the function over its duration.
     #[inline(always)]
     pub(super) fn mean(&self) -> f64 {
         self.0.mean
     }
 
-    /// Returns value, first and second derivative at a phase.
+    /// Returns the value of the function at a phase, and its first and second derivative with respect to phase.
     #[inline(always)]
     pub(super) fn at<R: Real>(&self, phase: R) -> [R; 3] {
         self.0.at(phase)
     }
 
-    /// Returns value, first and second derivative with respect to time (1/s, 1/s²) at `time` (s) after the first
-    /// sample.
+    /// Returns the value of the function at `time` (s) after the first sample, and its first and second derivative with
+    /// respect to time (1/s, 1/s²).
     pub fn motion(&self, time: f64) -> [f64; 3] {
         let duration = self.0.duration;
         let [value, rate, bend] = self.0.at(time / duration);
         [value, rate / duration, bend / (duration * duration)]
     }
 
-    /// Returns the smallest and the largest value, also between samples.
+    /// Returns the smallest and the largest value of the function, also between samples.
     pub fn range(&self) -> [f64; 2] {
         self.0.range
     }
 
-    /// Returns the smallest and the largest sample.
+    /// Returns the smallest and the largest value of the samples.
     pub fn sample_range(&self) -> [f64; 2] {
         range(&self.0.values)
     }
 }
 
 impl Record {
-    /// Returns value, first and second derivative with respect to phase.
+    /// Returns the value of the spline, and its first and second derivative with respect to phase.
     ///
-    /// The formula uses no fused operations, so all arithmetic classes give the same result.
+    /// The formula contains no fused multiply-add, so the results on all processors are identical.
     #[inline(always)]
     fn at<R: Real>(&self, phase: R) -> [R; 3] {
         let piece = phase.look_up(|phase| self.piece(phase));
@@ -227,7 +228,8 @@ fn check_closed(values: &[f64]) -> Result<(), SamplesError> {
 
 /// Returns the tridiagonal equations for the second derivatives of a spline at the inner samples.
 ///
-/// The arrays are the lower, middle and upper diagonal and the right-hand side.
+/// The four arrays are the lower, the middle and the upper diagonal of the matrix, and the right-hand side of the
+/// equations.
 fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
     let mut rows: [Vec<f64>; 4] = Default::default();
     for i in 1..x.len() - 1 {
@@ -240,9 +242,9 @@ fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
     rows
 }
 
-/// Returns the second derivatives of a "not-a-knot" spline.
+/// Returns the second derivatives of a "not-a-knot" spline at the samples.
 ///
-/// Its third derivative is continuous at the second and at the last but one sample.
+/// The third derivative of a "not-a-knot" spline is continuous at the second sample and at the last but one.
 fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, mut middle, upper, right] = equations(x, y);
     let n = middle.len();
@@ -263,7 +265,8 @@ fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     bends
 }
 
-/// Returns the second derivatives of the periodic spline, whose first and last sample are the same point.
+/// Returns the second derivatives of a periodic spline at the samples. The first and the last sample are the same
+/// point.
 fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, middle, upper, right] = equations(x, y);
     let n = middle.len();

@@ -1,4 +1,4 @@
-//! The part of the drive that all lanes of an ensemble share: the waveform, and the quantity that it prescribes.
+//! The part of the drive that all lanes of an ensemble share: the waveform and the prescribed quantity.
 
 use super::constants::{DriveConstants, Wave};
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
@@ -13,14 +13,14 @@ pub enum Waveform {
     Shape(Shape),
     /// Samples of one period.
     Samples(Samples),
-    /// sin θ with a frequency that changes at a constant rate.
+    /// A sine wave whose frequency changes at a constant rate.
     Chirp,
 }
 
 /// The part of a drive that all points in the lanes of an ensemble share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// Shape over time.
+    /// Shape of the drive over time.
     pub waveform: Waveform,
     /// Quantity that the drive prescribes.
     pub stroke: StrokeMode,
@@ -40,8 +40,8 @@ impl Drive {
     /// A prescribed stroke.
     pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
-    /// Returns the drive of a point with this shape and stroke mode. If this drive has samples, they replace the
-    /// shape.
+    /// Returns the drive of a point with the given shape and stroke mode. If the drive has samples, the samples replace
+    /// the shape.
     #[must_use]
     pub fn of_point(&self, shape: Shape, stroke: StrokeMode) -> Drive {
         let waveform = match &self.waveform {
@@ -63,11 +63,11 @@ impl Drive {
         self.stroke == StrokeMode::Prescribed
     }
 
-    /// Checks that a square wave has a flat part, and that a prescribed stroke has a continuous acceleration.
+    /// Checks that the edges of a square wave fit into the period, and that a prescribed stroke is not a square wave.
     ///
     /// # Errors
-    /// `Together` if the waveform is a square wave, and either takes more than 0.5 of the period to rise or is
-    /// prescribed for the stroke.
+    /// `Together` if the waveform is a square wave, and its rise time exceeds 0.5 of the period or the drive prescribes
+    /// the stroke.
     pub fn check(&self, waveform: &WaveformParameters) -> Result<(), Invalid> {
         if self.waveform != Waveform::Shape(Shape::Square) {
             return Ok(());
@@ -110,10 +110,10 @@ impl Drive {
         self.wave(c, t).scaled(c.bias, c.amplitude)
     }
 
-    /// Returns the next time after `t` (s) at which a derivative of the waveform jumps; infinite if there is none.
+    /// Returns the next time after `t` (s) at which a derivative of the waveform jumps; infinite if no derivative
+    /// jumps.
     ///
-    /// Samples have no such times: their second derivative is continuous, which is smooth enough for the step-size
-    /// control.
+    /// For samples the result is infinite, because the second derivative of their spline is continuous.
     #[inline(always)]
     pub fn next_break<R: Real>(&self, c: &DriveConstants<R>, t: R) -> R {
         match &self.waveform {
@@ -124,7 +124,8 @@ impl Drive {
         }
     }
 
-    /// Returns true if the second half of each period is the negative of the first.
+    /// Returns true if the waveform in the second half of each period is the negative of the waveform in the first
+    /// half.
     pub(crate) fn is_symmetric(&self, c: &DriveConstants<f64>) -> bool {
         match &self.waveform {
             Waveform::Shape(Shape::Sine | Shape::Square) => true,
@@ -133,7 +134,7 @@ impl Drive {
         }
     }
 
-    /// Returns the mean of the waveform over a period. Only samples can have a mean other than zero.
+    /// Returns the mean of the waveform over a period. The mean is zero unless the waveform consists of samples.
     #[inline(always)]
     pub(crate) fn mean(&self) -> f64 {
         match &self.waveform {

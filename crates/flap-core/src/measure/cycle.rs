@@ -1,9 +1,9 @@
 //! Measures of signals over one drive period: means, extrema, first harmonics.
 //!
-//! Means and harmonics are quadratures that advance with the stages of each step. They have the order of the
-//! integration and do not enter the error norm. Extrema come from a polynomial through five values of the signal in
-//! each step. The positive part of a signal that changes sign comes from two parabolas, each through three of these
-//! values. Each signal gets only the quantities that its measures need.
+//! Means and harmonics are quadratures that advance with the stages of each step. The quadratures have the order of the
+//! integration, and their errors do not affect the step size. Extrema are computed from a polynomial through five
+//! values of the signal in each step. The positive part of a signal that changes sign comes from two parabolas, each
+//! through three of the five values. For each signal, flap computes only the quantities that its measures need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Statistics, Totals};
@@ -13,7 +13,7 @@ use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Replaces those sums in `total` that `statistics` names, in the lanes in which the step was `accepted`.
+/// Replaces the sums in `total` that `statistics` selects, in the lanes in which the step was `accepted`.
 #[inline(always)]
 fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R::Mask, sum: &Totals<R>) {
     total.integral = R::select(accepted, sum.integral, total.integral);
@@ -38,10 +38,10 @@ fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R:
 /// For the load see [`Load::at_shoulder`](crate::model::Load::at_shoulder).
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
-/// Returns the sums over a period, given the sums over its first half.
+/// Returns the sums over a whole period, given the sums over the first half of the period.
 ///
-/// `second_half` computes the signals' sums over the second half. The mirrored stroke has the mirrored force and
-/// moment.
+/// `second_half` computes the signals' sums over the second half. In the second half, stroke, force and moment are the
+/// mirror images of their values in the first half.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,
@@ -54,13 +54,14 @@ pub(crate) fn over_both_halves<S: SignalSet>(
 /// Sums over the signals of the model `M` on one lane.
 pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
-/// Observer that sums up the signals of a model along a run.
+/// Observer that sums up the signals of a model during an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalObserver<'a, M> {
     model: &'a M,
-    /// True to find extrema and positive parts, which is most of the work. If false, these quantities are undefined.
+    /// True to compute extrema and positive parts, which is most of the work. If false, extrema and positive parts are
+    /// undefined.
     extrema: bool,
-    /// True to integrate the load too. If false, it is zero.
+    /// True to integrate the load at the shoulder too. If false, the integral of the load is zero.
     loads: bool,
 }
 
@@ -75,13 +76,14 @@ impl<'a, M> SignalObserver<'a, M> {
         SignalObserver { model, extrema: false, loads: false }
     }
 
-    /// Returns the observer with or without the load.
+    /// Returns the observer with the integration of the load switched on or off.
     #[must_use]
     pub(crate) fn with_loads(self, loads: bool) -> Self {
         SignalObserver { loads, ..self }
     }
 
-    /// Adds a step as [`Observer::add`] does. Returns the signals' ranges within the step, if extrema are enabled.
+    /// Adds a step as [`Observer::add`] does. Returns the ranges of the signals within the step, if the observer
+    /// computes extrema.
     #[inline(always)]
     pub(super) fn add_step<R: Lanes, const N: usize>(
         &self,
@@ -222,7 +224,8 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for SignalObserver<'_, M> {
     }
 }
 
-/// Returns the time integral of the load over a step. Kept out of line for the reason given at [`slope`].
+/// Returns the time integral of the load over a step. The code is compiled out of line for the reason given at
+/// [`slope`].
 #[inline(always)]
 fn impulse<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -244,9 +247,9 @@ pub(super) struct Within<R> {
     positive_mean: R,
 }
 
-/// Returns ranges and positive parts of the signals within a step, given the signals at its beginning.
+/// Returns ranges and positive parts of the signals within a step, given the signals at the beginning of the step.
 ///
-/// The step is searched part by part, see [`Model::parts`].
+/// The extrema are computed separately in each part of the step, see [`Model::parts`].
 #[inline(always)]
 fn within<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -311,7 +314,7 @@ fn between<M: Model<N>, R: Lanes, const N: usize>(
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })
 }
 
-/// Returns the signals at an instant. Kept out of line for the reason given at [`slope`].
+/// Returns the signals at an instant. The code is compiled out of line for the reason given at [`slope`].
 #[inline(always)]
 fn signals<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -330,7 +333,7 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// Returns the measures of the signals `S` over a cycle of `period` seconds, given their sums.
+/// Returns the measures of the signals `S` over a cycle of `period` seconds, given the sums over the signals.
 pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
     S::map(totals, |statistics, total: Totals<f64>| {
         // A signal that is not a number has no extrema and no positive part: `max` alone would skip NaN.

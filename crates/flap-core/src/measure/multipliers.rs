@@ -3,22 +3,23 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Largest number of iterations for the eigenvalues of a matrix. About ten are usual.
+/// Largest number of iterations for the eigenvalues of a matrix. Usually about ten iterations are enough.
 const LONGEST: usize = 200;
 
-/// Largest number of squarings in the stability test. About three are usual; after these, the eigenvalues decide.
+/// Largest number of squarings in the stability test. Usually about three squarings are enough. After the last
+/// squaring, the test computes the eigenvalues.
 const STABILITY_SQUARINGS: u32 = 8;
 
-/// Squarings of a matrix after which its powers give the spectral radius to rounding.
+/// Number of squarings of a matrix that gives the spectral radius to rounding errors.
 const SQUARINGS: u32 = 54;
 
 /// A matrix of N rows and columns, in row-major order.
 pub type Matrix<const N: usize> = [[f64; N]; N];
 
-/// Returns the monodromy matrix, in units of the scales.
+/// Returns the monodromy matrix, in units of the typical sizes `scale` of the states.
 ///
-/// `responses` are the responses over a period to changes by `scale`. Column j is the response to a change of
-/// component j by its scale.
+/// `responses` are the changes of the final state after a period, if the components of the initial state change by
+/// `scale`. Column j is the response to a change of state component j by its typical size.
 pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }
@@ -33,7 +34,8 @@ pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> 
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 
-/// Returns true if every eigenvalue is less than 1 in magnitude. The powers of such a matrix converge to zero.
+/// Returns true if every eigenvalue is less than 1 in magnitude. If all eigenvalues are less than 1 in magnitude, the
+/// powers of the matrix converge to zero.
 pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     let mut power = *m;
     for _ in 0..STABILITY_SQUARINGS {
@@ -65,8 +67,8 @@ pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
 
 /// Returns the [`spectral_radius`] of a finite matrix by Gelfand's formula, with repeated squaring.
 ///
-/// The radius is the limit of the n-th root of the norm of the n-th power. This is the fallback where the iteration
-/// for the eigenvalues does not converge.
+/// The spectral radius is the limit of the n-th root of the norm of the n-th power. The function is used if the
+/// iteration for the eigenvalues does not converge.
 pub fn spectral_radius_by_powers<const N: usize>(m: &Matrix<N>) -> f64 {
     let mut power = *m;
     let mut logarithm = 0.0;

@@ -1,7 +1,7 @@
-//! Extrema of the signals in each quarter of a drive period, together with their sums over the whole period.
+//! Extrema of the signals in each quarter of a drive period, together with the sums over the whole period.
 //!
-//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry raises
-//! one of them more than the other, so the larger of both has a kink. Such extrema lie in opposite quarters.
+//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry raises one
+//! extremum more than the other, so the larger of both extrema has a kink. The two extrema lie in opposite quarters.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -23,7 +23,7 @@ type Range<R> = [R; 2];
 /// Sums over the signals `S`, and the range of each signal in the four quarters of the period.
 pub type InQuarters<S, R> = (Sums<S, R>, Each<S, [Range<R>; 4]>);
 
-/// Observer that sums up the signals of a model and finds their extrema in each quarter.
+/// Observer that sums up the signals of a model and computes the extrema of the signals in each quarter.
 #[derive(Clone, Copy, Debug)]
 pub struct Quarters<'a, M>(pub SignalObserver<'a, M>);
 
@@ -70,14 +70,16 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
     }
 }
 
-/// Corrections that make nearly equal extrema of a signal equal.
+/// Corrections that make two nearly equal extrema of a signal exactly equal.
 #[derive(Clone, Copy)]
 struct Shifts {
-    /// Index of the quarter opposite to the largest value, and the difference of the two largest values.
+    /// Index of the quarter opposite to the quarter of the largest value, and the difference of the maxima of both
+    /// quarters.
     max: Option<(usize, f64)>,
-    /// Index of the quarter opposite to the smallest value, and the difference of the two smallest values.
+    /// Index of the quarter opposite to the quarter of the smallest value, and the difference of the minima of both
+    /// quarters.
     min: Option<(usize, f64)>,
-    /// Difference of the magnitudes of the largest and the smallest value.
+    /// Difference between the magnitudes of the largest and the smallest value.
     gap: Option<f64>,
 }
 
@@ -105,10 +107,11 @@ impl Shifts {
     }
 }
 
-/// Returns the sums of `runs` with nearly equal extrema corrected; `None` if there are none.
+/// Returns the sums of `runs`, in which nearly equal extrema are made equal; `None` if no extrema are nearly equal.
 ///
-/// The first run is a motion, the others slight changes of it. Extrema that differ by less than the relative `error`
-/// are made equal in the first run. The other runs get the same corrections.
+/// The first run is a motion, and the other runs are slightly changed motions. Extrema that differ by less than the
+/// relative `error` are made equal in the first run. The same corrections are then added to the extrema of the other
+/// runs.
 pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,
@@ -126,8 +129,8 @@ pub(crate) fn with_equal_extrema<S: SignalSet>(
     Some(equal.collect())
 }
 
-/// Returns the quarter opposite to the largest value and the difference of both values, if it is below the relative
-/// `error`.
+/// Returns the quarter opposite to the quarter of the largest value, and the difference of the maxima of both quarters.
+/// The result is `None` if the difference is not below the relative `error`.
 fn other_half(largest: [f64; 4], error: f64) -> Option<(usize, f64)> {
     let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
     let opposite = (quarter + 2) % 4;

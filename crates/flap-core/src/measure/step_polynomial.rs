@@ -2,10 +2,10 @@
 
 use crate::num::Real;
 
-/// A signal within a step or a part of it: five equidistant values and the quartic polynomial through them.
+/// A signal within a step or a part of a step: five equidistant values and the quartic polynomial through these values.
 pub(super) struct StepPolynomial<R> {
     values: [R; 5],
-    /// middle + a x + b x² + c x³ + d x⁴, with x from −2 to 2.
+    /// Coefficients a to d of middle + a x + b x² + c x³ + d x⁴, with x from −2 to 2.
     polynomial: [R; 4],
 }
 
@@ -25,18 +25,18 @@ impl<R: Real> StepPolynomial<R> {
         StepPolynomial { values, polynomial }
     }
 
-    /// Returns the value at x.
+    /// Returns the value of the polynomial at x.
     #[inline(always)]
     fn at(&self, x: R) -> R {
         let [a, b, c, d] = self.polynomial;
         x.mul_add(x.mul_add(x.mul_add(x.mul_add(d, c), b), a), self.values[2])
     }
 
-    /// Returns the smallest and the largest value. Candidates are the five points and the stationary points next to
-    /// them.
+    /// Returns the smallest and the largest value of the polynomial. Candidates are the five points and two stationary
+    /// points.
     ///
-    /// Stationary points are located on the parabolas of both halves. The extremum's error is quadratic in the error
-    /// of this position.
+    /// The stationary points are the vertices of two parabolas, one in each half of the step. The error of an extremum
+    /// is quadratic in the error of its position.
     #[inline(always)]
     pub(super) fn extrema(&self) -> [Extremum<R>; 2] {
         let [first, second] = self.halves();
@@ -59,7 +59,7 @@ impl<R: Real> StepPolynomial<R> {
         [min, max]
     }
 
-    /// Returns the mean of the positive part.
+    /// Returns the mean of the positive part of the signal.
     #[inline(always)]
     pub(super) fn positive_mean(&self) -> R {
         let [first, second] = self.halves();
@@ -73,7 +73,7 @@ impl<R: Real> StepPolynomial<R> {
     }
 }
 
-/// An extremum of a signal: its value and its position, as x of the polynomial or as a fraction of the whole.
+/// An extremum of a signal: its value and its position, as x of the polynomial or as a fraction of the step.
 #[derive(Clone, Copy)]
 pub(super) struct Extremum<R> {
     pub(super) value: R,
@@ -81,8 +81,8 @@ pub(super) struct Extremum<R> {
 }
 
 impl<R: Real> Extremum<R> {
-    /// Returns the extremum with its position as a fraction of the whole. The polynomial covers `share` around
-    /// `middle`.
+    /// Returns the extremum with its position as a fraction of the step. The polynomial covers the part `share` of the
+    /// step, with its centre at `middle`.
     #[inline(always)]
     pub(super) fn within(self, middle: f64, share: f64) -> Extremum<R> {
         Extremum { place: self.place * (0.25 * share) + middle, ..self }
@@ -106,7 +106,7 @@ impl<R: Real> Extremum<R> {
 /// A parabola through three values of a signal: middle + slope x + ½ curvature x², with x from −1 to 1.
 #[derive(Clone, Copy)]
 struct Parabola<R> {
-    /// Position of its middle on the whole, whose x goes from −2 to 2.
+    /// Position of the parabola's middle, as x of the polynomial (from −2 to 2).
     centre: f64,
     middle: R,
     slope: R,
@@ -119,7 +119,8 @@ impl<R: Real> Parabola<R> {
         Parabola { centre, middle, slope: (end - begin) * 0.5, curvature: begin + end - middle * 2.0 }
     }
 
-    /// Returns the position of the vertex on the whole if it lies within the parabola, otherwise the middle.
+    /// Returns the position of the vertex, as x of the polynomial. If the vertex lies outside the parabola's interval,
+    /// the result is the middle of the interval.
     #[inline(always)]
     fn vertex(&self) -> R {
         let inside = self.slope.abs().lt(self.curvature.abs());
@@ -128,7 +129,7 @@ impl<R: Real> Parabola<R> {
         R::select(inside, -self.slope / curvature, zero) + self.centre
     }
 
-    /// Returns the mean of the positive part.
+    /// Returns the mean of the positive part of the signal.
     #[inline(always)]
     fn positive_mean(&self) -> R {
         let Parabola { middle, slope, curvature, .. } = *self;

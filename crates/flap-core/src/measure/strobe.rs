@@ -1,15 +1,16 @@
 //! Test for a periodic motion, from the state at the end of each drive period.
 //!
-//! The test depends on neither model nor waveform.
+//! The test does not depend on the model or the waveform.
 
-/// Longest orbit that is detected, in drive periods.
+/// Length of the longest orbit that the test detects, in drive periods.
 const LONGEST_PERIOD: u32 = 8;
 
 const LONGEST: usize = LONGEST_PERIOD as usize;
 
 /// Smallest distance between the points of a subharmonic orbit, in units of the states' typical sizes.
 ///
-/// A run that spirals slowly into a period-1 orbit also passes close to its own points.
+/// The limit is needed because a motion that slowly approaches a period-1 orbit also returns close to its own earlier
+/// points.
 const SEPARATE: f64 = 1e-2;
 
 /// The states at the ends of the last drive periods.
@@ -19,25 +20,25 @@ pub struct Strobe<const N: usize> {
     tolerance: f64,
     /// States at the ends of periods, the latest first.
     states: [[f64; N]; LONGEST + 1],
-    /// Numbers of consecutive period ends at which the state equalled the state 1, 2, … periods before.
+    /// Numbers of consecutive ends of periods at which the state equalled the state 1, 2, … periods earlier.
     repeats: [u32; LONGEST],
     cycles: u32,
 }
 
 impl<const N: usize> Strobe<N> {
-    /// Returns a strobe that contains the initial state only.
+    /// Returns a strobe (a record of states at the ends of periods) that contains only the initial state.
     ///
-    /// Changes of a component count in units of its `scale`. In a motion smaller than the scales, they count relative
-    /// to the motion's own size. Otherwise a wing that hardly moves would always count as settled. A change of up to
-    /// `tolerance` counts as zero.
+    /// The unit of the change of a state component is its typical size in `scale`. In a motion smaller than `scale`,
+    /// changes are relative to the size of the motion. Otherwise a motion with a very small amplitude would always
+    /// count as settled. A change of up to `tolerance` counts as zero.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
 
-    /// Adds the state at the end of a period. Returns the orbit's length in periods once it has settled.
+    /// Adds the state at the end of a period. Returns the length of the orbit in periods, if the motion has settled.
     ///
-    /// An orbit of p periods has settled if the state returned to its value p periods before at p + 1 consecutive
-    /// period ends. Every point of the orbit has then returned. For p > 1 the points must also be separate.
+    /// An orbit of p periods has settled if p + 1 consecutive states at period ends equal the states p periods earlier.
+    /// For p > 1, the points of the orbit must also be separate.
     pub fn period_end(&mut self, y: &[f64; N]) -> Option<u32> {
         self.states.rotate_right(1);
         self.states[0] = *y;
@@ -58,7 +59,7 @@ impl<const N: usize> Strobe<N> {
 
     /// Returns the largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
     ///
-    /// NaN before that many periods have passed.
+    /// The result is NaN if fewer than `periods` periods have passed.
     pub fn change(&self, periods: u32) -> f64 {
         if self.cycles < periods {
             return f64::NAN;
@@ -83,7 +84,7 @@ impl<const N: usize> Strobe<N> {
         &self.states[1]
     }
 
-    /// Returns the number of periods added.
+    /// Returns the number of periods that were added to the strobe.
     pub fn cycles(&self) -> u32 {
         self.cycles
     }

@@ -1,18 +1,19 @@
-//! The load of the air on a wing: force and moment at its shoulder.
+//! The load of the air on a wing: force and moment at the shoulder of the wing.
 
 use crate::aero::NormalLoad;
 use crate::num::Real;
 
 /// The load of the air on a wing at an instant, in directions that move with the wing.
 ///
-/// The shoulder is the intersection of span axis and stroke axis. It is the reference point of the moments.
+/// The shoulder is the intersection of span axis and stroke axis. The shoulder is the reference point of the moments.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<R> {
     /// Stroke angle (rad).
     pub stroke: R,
     /// Force along the stroke axis (N), positive upwards: ∫ dL.
     pub lift: R,
-    /// Force across the span in the stroke plane (N), positive against a positive stroke: ∫ dD.
+    /// Force in the stroke plane, perpendicular to the span (N): ∫ dD. The force is positive if it acts against a
+    /// positive stroke.
     pub drag: R,
     /// Moment of the lift (N·m): ∫ r dL, with the distance r from the stroke axis along the span.
     pub lift_moment: R,
@@ -23,7 +24,7 @@ pub struct Load<R> {
 }
 
 impl<R: Real> Load<R> {
-    /// Returns a load of unknown components. `number` is NaN.
+    /// Returns a load whose components are NaN, in the number type of `number`.
     pub(crate) fn unknown(number: R) -> Load<R> {
         let unknown = number.lit(f64::NAN);
         Load {
@@ -36,7 +37,7 @@ impl<R: Real> Load<R> {
         }
     }
 
-    /// Returns this load with another load along the wing's normal, at a pitch with this sine and cosine.
+    /// Returns the sum of this load and a load along the wing's normal, given the sine and the cosine of the pitch.
     #[inline(always)]
     #[must_use]
     pub fn with_normal(&self, normal: &NormalLoad<R>, [sin, cos]: [R; 2]) -> Load<R> {
@@ -50,10 +51,10 @@ impl<R: Real> Load<R> {
         }
     }
 
-    /// Returns force (N) and moment (N·m) at the shoulder in fixed axes.
+    /// Returns the force (N) and the moment (N·m) at the shoulder, in axes x, y and z that do not move with the wing.
     ///
-    /// x points in the direction of a positive stroke, y along the span at zero stroke, z upwards along the stroke
-    /// axis. For a left wing this system is right-handed.
+    /// The x axis points in the direction of a positive stroke, and the y axis along the span at zero stroke. The z
+    /// axis points upwards along the stroke axis. For a left wing, the axes form a right-handed system.
     ///
     /// ```text
     /// span e_s = (sin φ, cos φ, 0)     motion e_t = (cos φ, −sin φ, 0)

@@ -1,31 +1,32 @@
 //! Signals of a model, and their measures over a drive period.
 
-/// A quantity over time.
+/// A signal of a model: a quantity as a function of time.
 #[derive(Clone, Copy, Debug)]
 pub struct Signal {
-    /// Name, the first part of its column names.
+    /// Name of the signal, which is the first part of the names of its columns.
     pub name: &'static str,
-    /// Unit of its columns.
+    /// Unit of the columns of the signal.
     pub unit: Unit,
-    /// Description that continues words such as "mean".
+    /// Description of the signal, which is appended to words such as "mean".
     pub doc: &'static str,
-    /// Measures over a drive period, one column each. A signal without measures serves derived columns alone and has
-    /// no column in trajectories.
+    /// Measures of the signal over a drive period, one column for each measure. A signal without measures is used only
+    /// in derived columns and has no column in trajectories.
     pub measures: &'static [Measure],
-    /// Measures that derived columns alone use.
+    /// Measures that are used only in derived columns.
     pub needed: &'static [Measure],
-    /// Measure whose error contributes to the error of a row, if any. A model has at least one such signal.
+    /// Measure of the signal whose error contributes to the error estimate of a row, if the signal has such a measure.
+    /// A model has at least one signal with such a measure.
     pub principal: Option<Principal>,
     /// Measures of a force for which the rows of a vehicle have one column per wing.
     pub of_wings: &'static [Measure],
 }
 
-/// Form of a wing's column in the rows of a vehicle.
+/// Columns of the rows of a vehicle that correspond to one column of its wings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverWings {
-    /// The sum over the wings.
+    /// One column with the sum over all wings.
     Sum,
-    /// One column per wing.
+    /// One column for each wing.
     Each,
     /// No column.
     Omitted,
@@ -42,10 +43,11 @@ impl Signal {
         Signal { name, unit, doc, measures, needed: &[], principal: None, of_wings: &[] }
     }
 
-    /// Returns the form of a measure of this signal in the rows of a vehicle.
+    /// Returns the columns that the rows of a vehicle contain for a measure of this signal.
     ///
-    /// Mean powers add up. Extrema and root mean squares of a sum depend on the phases between the wings, so each
-    /// wing has its own column. Forces of a vehicle have separate columns.
+    /// For a mean power, the row contains the sum over all wings. Extrema and root mean squares of a sum depend on the
+    /// phases between the wings, so each wing has its own column. Forces are omitted, because the force of the vehicle
+    /// has separate columns.
     pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
         match (self.unit.name, measure) {
             _ if self.of_wings.contains(&measure) => OverWings::Each,
@@ -55,7 +57,7 @@ impl Signal {
         }
     }
 
-    /// Returns the name of its column in a trajectory.
+    /// Returns the name of the signal's column in a trajectory.
     pub fn column(&self) -> String {
         if self.unit.suffix.is_empty() {
             self.name.to_owned()
@@ -64,7 +66,7 @@ impl Signal {
         }
     }
 
-    /// Returns true if it has columns.
+    /// Returns true if the signal has columns.
     pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
@@ -83,7 +85,7 @@ impl Signal {
     }
 }
 
-/// Quantities of a signal that are integrated or searched for over a drive period, besides its mean.
+/// Quantities of a signal that flap computes over a drive period, in addition to the mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is independent of the others")]
 pub struct Statistics {
@@ -98,7 +100,8 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Returns the quantities that the `measures` require. The positive part also requires the range.
+    /// Returns the quantities that the `measures` require. The mean of the positive part also requires the largest and
+    /// the smallest value.
     const fn of(measures: &[Measure]) -> Statistics {
         let mut statistics = Statistics { squared: false, rectified: false, harmonic: false, ranged: false };
         let mut i = 0;
@@ -124,10 +127,10 @@ impl Statistics {
     }
 }
 
-/// Measure whose error contributes to the error of a row.
+/// Measure whose error contributes to the error estimate of a row.
 ///
-/// The second integration at coarser tolerances computes means and first harmonics, but no extrema and positive
-/// parts.
+/// For the error estimate, a second integration with larger tolerances computes means and first harmonics, but no
+/// extrema and positive parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Principal {
     /// Mean.
@@ -149,7 +152,7 @@ impl Principal {
 /// A measure of a signal over one drive period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Half of largest minus smallest value.
+    /// Half of the difference between the largest and the smallest value.
     Amplitude,
     /// Largest minus smallest value.
     PeakToPeak,
@@ -172,7 +175,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// Returns the middle part of column names.
+    /// Returns the name of the measure, which is the middle part of column names.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Measure::Amplitude => "amplitude",
@@ -188,7 +191,7 @@ impl Measure {
         }
     }
 
-    /// Returns the measure in words that the signal's description continues.
+    /// Returns the words for the measure, to which the description of the signal is appended.
     pub(crate) fn describe(self) -> &'static str {
         match self {
             Measure::Amplitude => "half of the difference between the largest and the smallest",
@@ -205,8 +208,8 @@ impl Measure {
     }
 }
 
-/// Measures of a signal over one drive period, in SI units: its mean and the quantities that its measures require.
-/// The others are NaN.
+/// Quantities of a signal over one drive period, in SI units, from which its measures are computed. Quantities that no
+/// measure requires are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
     /// Mean.
@@ -215,7 +218,8 @@ pub struct SignalCycle {
     pub mean_square: f64,
     /// Mean of the positive part.
     pub positive_mean: f64,
-    /// First harmonic X of x = Re(X e^{iωt}), real and imaginary part; t = 0 where the drive's sine rises.
+    /// Real and imaginary part of the first harmonic X in x = Re(X e^{iωt}). At t = 0, the sine of the drive rises
+    /// through zero.
     pub first: [f64; 2],
     /// Largest value.
     pub max: f64,
@@ -224,11 +228,11 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
-    /// Replaces the mean of this power by the sum of the means of its `losses`. A mean that is NaN remains NaN.
+    /// Replaces the mean of this power by the sum of the mean `losses`, unless the mean is NaN.
     ///
-    /// Both means are equal over a periodic orbit, because capacitance, springs and inertia return all their energy.
-    /// If losses are small or the motion is far from resonance, the quadrature error of this exchange can exceed the
-    /// mean power.
+    /// In a periodic orbit, the mean power equals the sum of the mean losses, because capacitance, springs and inertia
+    /// return all their energy. If losses are small or the motion is far from resonance, the quadrature error of the
+    /// exchanged power can exceed the mean power.
     pub fn balance(&mut self, losses: &[SignalCycle]) {
         if !self.mean.is_nan() {
             self.mean = losses.iter().map(|loss| loss.mean).sum();
@@ -240,13 +244,13 @@ impl SignalCycle {
         (other.mean - self.mean) / self.mean
     }
 
-    /// Returns the size of the signal: its largest known magnitude.
+    /// Returns the largest magnitude among the known quantities of the signal.
     pub(crate) fn size(&self) -> f64 {
         let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
         known.iter().fold(0.0, |size, value| value.abs().max(size))
     }
 
-    /// Returns the measure in SI units.
+    /// Returns the value of a measure in SI units.
     pub fn measure(&self, measure: Measure) -> f64 {
         match measure {
             Measure::Amplitude => 0.5 * (self.max - self.min),
@@ -268,14 +272,14 @@ impl SignalCycle {
     }
 }
 
-/// A unit of columns. A model may declare more units than the constants below.
+/// A unit of columns. A model may declare further units.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
-    /// Unit in words, such as `mN`.
+    /// Symbol of the unit, such as `mN`.
     pub name: &'static str,
     /// Last part of column names, such as `mn`.
     pub suffix: &'static str,
-    /// Factor from the SI unit.
+    /// Factor that converts a value in the SI unit to this unit.
     pub factor: f64,
 }
 
@@ -295,5 +299,5 @@ impl Unit {
 /// Degrees per radian.
 pub(super) const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-/// Standard gravity (m/s²): newtons per kilogram-force.
+/// Standard gravity (m/s²), which is the number of newtons per kilogram-force.
 pub(crate) const GRAVITY: f64 = 9.80665;

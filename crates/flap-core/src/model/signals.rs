@@ -5,24 +5,25 @@ use crate::num::{Lanes, PerLane};
 
 /// A set of signals, declared by [`signals!`](crate::signals).
 pub trait SignalSet: Copy + 'static {
-    /// One `T` for each signal, in the field of its name.
+    /// A struct with one `T` for each signal, in the field with the name of the signal.
     type Of<T: Copy>: Copy;
 
-    /// The signals, in the order of their columns.
+    /// The signals of the set, in the order of their columns.
     const TABLE: &'static [Signal];
 
-    /// Returns the same value for each signal.
+    /// Returns a set that contains the same value for each signal.
     fn all<T: Copy>(value: T) -> Self::Of<T>;
 
-    /// Returns the results of `f` for each signal. `f` gets the quantities to compute for it and two values.
+    /// Returns the results of `f` for each signal. The arguments of `f` are the required quantities of the signal and
+    /// two values.
     fn zip<A: Copy, B: Copy, C: Copy>(
         one: &Self::Of<A>,
         other: &Self::Of<B>,
         f: impl FnMut(Statistics, A, B) -> C,
     ) -> Self::Of<C>;
 
-    /// Calls `f` for each signal, with the quantities to compute for it, a mutable reference to its value in `of`,
-    /// and its values in `from`.
+    /// Calls `f` for each signal. The arguments of `f` are the required quantities of the signal, a mutable reference
+    /// to its value in `of`, and its values in `from`.
     fn update<A: Copy, B: Copy, const L: usize>(
         of: &mut Self::Of<A>,
         from: [&Self::Of<B>; L],
@@ -32,7 +33,8 @@ pub trait SignalSet: Copy + 'static {
     /// Returns each signal with its value, in the order of [`SignalSet::TABLE`].
     fn each<T: Copy>(of: &Self::Of<T>) -> impl Iterator<Item = (&'static Signal, T)>;
 
-    /// Returns the results of `f` for each signal. `f` gets the quantities to compute for it and one value.
+    /// Returns the results of `f` for each signal. The arguments of `f` are the required quantities of the signal and
+    /// one value.
     #[inline(always)]
     fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Statistics, A) -> B) -> Self::Of<B> {
         Self::zip(
@@ -47,7 +49,7 @@ pub trait SignalSet: Copy + 'static {
 /// One `T` for each signal of the set `S`: the struct that [`signals!`](crate::signals) declares.
 pub type SignalsOf<S, T> = <S as SignalSet>::Of<T>;
 
-/// [`SignalsOf`] as a group of numbers with one set per lane.
+/// [`SignalsOf`] as a group of numbers with one set of numbers for each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Each<S: SignalSet, T: Copy>(pub S::Of<T>);
 
@@ -90,16 +92,17 @@ impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
 
 /// Declares the signals of a model: a struct with one field per signal.
 ///
-/// Each line consists of name, unit, description and [measures](crate::model::Measure). Each measure is a column of
-/// rows. These options may follow:
+/// Each line of the macro consists of name, unit, description and [measures](crate::model::Measure). Each measure is a
+/// column of rows. A line may end with these options:
 ///
-/// - `principal Mean` or `principal First`: the [measure](crate::model::Principal) whose error contributes to the
-///   error of a row
-/// - `needs [...]`: measures that derived columns alone use
+/// - `principal Mean` or `principal First`: the [measure](crate::model::Principal) whose error contributes to the error
+///   estimate of a row
+/// - `needs [...]`: measures that are used only in derived columns
 /// - `of_wings [...]`: measures of a force for which the rows of a vehicle have one column per wing
 ///
-/// `Signals<T>` contains one `T` for each signal: `Signals<R>` values at an instant, `Signals<SignalCycle>` measures
-/// over a drive period. `Signals` alone represents the set, as [`Model::Signals`](crate::model::Model::Signals).
+/// `Signals<T>` contains one `T` for each signal. `Signals<R>` contains the values at an instant, and
+/// `Signals<SignalCycle>` the measures over a drive period. `Signals` without a type argument is the set of signals for
+/// [`Model::Signals`](crate::model::Model::Signals).
 ///
 /// ```
 /// use flap_core::model::{SignalSet, Unit};
@@ -131,7 +134,7 @@ macro_rules! signals {
         }
 
         impl $Name {
-            /// Description of each signal.
+            /// Descriptions of all signals, in one struct.
             pub const SIGNALS: $Name<$crate::model::Signal> = $Name {
                 $($signal: $crate::model::Signal {
                     $(principal: Some($crate::model::Principal::$principal),)?

@@ -1,7 +1,7 @@
 //! Models with the states `[stroke, pitch, stroke rate, pitch rate]`, whose stroke can be prescribed.
 //!
-//! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion are solved for both. If it
-//! is prescribed, they are solved for the pitch alone.
+//! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion are solved for stroke and
+//! pitch. If the stroke is prescribed, the equations are solved for the pitch alone.
 
 use super::motions::Imposed;
 use crate::drive::{Drive, DriveConstants, Wave};
@@ -9,10 +9,11 @@ use crate::num::Real;
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-/// Names of the states with their units, as trajectory columns.
+/// Names of the states with their units: the columns of trajectories.
 pub const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
-/// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the drive.
+/// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the moment of the
+/// drive.
 ///
 /// ```text
 /// ⎡M₁₁ M₁₂⎤ ⎡stroke acceleration⎤ = ⎡Q₁ + drive moment⎤
@@ -20,11 +21,11 @@ pub const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "p
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Balance<R> {
-    /// M₁₁, M₁₂, M₂₂ (kg·m²).
+    /// Entries M₁₁, M₁₂ and M₂₂ of the mass matrix (kg·m²).
     pub mass: [R; 3],
-    /// Q₁: moment about the stroke axis (N·m).
+    /// Generalised force Q₁: the moment about the stroke axis (N·m).
     pub stroke_moment: R,
-    /// Q₂: moment about the pitch axis (N·m).
+    /// Generalised force Q₂: the moment about the pitch axis (N·m).
     pub pitch_moment: R,
 }
 
@@ -40,10 +41,11 @@ impl<R: Real> Balance<R> {
         [y[2], y[3], stroke, pitch]
     }
 
-    /// Returns the derivative of the state `y` with a prescribed stroke. The pitch follows from the second equation.
+    /// Returns the derivative of the state `y` with a prescribed stroke. The pitch acceleration follows from the second
+    /// equation of motion.
     ///
-    /// The stroke's own states follow the prescribed stroke. Integration errors in these states decay at the rate
-    /// `forgetting` (1/s), so they do not add up.
+    /// The states of the stroke follow the prescribed stroke. Integration errors in these states decay at the rate
+    /// `forgetting` (1/s), so the errors do not accumulate.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;
@@ -56,23 +58,23 @@ impl<R: Real> Balance<R> {
     }
 }
 
-/// Returns the state `y`. If the stroke is prescribed, the drive's stroke replaces the state's own stroke.
+/// Returns the state `y`. If the stroke is prescribed, the stroke of the drive replaces the stroke in `y`.
 #[inline(always)]
 pub fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
 }
 
-/// Returns the derivative `dy` of a state. If the stroke is prescribed, the drive's stroke replaces the state's own
-/// stroke.
+/// Returns the derivative `dy` of a state. If the stroke is prescribed, the derivatives of the drive's stroke replace
+/// the derivatives of the stroke in `dy`.
 #[inline(always)]
 pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
-/// Returns the start of a point at rest, for [`Model::start`](super::Model::start).
+/// Returns the initial state of a point at rest, for [`Model::start`](super::Model::start).
 ///
-/// If the stroke is prescribed, the start lies on the drive's stroke. `sizes` are typical amplitudes of stroke and
-/// pitch (rad).
+/// If the stroke is prescribed, the initial stroke is the stroke of the drive. `sizes` are typical amplitudes of stroke
+/// and pitch (rad).
 pub fn start<C>(
     drive: &Drive,
     drive_constants: &DriveConstants<f64>,
@@ -85,7 +87,7 @@ pub fn start<C>(
     Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
-/// Returns state, derivative and drive of a wing with imposed stroke and pitch. For
+/// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, for
 /// [`Motions::placed`](super::Motions::placed).
 ///
 /// `stroke` and `pitch` contain value (rad), rate (rad/s) and second derivative (rad/s²).
@@ -93,9 +95,9 @@ pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
 }
 
-/// Returns the error of a mass matrix that is not positive definite.
+/// Returns the error for a mass matrix that is not positive definite.
 ///
-/// The first two of the inertias are too large relative to the last two.
+/// The error message states that the first two of the `parameters` are too large relative to the last two.
 pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
     let [a, b, c, d] = parameters;
     let reason = format!(
@@ -105,10 +107,10 @@ pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid 
     Invalid::together(parameters, reason)
 }
 
-/// Returns the state at rest right after an impulse that gives the stroke a rate (rad/s). For
+/// Returns the state immediately after an impulse at rest that gives the stroke a rate (rad/s), for
 /// [`Motions::struck`](super::Motions::struck).
 ///
-/// For a mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), `pitch rate = −(M₁₂/M₂₂) stroke rate`.
+/// With the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), the impulse also causes the pitch rate `−(M₁₂/M₂₂) stroke rate`.
 pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {
     [0.0, 0.0, stroke_rate, -(m12 / m22) * stroke_rate]
 }

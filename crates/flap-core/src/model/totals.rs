@@ -1,17 +1,18 @@
-//! Sums over a signal, and the sums over the second half of a period that mirrors the first.
+//! Time integrals and extrema of a signal, and their values for the second half of a period that mirrors the first
+//! half.
 
 crate::per_lane! {
-    /// Sums over a signal in a part of a drive period.
+    /// Time integrals and extrema of a signal s in a part of a drive period.
     pub struct Totals<R> {
-        /// ∫ s dt.
+        /// Time integral of the signal, ∫ s dt.
         pub integral: R,
-        /// ∫ s² dt.
+        /// Time integral of the square of the signal, ∫ s² dt.
         pub square: R,
-        /// ∫ max(s, 0) dt.
+        /// Time integral of the positive part of the signal, ∫ max(s, 0) dt.
         pub positive: R,
-        /// ∫ s cos ωt dt.
+        /// Time integral of the signal times cos ωt, ∫ s cos ωt dt.
         pub cosine: R,
-        /// ∫ s sin ωt dt.
+        /// Time integral of the signal times sin ωt, ∫ s sin ωt dt.
         pub sine: R,
         /// Largest value.
         pub max: R,
@@ -21,13 +22,13 @@ crate::per_lane! {
 }
 
 impl Totals<f64> {
-    /// Returns the sums over the second half of a period, for a signal whose second half equals its first half.
+    /// Returns the sums over the second half of a period, for a signal that is equal in both halves of the period.
     pub fn repeated(self) -> Self {
         Totals { cosine: -self.cosine, sine: -self.sine, ..self }
     }
 
-    /// Returns the sums over the second half of a period, for a signal whose second half is the negative of its first
-    /// half.
+    /// Returns the sums over the second half of a period, for a signal that has opposite signs in both halves of the
+    /// period.
     pub fn negated(self) -> Self {
         Totals {
             integral: -self.integral,

@@ -1,7 +1,7 @@
 //! One AVX-512 register of `f64`.
 //!
-//! `fearless_simd` supports AVX-512 on processors from Ice Lake and Zen 4 on. This file needs only the instructions
-//! of the first server processors with AVX-512 (Skylake-SP, 2017), which are common in clusters.
+//! The crate `fearless_simd` supports AVX-512 only on processors since Ice Lake and Zen 4. This module needs only the
+//! instructions of the first server processors with AVX-512 (Skylake-SP, 2017), which are common in clusters.
 
 #![expect(unsafe_code, reason = "an Avx512 exists only where its instructions do, and they touch no memory")]
 
@@ -58,10 +58,10 @@ impl Simd for Avx512 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct F64x8(__m512d);
 
-/// Wraps an intrinsic as a method.
+/// Wraps an AVX-512 intrinsic as a method.
 ///
-/// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`], which requires a proof that the instructions
-/// exist.
+/// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`], which requires a proof that the processor has the
+/// instructions.
 macro_rules! intrinsic {
     ($call:expr) => {
         unsafe { $call }

@@ -1,4 +1,4 @@
-//! The backend of computations. This is the only place that chooses instructions and arithmetic.
+//! The backend of computations: the choice of SIMD instructions and arithmetic.
 
 use core::fmt;
 
@@ -13,17 +13,17 @@ use super::avx512::Avx512;
 use super::register::Instructions;
 use super::{Lanes, OneLane, Simd, Unfused, Vector};
 
-/// Rounding of `mul_add`: once or twice. Within a class, results are equal to the last bit.
+/// Arithmetic class: `mul_add` rounds its result once or twice. Results of the same class are equal to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
-    /// Fused multiply-add: AVX2, AVX-512, NEON.
+    /// Fused multiply-add, which rounds once: AVX2, AVX-512, NEON.
     Fused,
-    /// Separate multiplication and addition: processors without a fused multiply-add.
+    /// Separate multiplication and addition, which round twice: processors without a fused multiply-add.
     Unfused,
 }
 
 impl Arithmetic {
-    /// Returns the name that a run's sidecar records.
+    /// Returns the name of the arithmetic class, which the sidecar of a sweep records.
     pub fn name(self) -> &'static str {
         match self {
             Arithmetic::Fused => "fma",
@@ -32,11 +32,11 @@ impl Arithmetic {
     }
 }
 
-/// Computing hardware of this machine: its processor with one set of SIMD instructions, or with scalars alone.
+/// The processor of this machine with one set of SIMD instructions, or with scalars alone.
 ///
 /// Choose a backend once at the beginning of a computation, with [`Backend::best`] or [`Backend::by_name`], and pass
-/// it on. Code that is generic over numbers then runs on its lanes ([`Backend::dispatch`]), or on scalars of its
-/// [`Arithmetic`] with the same bits.
+/// the backend on. Code that is generic over numbers runs on the lanes of the backend ([`Backend::dispatch`]), or on
+/// scalars of its [`Arithmetic`]. The results are equal to the last bit.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend {
     name: &'static str,
@@ -49,7 +49,7 @@ pub trait Kernel {
     /// Result of the computation.
     type Output;
 
-    /// Computes with the instructions of `S`. Mark implementations `#[inline(always)]`.
+    /// Runs the computation with the instructions of `S`. Mark implementations `#[inline(always)]`.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -71,7 +71,7 @@ impl Backend {
         Self::available().swap_remove(0)
     }
 
-    /// Returns all backends of this machine, the fastest first.
+    /// Returns all backends of this machine, beginning with the fastest backend.
     pub fn available() -> Vec<Backend> {
         let proofs = [
             #[cfg(target_arch = "x86_64")]
@@ -88,22 +88,23 @@ impl Backend {
         proofs.into_iter().filter_map(backend).collect()
     }
 
-    /// Returns the available backend with this [name](Backend::name).
+    /// Returns the available backend with the given [name](Backend::name).
     pub fn by_name(name: &str) -> Option<Backend> {
         Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
-    /// Returns the name that a run's sidecar records: `avx512`, `avx2`, `neon` or `scalar`.
+    /// Returns the name of the backend, which the sidecar of a sweep records: `avx512`, `avx2`, `neon`
+    /// or `scalar`.
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// Returns the class of its arithmetic.
+    /// Returns the arithmetic class of the backend.
     pub fn arithmetic(self) -> Arithmetic {
         self.arithmetic
     }
 
-    /// Returns the number of SIMD lanes: two registers of `f64`, or one scalar.
+    /// Returns the number of lanes, which is the number of `f64` in two registers, or 1 with scalars.
     pub fn lanes(self) -> usize {
         struct Count;
 
@@ -119,7 +120,7 @@ impl Backend {
         self.dispatch(Count)
     }
 
-    /// Runs `kernel` on SIMD lanes, compiled for this backend's instructions.
+    /// Runs `kernel` on SIMD lanes, compiled for the instructions of this backend.
     #[inline]
     pub fn dispatch<K: Kernel>(self, kernel: K) -> K::Output {
         match self.proof {

@@ -1,16 +1,17 @@
-//! Elementary functions on lanes, as polynomials. All machines of an arithmetic class compute the same bits.
+//! Elementary functions on lanes, as polynomials. The results of all machines of an arithmetic class are equal to the
+//! last bit.
 //!
-//! Sine, cosine and exponential are minimax polynomials, the latter on |r| ≤ ½ ln 2. The logarithm follows FreeBSD's
-//! msun (`e_log.c`; Sun Microsystems, 1993).
+//! Sine, cosine and exponential are minimax polynomials. The polynomial of the exponential is valid for |r| ≤ ½ ln 2.
+//! The logarithm follows FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993).
 
 use super::lanes::{Bits, ROUND};
 use super::real::Real;
 
-/// π in two parts. The first has 33 significant bits, so its products with whole numbers up to 2^20 are exact. The
-/// sum of both is accurate to 10^-26.
+/// π as the sum of two numbers. The first number has 33 significant bits, so its products with whole numbers up to 2^20
+/// are exact. The sum of both numbers is accurate to 10^-26.
 const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
 
-/// Coefficients of z, z², … in sin √z / √z − 1 up to a quarter turn; errors below 4·10^-17.
+/// Coefficients of z, z², … in sin √z / √z − 1, for angles √z up to a quarter turn, with errors below 4·10^-17.
 const SIN: [f64; 8] = [
     -0.166_666_666_666_666_66,
     0.008_333_333_333_333_316,
@@ -22,7 +23,7 @@ const SIN: [f64; 8] = [
     2.731_436_876_937_989_3e-15,
 ];
 
-/// Coefficients of z², z³, … in cos √z − 1 + z/2 up to a quarter turn; errors below 7·10^-17.
+/// Coefficients of z², z³, … in cos √z − 1 + z/2, for angles √z up to a quarter turn, with errors below 7·10^-17.
 const COS: [f64; 7] = [
     0.041_666_666_666_666_66,
     -0.001_388_888_888_888_476_5,
@@ -33,10 +34,10 @@ const COS: [f64; 7] = [
     4.646_422_837_808_079_4e-14,
 ];
 
-/// Returns c₀ + c₁ x + c₂ x² + …, given x².
+/// Returns the polynomial c₀ + c₁ x + c₂ x² + …, given x and x².
 ///
-/// The method is Horner's rule in x², over pairs of coefficients. It needs as many operations as the rule in x, but
-/// its chain of dependent operations is half as long.
+/// The method is Horner's rule in x², over pairs of coefficients. The method needs as many operations as Horner's rule
+/// in x, but its chain of dependent operations is half as long.
 #[inline(always)]
 fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     let pair = |i: usize| {
@@ -54,7 +55,7 @@ fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
 
 /// Returns the number of half turns of an angle, and the remainder r with |r| ≤ π/2.
 ///
-/// The first is a number whose lowest bit is set if the half turns are odd.
+/// The lowest bit of the first result is set if the number of half turns is odd.
 #[inline(always)]
 fn half_turns<R: Bits>(x: R) -> (R, R) {
     let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
@@ -83,10 +84,10 @@ pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
     (sin.flip_sign_by_lowest_bit(odd), cos.flip_sign_by_lowest_bit(odd))
 }
 
-/// ln 2 in two parts; the first has 33 significant bits.
+/// ln 2 as the sum of two numbers. The first number has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// Coefficients of 1, r, r², … in (e^r − 1)/r up to ½ ln 2; errors below 3·10^-17.
+/// Coefficients of 1, r, r², … in (e^r − 1)/r, for |r| up to ½ ln 2, with errors below 3·10^-17.
 ///
 /// The first coefficient is exactly 1, which makes the result accurate for small r.
 const EXP: [f64; 11] = [
@@ -112,10 +113,10 @@ fn reduce<R: Bits>(x: R) -> (R, R) {
     (k, r)
 }
 
-/// Smallest argument with an infinite exponential: ln(2^1024), rounded up.
+/// Smallest argument whose exponential is infinite: ln(2^1024), rounded up.
 const EXP_MAX: f64 = 709.782_712_893_384_1;
 
-/// Smallest argument with a normal number as its exponential: ln(2^-1022).
+/// Smallest argument whose exponential is a normal number: ln(2^-1022).
 const EXP_MIN: f64 = -708.396_418_532_264_1;
 
 /// [`Real::exp`].

@@ -1,6 +1,6 @@
 //! Macros for operators and functions of the types in this folder.
 
-/// Implements an operator for `[generics] Type`, given the expression of its result.
+/// Implements an operator for `[generics] Type`, given the expression that computes the result of the operator.
 macro_rules! operator {
     ([$($generics:tt)*] $Type:ty, $Trait:ident::$method:ident, |$a:ident| $result:expr) => {
         impl<$($generics)*> core::ops::$Trait for $Type {
@@ -24,7 +24,7 @@ macro_rules! operator {
     };
 }
 
-/// Implements operators with a constant on the right, in terms of operators with two numbers.
+/// Implements operators with a constant on the right, by calls of the operators with two numbers.
 macro_rules! constants_on_the_right {
     ([$($generics:tt)*] $Type:ty) => {
         $crate::num::macros::constants_on_the_right!([$($generics)*] $Type, Add::add);
@@ -42,7 +42,7 @@ macro_rules! constants_on_the_right {
     };
 }
 
-/// Implements methods of a wrapper in terms of the number in it.
+/// Implements methods of a wrapper type by calls of the same methods of the wrapped number.
 macro_rules! of_inner {
     ($Wrapper:ident: $($method:ident($($argument:ident),*)),*) => {
         $(
@@ -54,7 +54,7 @@ macro_rules! of_inner {
     };
 }
 
-/// Implements methods of a pair in terms of both of its numbers.
+/// Implements methods of a pair by calls of the same methods of both numbers.
 macro_rules! of_both {
     ($Pair:ident: $($method:ident($($argument:ident),*)),*) => {
         $(
@@ -66,7 +66,7 @@ macro_rules! of_both {
     };
 }
 
-/// Implements the functions of `Real` for `Lanes` with the polynomials of `functions`.
+/// Implements the functions of `Real` for types with `Lanes`, with the polynomials of the module `functions`.
 macro_rules! functions_of_lanes {
     () => {
         $crate::num::macros::functions_of_lanes!(

@@ -1,14 +1,15 @@
 //! Number types of models and integrators.
 //!
-//! A model's equations are generic over [`Real`]. They run on `f64` (one point at a time) and on [`Vector`] (one
-//! point per SIMD lane), with the same bits from both:
+//! A model's equations are generic over [`Real`]. The equations run on `f64` (one point at a time) and on [`Vector`]
+//! (one point for each SIMD lane). The results of both are equal to the last bit, for these reasons:
 //!
-//! - no operation mixes lanes, so a lane never depends on its neighbours;
-//! - elementary functions are polynomials of this crate, never calls of std or the C library;
-//! - Rust neither reassociates nor contracts floating-point expressions.
+//! - no operation mixes lanes, so the result in a lane never depends on other lanes;
+//! - elementary functions are polynomials in this crate, and not functions of std or the C library;
+//! - the Rust compiler neither reassociates nor contracts floating-point expressions.
 //!
 //! [`Real`] contains all operations of the equations. [`Lanes`] adds the access to single lanes that the integrator
-//! needs. [`PerLane`] is a group of numbers. A [`Backend`] chooses the instructions.
+//! needs. [`PerLane`] is a group of numbers with one set of numbers for each lane. A [`Backend`] chooses the
+//! instructions.
 //!
 //! `mul_add` rounds once on processors with a fused multiply-add (AVX2, AVX-512, NEON), and twice on other processors.
 //! Results of the two [arithmetic classes](Arithmetic) differ by about the integration tolerance. Results of the same

@@ -1,7 +1,7 @@
-//! A pair of groups of lanes: twice the number of lanes.
+//! A pair of two groups of lanes, which doubles the number of lanes.
 //!
-//! A right-hand side is a long chain of dependent operations. A second, independent chain keeps the processor busy
-//! between them.
+//! A right-hand side is a long chain of dependent operations. While one operation of this chain waits for the result of
+//! another operation, the processor computes the second group of lanes.
 
 use core::ops::{BitAnd, BitOr, Not};
 

@@ -1,30 +1,30 @@
-//! Groups of numbers with one set per lane, such as constants of a point or totals of a cycle.
+//! Groups of numbers with one set of numbers for each lane, such as the constants of a point or the sums over a cycle.
 
 use super::lanes::Lanes;
 use super::real::Real;
 
-/// A group of numbers, one set per lane.
+/// A group of numbers with one set of numbers for each lane.
 ///
-/// Numbers implement it, and structs declared by [`per_lane!`](crate::per_lane), arrays and pairs of groups. `()` is
-/// the empty group.
+/// The trait is implemented for numbers, for structs declared by [`per_lane!`](crate::per_lane), and for arrays and
+/// pairs of groups. The type `()` is the empty group.
 pub trait PerLane<R: Real>: Copy {
-    /// Set of one lane.
+    /// Set of numbers in one lane.
     type One: Copy;
 
-    /// Returns the same set in every lane, in numbers of the type of `like`.
+    /// Returns a group with the same set of numbers in each lane, in the number type of `like`.
     fn fill(like: R, one: &Self::One) -> Self;
 
-    /// Replaces the set of one lane.
+    /// Replaces the set of numbers in one lane.
     fn set(&mut self, lane: usize, one: &Self::One)
     where
         R: Lanes;
 
-    /// Returns the set of one lane.
+    /// Returns the set of numbers in one lane.
     fn get(&self, lane: usize) -> Self::One
     where
         R: Lanes;
 
-    /// Returns true if no number of a set is infinite or NaN.
+    /// Returns true if no number in the set is infinite or NaN.
     fn is_finite(one: &Self::One) -> bool;
 }
 
@@ -146,9 +146,11 @@ impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
     }
 }
 
-/// Declares a struct with one set of numbers per lane. Its fields are numbers `R` or groups of them.
+/// Declares a struct with one set of numbers for each lane. The fields of the struct are numbers `R` or groups of
+/// numbers.
 ///
-/// `Name<f64>` is the set of one lane. Struct and fields have the visibilities written before them.
+/// `Name<f64>` is the set of numbers in one lane. You write the visibility of the struct and of each field as in an
+/// ordinary struct.
 ///
 /// ```
 /// flap_core::per_lane! {

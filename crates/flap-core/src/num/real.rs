@@ -1,13 +1,13 @@
-//! Numbers in the equations of models.
+//! The trait of the numbers in the equations of models.
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or one real number per SIMD lane, with all operations that a model's equations need.
 ///
-/// Write equations with the ordinary operators, with literals on the right (`x * 0.5 + 1.0`). Comparisons return a
-/// mask. Combine masks with `&`, `|` and `!`, and use [`Real::select`] instead of `if`.
+/// Write equations with the ordinary operators, and write literals on the right of an operator (`x * 0.5 + 1.0`).
+/// Comparisons return a mask. Combine masks with `&`, `|` and `!`, and use [`Real::select`] instead of `if`.
 ///
-/// Other types may implement it, such as dual numbers for automatic differentiation.
+/// Other types may implement this trait, such as dual numbers for automatic differentiation.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -19,7 +19,7 @@ pub trait Real:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Result of a comparison, lane by lane.
+    /// Result of a comparison in each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
     /// Returns the constant `c`, of the same type as `self`.
@@ -43,81 +43,85 @@ pub trait Real:
     /// Returns sine and cosine of an angle (rad), for |x| up to 10^6, with errors below 10^-15.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Returns e^x: infinite above 709.78, zero below −708.39 (where it would be subnormal), NaN for NaN.
+    /// Returns e^x. The result is infinite above 709.78, zero below −708.39 (where e^x is a subnormal number), and NaN
+    /// for NaN.
     fn exp(self) -> Self;
 
-    /// Returns e^x − 1, accurate for small x too: infinite above 709.78, NaN for NaN.
+    /// Returns e^x − 1, which is accurate for small x, too. The result is infinite above 709.78, and NaN for NaN.
     fn exp_m1(self) -> Self;
 
-    /// Returns the natural logarithm: −∞ for 0 and subnormal numbers, NaN for negative numbers and NaN.
+    /// Returns the natural logarithm. The result is −∞ for 0 and subnormal numbers, and NaN for negative numbers and
+    /// for NaN.
     fn ln(self) -> Self;
 
-    /// Returns ln(1 + x), accurate for small x too: −∞ for −1, NaN for smaller numbers and NaN.
+    /// Returns ln(1 + x), which is accurate for small x, too. The result is −∞ for −1, and NaN for smaller numbers and
+    /// for NaN.
     fn ln_1p(self) -> Self;
 
     /// Returns the mask of `self < other`; false if either is NaN.
     fn lt(self, other: Self) -> Self::Mask;
 
-    /// Returns `yes` where `mask` is true, `no` elsewhere.
+    /// Returns `yes` in the lanes in which `mask` is true, and `no` in the other lanes.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Returns the entries of a table at `self`, lane by lane. The entries are constants without derivatives.
+    /// Returns the entries of `table` for the value of `self` in each lane. The entries are constants: their
+    /// derivatives with respect to `self` are zero.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
-    /// Calls `work`. Scalars and SIMD types call it out of line, so that it is compiled once.
+    /// Calls `work`. Scalars and SIMD types call `work` out of line, so that `work` is compiled once.
     #[inline(always)]
     fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         work()
     }
 
-    /// Returns the smaller of two numbers; `other` if either is NaN.
+    /// Returns the smaller of two numbers; `other` if either number is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
 
-    /// Returns the larger of two numbers; `other` if either is NaN.
+    /// Returns the larger of two numbers; `other` if either number is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(other.lt(self), self, other)
     }
 
-    /// Returns the sine of an angle (rad), with the bits of [`Real::sin_cos`].
+    /// Returns the sine of an angle (rad), which equals the sine of [`Real::sin_cos`] to the last bit.
     #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
 
-    /// Returns the angle of the point (`x`, `self`) above the x axis (rad), for two numbers of zero or more; zero if
-    /// both are zero. Its errors are below 10^-15.
+    /// Returns the angle (rad) between the x axis and the point (`x`, `self`), for `x` ≥ 0 and `self` ≥ 0. The result
+    /// is zero if both numbers are zero. The error of the angle is below 10^-15.
     #[inline(always)]
     fn angle_over(self, x: Self) -> Self {
         angle_over(self, x)
     }
 
-    /// Returns [`Real::exp`] of a number from −708 to 709. Beyond this range, which is not checked, the result is
-    /// unspecified.
+    /// Returns [`Real::exp`] of a number from −708 to 709. The function does not check this range. For other numbers,
+    /// the result is unspecified.
     #[inline(always)]
     fn exp_of_ordinary(self) -> Self {
         self.exp()
     }
 
-    /// Returns [`Real::exp_m1`] of a number from −708 to 709. Beyond this range, which is not checked, the result is
-    /// unspecified.
+    /// Returns [`Real::exp_m1`] of a number from −708 to 709. The function does not check this range. For other
+    /// numbers, the result is unspecified.
     #[inline(always)]
     fn exp_m1_of_ordinary(self) -> Self {
         self.exp_m1()
     }
 
-    /// Returns [`Real::ln`] of a normal positive number. For other numbers, which are not checked, the result is
-    /// unspecified.
+    /// Returns [`Real::ln`] of a normal positive number. The function does not check its argument. For other numbers,
+    /// the result is unspecified.
     #[inline(always)]
     fn ln_of_normal(self) -> Self {
         self.ln()
     }
 
-    /// Returns [`Real::ln_1p`] of x > −1 with 1 + x a normal number up to 10^300. For other numbers, which are not
-    /// checked, the result is unspecified.
+    /// Returns [`Real::ln_1p`] of a number x > −1, if 1 + x is a normal number up to 10^300. The function does not
+    /// check its argument. For other numbers, the result is unspecified.
     #[inline(always)]
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()
@@ -126,8 +130,8 @@ pub trait Real:
 
 /// Coefficients of the rational approximation of (arctan x − x)/x³ in x², for |x| up to tan(π/8).
 ///
-/// They are ordered from the highest power: numerator, and denominator without its leading coefficient 1 (Cephes,
-/// `atan.c`; Moshier, 1995).
+/// The first array contains the numerator, and the second array the denominator without its leading coefficient 1. Both
+/// begin with the highest power (Cephes, `atan.c`; Moshier, 1995).
 const ARCTAN: [[f64; 5]; 2] = [
     [
         -8.750_608_600_031_904e-1,

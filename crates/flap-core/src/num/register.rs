@@ -23,7 +23,7 @@ impl<S: Simd> lanes::Simd for Instructions<S> {
     }
 }
 
-/// A register: 4 lanes with AVX2, 2 with NEON.
+/// A register has 4 lanes with AVX2, and 2 lanes with NEON.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Register<S: Simd>(S::f64s);
 

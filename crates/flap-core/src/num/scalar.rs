@@ -11,17 +11,18 @@ use super::real::Real;
 
 /// A scalar: `f64`, or [`Unfused`] for machines without fused multiply-add.
 pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
-    /// Returns the scalar with this value.
+    /// Returns the scalar with the given value.
     fn new(value: f64) -> Self;
 
     /// Returns the value.
     fn value(self) -> f64;
 
-    /// Calls `work` with the instructions for this arithmetic enabled.
+    /// Calls `work` in a function in which the instructions for the arithmetic of the scalar are enabled.
     ///
     /// # Panics
     ///
-    /// The processor does not have them: `f64` needs AVX2 on x86-64. There, use [`Unfused`].
+    /// Panics if the processor does not have the instructions. On x86-64, `f64` needs AVX2. On processors without AVX2,
+    /// use [`Unfused`].
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
@@ -30,7 +31,7 @@ pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
 pub struct OneLane<R>(PhantomData<R>);
 
 impl<R: Scalar> OneLane<R> {
-    /// Returns the proof. Every processor computes with scalars.
+    /// Returns the proof without a check, because every processor can compute with scalars.
     pub const fn new() -> OneLane<R> {
         OneLane(PhantomData)
     }
@@ -81,7 +82,7 @@ impl<R: Scalar> Lanes for R {
     }
 }
 
-/// The scalar of [`super::Arithmetic::Fused`]. Its `mul_add` rounds once.
+/// The scalar of [`super::Arithmetic::Fused`], whose `mul_add` rounds once.
 impl Scalar for f64 {
     #[inline(always)]
     fn new(value: f64) -> f64 {
@@ -188,7 +189,7 @@ impl Bits for f64 {
     }
 }
 
-/// Calls `work` out of line.
+/// Calls `work` in a separate function that is not inlined.
 #[inline(never)]
 fn call<T>(work: impl FnOnce() -> T) -> T {
     work()

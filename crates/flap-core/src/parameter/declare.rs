@@ -13,8 +13,8 @@ pub const fn rows(tables: &[&[Parameter<'_>]]) -> usize {
     count
 }
 
-/// Returns the rows of `tables` in one array. `N` is the number of [`rows`], at least one. A row without a group gets
-/// the group of the row before.
+/// Returns the rows of `tables` in one array. `N` is the number of [`rows`], which is at least one. A row without a
+/// group gets the group of the previous row.
 #[doc(hidden)]
 pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Parameter<'a>; N] {
     let mut all = [tables[0][0]; N];
@@ -36,21 +36,23 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 
 /// Declares a model's parameter struct and its table.
 ///
-/// Each line consists of the field's documentation, name and type, then SI unit, symbol and
-/// [`Kind`](crate::parameter::Kind). The type is one of these:
+/// Each line consists of the documentation, the name and the type of a field, followed by SI unit, symbol and
+/// [`Kind`](crate::parameter::Kind). The type of a field is one of these types:
 ///
 /// - `f64`
 /// - `Option<f64>` for a number that follows other parameters until it is set
 /// - an enum declared by [`choice!`](crate::choice)
-/// - another such struct, with `(flatten)` in place of unit, symbol and kind: its rows are inserted into the table
+/// - another struct declared by `parameters!`, with `(flatten)` in place of unit, symbol and kind: the rows of this
+///   struct are inserted into the table
 ///
-/// A name in brackets before a field begins a group. After the kind, other fields of
+/// A name in brackets before a field begins a group of parameters. After the kind, other fields of
 /// [`Parameter`](crate::parameter::Parameter) may follow, such as `default: 0.0`.
 ///
-/// If each line ends with a value, declare a function below the struct that returns these values: `pub fn published()
-/// -> Params;`.
+/// If each line ends with a value, declare a function below the struct, for example `pub fn published() -> Params;`.
+/// The function returns the values.
 ///
-/// The struct gets `TABLE`, `from_values` and `to_values`. The table has the order of the fields.
+/// The macro adds `TABLE`, `from_values` and `to_values` to the struct. The rows of `TABLE` have the order of the
+/// fields.
 ///
 /// ```
 /// use flap_core::parameter::Kind::{Choice, Number};
@@ -119,12 +121,12 @@ macro_rules! parameters {
                 &$crate::parameter::joined::<{ $crate::parameter::rows(TABLES) }>(TABLES)
             };
 
-            /// Returns the parameters of a point, given one value per table entry.
+            /// Returns the parameters of a point, given one value for each row of the table.
             pub fn from_values(values: &[f64]) -> $Name {
                 $crate::parameter::Slot::take(&mut values.iter().copied())
             }
 
-            /// Returns one value per table entry.
+            /// Returns one value for each row of the table.
             pub fn to_values(&self) -> Vec<f64> {
                 let mut values = Vec::new();
                 $crate::parameter::Slot::put(self, &mut values);
@@ -176,8 +178,9 @@ macro_rules! parameters {
 
 /// Declares an enum of named options for a parameter of the kind [`Choice`](crate::parameter::Kind::Choice).
 ///
-/// Each option has its documentation and its name in grid files. The value of an option in a point is its index. The
-/// first option is the default. The enum gets `ALL`, the options, and `NAMES`, their names.
+/// Each line contains the documentation of an option and the name of the option in grid files. In a point, the value of
+/// the parameter is the index of the option. The first option is the default. The macro adds the list `ALL` of the
+/// options and the list `NAMES` of their names to the enum.
 #[macro_export]
 macro_rules! choice {
     ($(#[$meta:meta])* pub enum $Name:ident {
@@ -216,10 +219,10 @@ macro_rules! choice {
 
 /// A field of a parameter struct: one value of a design point, or the values of a struct of parameters.
 pub trait Slot {
-    /// Returns the field, made from the next values of a point. Missing values count as not set.
+    /// Returns the field, computed from the next values of a point. If a value is missing, the parameter is not set.
     fn take(values: &mut impl Iterator<Item = f64>) -> Self;
 
-    /// Appends the point's values for the field.
+    /// Appends the values of the field to the values of a point.
     fn put(&self, values: &mut Vec<f64>);
 }
 

@@ -1,13 +1,13 @@
 //! Tables of parameters: names, units, descriptions and ranges.
 //!
-//! A point of a design space is one `f64` per parameter, in the order of the model's table. The value is one of
-//! these:
+//! A point of a design space is a list with one `f64` for each parameter, in the order of the model's table. The value
+//! of a parameter is one of these numbers:
 //!
 //! - a number in SI units
 //! - the index of an option, for a choice
-//! - NaN, for a number that is not set and follows others (see [`Kind::Following`])
+//! - NaN, for a parameter that is not set and follows other parameters (see [`Kind::Following`])
 //!
-//! User input never contains NaN, so NaN has no other meaning.
+//! Values that a user sets are never NaN, so NaN always means that the parameter is not set.
 
 mod declare;
 mod invalid;

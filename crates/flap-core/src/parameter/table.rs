@@ -3,25 +3,26 @@
 /// One row of the parameter table of a model or a vehicle.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter<'a> {
-    /// Name in grid files, on the command line and in Python.
+    /// Name of the parameter in grid files, on the command line and in Python.
     pub name: &'a str,
-    /// SI unit as units are written in grid files (`"N*m/rad"`), empty for pure numbers and choices.
+    /// SI unit in the form of grid files (`"N*m/rad"`), empty for pure numbers and choices.
     pub unit: &'static str,
-    /// Symbol in the model's paper, empty if the paper has none.
+    /// Symbol of the parameter in the paper of the model, empty if the paper has no symbol.
     pub symbol: &'static str,
     /// Allowed values.
     pub kind: Kind<'a>,
-    /// Description in one line, with its source.
+    /// Description of the parameter in one line, with the source of the value.
     pub doc: &'a str,
-    /// Part of the robot, such as `hinge`. It is a heading in lists of parameters.
+    /// Group of parameters: a part of the robot, such as `hinge`. The group is a heading in lists of parameters.
     pub group: &'a str,
-    /// Value if no preset sets the parameter; NaN if there is none.
+    /// Value of the parameter if no preset sets the parameter; NaN if the parameter has no default.
     pub default: f64,
-    /// True if the published value was fitted to measurements of one vehicle. It need not be valid for another.
+    /// True if the published value was fitted to measurements of one vehicle. The fitted value need not be valid for
+    /// another vehicle.
     pub is_fitted: bool,
-    /// Parameters whose change usually changes this one too, with the exponent. A wing's inertia grows with the fourth
-    /// power of its length if the wing keeps its shape and thickness. Models do not apply these powers: `flap check`
-    /// reports them.
+    /// Names and exponents of parameters whose change usually changes this parameter, too. For example, the inertia of
+    /// a wing grows with the fourth power of the wing length if shape and thickness stay the same. Models do not apply
+    /// these exponents, but `flap check` reports them.
     pub scales_with: &'static [(&'static str, f64)],
 }
 
@@ -47,7 +48,7 @@ impl<'a> Parameter<'a> {
         }
     }
 
-    /// Returns the index in `table` of the parameter with this name.
+    /// Returns the index in `table` of the parameter with the given name.
     pub fn index(table: &[Parameter<'_>], name: &str) -> Option<usize> {
         table.iter().position(|parameter| parameter.name == name)
     }
@@ -58,21 +59,21 @@ impl<'a> Parameter<'a> {
 pub enum Kind<'a> {
     /// A number in SI units.
     Number(Range),
-    /// A number that follows other parameters until it is set. The text is the value that it then has (`"half of
-    /// actuator_length"`).
+    /// A number whose value follows from other parameters if the parameter is not set. The text describes this value
+    /// (`"half of actuator_length"`).
     Following(Range, &'static str),
-    /// One of several named options: a reading of the paper, or a modelling choice.
+    /// One of several named options: an interpretation of the paper, or a modelling choice.
     Choice(&'a [&'a str]),
 }
 
 /// A published parameter set.
 #[derive(Debug)]
 pub struct Preset {
-    /// Name in grid files, such as `ozaki2018-large`.
+    /// Name of the preset in grid files, such as `ozaki2018-large`.
     pub name: &'static str,
-    /// Description in one line: the set and the source of its numbers.
+    /// Description of the preset in one line, with the source of the values.
     pub doc: &'static str,
-    /// Returns the values, one per parameter of the model's table.
+    /// Returns the values of the preset, one for each parameter of the model's table.
     pub values: fn() -> Vec<f64>,
 }
 
@@ -85,11 +86,11 @@ pub enum Range {
     NonNegative,
     /// More than zero.
     Positive,
-    /// Numbers between two limits, which are excluded.
+    /// Numbers between two limits. The limits themselves are not allowed.
     Between(f64, f64),
-    /// Numbers from 0 to 1, both included.
+    /// Numbers from 0 to 1, including 0 and 1.
     Share,
-    /// Whole numbers from the first to the last, both included.
+    /// Whole numbers from the first limit to the second limit, including both limits.
     Whole(u32, u32),
 }
 
@@ -109,8 +110,8 @@ impl Range {
             }
     }
 
-    /// Returns the range in words, for messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number from 1 to
-    /// 64"`.
+    /// Returns the words that describe the range in messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number
+    /// from 1 to 64"`.
     pub fn describe(self) -> String {
         match self {
             Range::Any => "any number".to_owned(),

@@ -7,7 +7,7 @@ use crate::model::OverWings;
 use crate::model::readings::{efficiency, grams_force};
 use crate::simulate::Column;
 
-/// Columns, and their sources.
+/// Columns of a vehicle, and the source of each column.
 pub(super) struct Columns {
     pub(super) all: Vec<Column>,
     sources: Vec<Source>,
@@ -15,15 +15,15 @@ pub(super) struct Columns {
 
 /// Source of a column.
 enum Source {
-    /// Component of force (mN) or torque (uN·m).
+    /// Component of the force (mN) or the torque (uN·m), with its index.
     Wrench(usize),
-    /// Lift over weight.
+    /// Lift of the vehicle, divided by its weight.
     LiftToWeight,
-    /// Grams-force per watt, with the power in this column of the wings.
+    /// Efficiency in grams-force per watt, with the index of the wings' power column.
     Efficiency(usize),
-    /// Sum of a column over the wings.
+    /// Sum over the wings of the column with the given index.
     Sum(usize),
-    /// Column of one wing.
+    /// Column of one wing, with the index of the wing and of the column.
     Wing(usize, usize),
 }
 

@@ -4,9 +4,9 @@ use core::ops::Add;
 
 use nalgebra::{Rotation3, Vector3};
 
-/// Columns of the force (mN), along the body axes.
+/// Names of the columns of the force along the body axes (mN).
 pub const FORCES: [&str; 3] = ["force_forward_mn", "force_left_mn", "force_up_mn"];
-/// Columns of the torque (uN·m), about the body axes.
+/// Names of the columns of the torque about the body axes (uN·m).
 pub const TORQUES: [&str; 3] = ["torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm"];
 
 /// Position of a wing: its shoulder and its stroke plane.
@@ -24,15 +24,15 @@ impl Place {
         Rotation3::from_euler_angles(roll, pitch, yaw)
     }
 
-    /// Returns velocity (m/s) and angular velocity (rad/s) of the shoulder in the axes of the wing.
+    /// Returns the velocity (m/s) and the angular velocity (rad/s) of the shoulder, in the axes of the wing.
     ///
-    /// `body` contains the velocity of the point `about` (m), and the rates of the body.
+    /// `body` contains the velocity (m/s) of the body at the point `about` (m), and the rates of the body (rad/s).
     ///
     /// ```text
     /// V = Qᵀ (v + Ω × (p − a))     Ω_wing = Qᵀ Ω
     /// ```
     ///
-    /// A mirrored wing has the mirrored motion about the mirrored point.
+    /// For a mirrored wing, the function first mirrors the motion of the body and the point `about` in the x-z plane.
     pub(super) fn motion(&self, body: &[f64; 6], about: [f64; 3], mirrored: bool) -> [f64; 6] {
         let [u, v, w, p, q, r] = *body;
         let side = if mirrored { -1.0 } else { 1.0 };
@@ -64,7 +64,7 @@ impl Wrench {
     /// F = Q f     M = Q m + p × F     Q = R_z(yaw) R_y(pitch) R_x(roll)
     /// ```
     ///
-    /// A mirrored wing is the mirror image of this wing in the x-z plane.
+    /// If `mirrored` is true, the wing is the mirror image, in the x-z plane, of a wing at `place`.
     pub(super) fn of_wing(load: &[f64; 6], place: &Place, mirrored: bool) -> Wrench {
         let turned = place.turned();
         let force = turned * Vector3::new(load[0], load[1], load[2]);
@@ -78,7 +78,7 @@ impl Wrench {
         }
     }
 
-    /// Returns the same wrench about another point (m).
+    /// Returns the wrench with the torque about another point (m).
     pub(super) fn about(self, point: [f64; 3]) -> Wrench {
         Wrench { force: self.force, torque: self.torque - Vector3::from(point).cross(&self.force) }
     }

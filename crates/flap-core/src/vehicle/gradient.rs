@@ -1,4 +1,4 @@
-//! Derivatives of a vehicle's measures, from the derivatives of its wings' measures.
+//! Derivatives of the measures of a vehicle, computed from the derivatives of the measures of its wings.
 
 use super::layout::Vehicle;
 use crate::simulate::{
@@ -10,8 +10,9 @@ impl Gradients for Vehicle {
         self.states.clone()
     }
 
-    /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over weight.
-    /// Differences along the wings' derivatives are therefore derivatives of the vehicle.
+    /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over weight. The
+    /// derivatives of the vehicle's measures are therefore computed by differences, in the direction of the derivatives
+    /// of the wings' measures.
     fn gradient(
         &self,
         run: &PointRun<'_>,
@@ -64,7 +65,8 @@ impl Gradients for Vehicle {
     }
 }
 
-/// Measures of a wing, and their derivatives along each change; `None` along changes that do not affect the wing.
+/// Measures of a wing, and their derivatives with respect to each change of parameters; `None` for changes that do not
+/// affect the wing.
 struct WingSlopes {
     measures: Vec<f64>,
     slopes: Vec<Option<Vec<Result<f64, NoSlope>>>>,
@@ -72,7 +74,7 @@ struct WingSlopes {
 }
 
 impl WingSlopes {
-    /// Returns the measures after a step along a change.
+    /// Returns the measures of the wing after a step of the given size along a change of parameters.
     fn moved(&self, change: usize, size: f64) -> Vec<f64> {
         let Some(slopes) = &self.slopes[change] else { return self.measures.clone() };
         let moved = |(measure, slope): (&f64, &Result<f64, NoSlope>)| match slope {
@@ -82,7 +84,7 @@ impl WingSlopes {
         self.measures.iter().zip(slopes).map(moved).collect()
     }
 
-    /// Returns the reason for a missing derivative along a change, if it is missing.
+    /// Returns the reason why the derivative along a change is missing, or `None` if the derivative exists.
     fn trouble(&self, change: usize) -> Option<NoSlope> {
         self.slopes[change].iter().flatten().find_map(|slope| slope.err())
     }

@@ -18,11 +18,11 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// Returns the vehicle with these wings of a model.
+    /// Returns the vehicle with the wings `mounts`, which all have the given model.
     ///
     /// # Errors
-    /// [`VehicleError`] if there are no wings or too many, a name is not allowed or not unique, or the model does not
-    /// compute loads.
+    /// [`VehicleError`] if the number of wings is zero or too large, a name is not allowed or not unique, or the model
+    /// computes no loads.
     pub fn of(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<Vehicle, VehicleError> {
         check(model, mounts)?;
         let of_wing = model.gradients().map(Gradients::states).unwrap_or_default();
@@ -47,7 +47,7 @@ impl Vehicle {
         &self.mounts
     }
 
-    /// Returns the reference point of torques and body motion (m).
+    /// Returns the reference point of the torques and of the body motion (m).
     pub fn about(&self, values: &[f64]) -> [f64; 3] {
         self.table.about(values)
     }
@@ -57,14 +57,14 @@ impl Vehicle {
         self.table.mass_properties(values)
     }
 
-    /// Returns the index, in the vehicle's table, of a wing's own parameter, such as `drive_voltage_pp` or
+    /// Returns the index, in the vehicle's table, of a parameter of one wing, such as `drive_voltage_pp` or
     /// `position_x`.
     pub fn own_parameter(&self, wing: usize, name: &str) -> Option<usize> {
         let name = format!("{}_{name}", self.mounts.get(wing)?.name);
         self.table.parameters().iter().position(|parameter| parameter.name == name)
     }
 
-    /// Returns the measures of the vehicle, one per column, from the measures of its wings with their loads.
+    /// Returns the measures of the vehicle, one for each column, from the measures and the loads of its wings.
     pub(super) fn measures(&self, values: &[f64], wings: &[&[f64]]) -> Vec<f64> {
         let loads = self.model.columns().len();
         let mut wrench = Wrench::ZERO;
@@ -76,8 +76,8 @@ impl Vehicle {
         self.columns.values(&wrench, &self.table.mass_properties(values), wings)
     }
 
-    /// Returns true if wings may have different values of this parameter of the model: all numbers except the drive
-    /// frequency.
+    /// Returns true if the wings may have different values of a parameter of the model. All numbers except the drive
+    /// frequency may differ.
     pub fn may_differ(parameter: &Parameter<'_>) -> bool {
         parameters::may_differ(parameter)
     }

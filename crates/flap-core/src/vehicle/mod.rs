@@ -1,13 +1,13 @@
 //! Vehicles: several wings of one model, whose mean forces and torques add up.
 //!
-//! A vehicle is a [`Simulator`](crate::simulate::Simulator) like a model. Its parameters are the parameters of the
-//! model for all wings, the parameters of single wings, and the positions of the wings. Its rows contain the mean
-//! force and torque of the air in the body axes.
+//! A vehicle is a [`Simulator`](crate::simulate::Simulator), as a model is. The parameters of a vehicle are the
+//! parameters of the model for all wings, the parameters of single wings, and the positions of the wings. The rows of a
+//! vehicle contain the mean force and torque of the air in the body axes.
 //!
 //! Wings do not interact, and the body is at rest or moves steadily through still air. Each wing is therefore an
 //! independent design point, and the mean of its inertial reaction over a period is zero.
 //!
-//! Body axes: x forward, y to the left, z up.
+//! In the body axes, x points forward, y to the left, and z up.
 
 mod columns;
 mod geometry;

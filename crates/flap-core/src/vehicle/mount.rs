@@ -1,17 +1,17 @@
-//! Wings of a vehicle by name.
+//! Names and sides of the wings of a vehicle.
 
 use crate::simulate::Simulator;
 
-/// Largest number of wings.
+/// Largest number of wings of a vehicle.
 pub const MOST_WINGS: usize = 16;
 
-/// First part of the names of left-right differences.
+/// First part of the names of parameters for differences between left and right wings.
 pub const DIFFERENCE: &str = "difference";
 
 /// A wing of a vehicle: name and side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mount {
-    /// Name, which is the first part of the names of its parameters and columns.
+    /// Name of the wing, which is the first part of the names of its parameters and columns.
     pub name: String,
     /// True if the wing is the mirror image, in the x-z plane, of a wing at its position.
     pub mirrored: bool,
@@ -20,22 +20,22 @@ pub struct Mount {
 /// Error in the wings of a vehicle.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum VehicleError {
-    /// No wings.
+    /// The vehicle has no wings.
     #[error("a vehicle needs at least one wing")]
     NoWings,
-    /// Too many wings.
+    /// The vehicle has too many wings.
     #[error("{0} wings are too many: a vehicle has at most {MOST_WINGS}")]
     ManyWings(usize),
-    /// A name that is not allowed, because it cannot begin the names of parameters.
+    /// The name of a wing is not allowed, because the names of parameters cannot begin with this name.
     #[error(
         "`{0}` is not allowed as the name of a wing: use lower-case letters, digits and `_`, begin with a letter, and \
          do not use `difference`"
     )]
     Name(String),
-    /// Two wings with the same name.
+    /// Two wings have the same name.
     #[error("two wings are called `{0}`")]
     SameName(String),
-    /// Two parameters with the same name: of two wings, or of a wing and the model.
+    /// Two parameters have the same name. The parameters belong to two wings, or to a wing and the model.
     #[error("a wing cannot be called `{wing}`: another parameter already has the name `{parameter}`")]
     Clash {
         /// Name of the wing.
@@ -43,12 +43,12 @@ pub enum VehicleError {
         /// Name of the parameter.
         parameter: String,
     },
-    /// The model does not compute force and moment of its wing.
+    /// The model does not compute the force and the moment of the air on its wing.
     #[error("the model {0} does not compute the forces and moments that vehicles need")]
     NoLoads(&'static str),
 }
 
-/// Checks that the wings form a vehicle.
+/// Checks the number and the names of the wings, and that the model computes the loads of its wing.
 pub(super) fn check(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<(), VehicleError> {
     if mounts.is_empty() {
         return Err(VehicleError::NoWings);

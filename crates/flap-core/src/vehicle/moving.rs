@@ -1,4 +1,4 @@
-//! Wings of a vehicle whose body moves in any way: their equations and their wrench at an instant.
+//! Equations of the wings of a vehicle for any motion of the body, and the force and torque of the wings at an instant.
 
 use super::geometry::{Place, Wrench};
 use super::layout::Vehicle;
@@ -6,10 +6,10 @@ use crate::body::BodyMotion;
 use crate::parameter::Invalid;
 use crate::simulate::{MovingWing, Unfinished};
 
-/// The wings of a vehicle with given values of its parameters, for any motion of the body.
+/// The wings of a vehicle with given parameter values, for any motion of the body.
 pub struct MovingWings {
     wings: Vec<Mounted>,
-    /// Reference point of torques and body motion (m).
+    /// Reference point of the torques and of the body motion (m).
     about: [f64; 3],
 }
 
@@ -20,13 +20,14 @@ struct Mounted {
 }
 
 impl Vehicle {
-    /// Returns the wings with these values of the vehicle's parameters. Velocity and rates in `values` have no effect.
+    /// Returns the wings for the given `values` of the vehicle's parameters. The velocity and the rates of the body in
+    /// `values` have no effect.
     ///
     /// If the model has no parameters for the motion of the body, the motion has no effect.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if values are impossible together, and [`Unfinished::NoMotions`] if the model computes rows
-    /// alone.
+    /// [`Unfinished::Invalid`] if the combination of values is impossible, and [`Unfinished::NoMotions`] if the model
+    /// computes only rows.
     pub fn moving_wings(&self, values: &[f64]) -> Result<MovingWings, Unfinished> {
         // Any motion selects the equations of moving wings.
         let moving = self.table.in_motion(values);
@@ -51,18 +52,18 @@ impl MovingWings {
         self.wings[0].wing.period()
     }
 
-    /// Returns the typical size of each state, wing by wing.
+    /// Returns the typical size of each state, in the order of the wings.
     pub fn scale(&self) -> Vec<f64> {
         self.wings.iter().flat_map(|mounted| mounted.wing.scale().iter().copied()).collect()
     }
 
-    /// Computes the derivative of the states `y` of all wings at time `t` (s), for this motion of the body.
+    /// Computes the derivative of the states `y` of all wings at time `t` (s), for the given `motion` of the body.
     ///
-    /// `motion` is velocity (m/s) and rates (rad/s) in body axes. Returns force (N) and torque (N·m) of the air in body
-    /// axes. Torques and velocity refer to the vehicle's point `about`.
+    /// `motion` contains the velocity (m/s) and the rates (rad/s) of the body in body axes. Returns the force (N) and
+    /// the torque (N·m) of the air in body axes. Torque and velocity refer to the reference point of the vehicle.
     ///
     /// # Panics
-    /// If `y` or `dy` does not have one number for each state.
+    /// Panics if `y` or `dy` does not have one number for each state.
     pub fn derivative(&self, t: f64, y: &[f64], motion: &[f64; 6], dy: &mut [f64]) -> [f64; 6] {
         let mut wrench = Wrench::ZERO;
         let mut begin = 0;

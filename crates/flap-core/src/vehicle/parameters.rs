@@ -1,5 +1,5 @@
-//! Parameters of a vehicle: the model's parameters for all wings, its own, the parameters of single wings, and
-//! differences.
+//! Parameters of a vehicle. The parameters are the parameters of the model for all wings, of the vehicle as a whole,
+//! and of single wings. Further parameters are differences between left and right wings.
 
 use self_cell::self_cell;
 
@@ -10,10 +10,10 @@ use crate::model::GRAVITY;
 use crate::parameter::Range::{Any, Positive};
 use crate::parameter::{Invalid, Kind, Parameter};
 
-/// Headings of lists of parameters.
+/// Headings in lists of parameters.
 const VEHICLE: &str = "vehicle";
 
-/// Parameters of a position.
+/// Parameters of the position of a wing.
 #[rustfmt::skip]
 const PLACE: [(&str, &str, &str); 6] = [
     ("position_x", "m", "Forward position of the shoulder of a wing"),
@@ -55,7 +55,7 @@ const WHOLE: [Parameter<'static>; 9] = [
     },
 ];
 
-/// Mass properties of a vehicle, in the order of their parameters; NaN if they are not set.
+/// Mass properties of a vehicle, in the order of their parameters. Properties that are not set are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
     /// Mass (kg).
@@ -79,7 +79,7 @@ const fn about(name: &'static str, doc: &'static str) -> Parameter<'static> {
     Parameter { group: VEHICLE, default: 0.0, ..Parameter::new(name, "m", "", Kind::Number(Any), doc) }
 }
 
-/// A parameter of one wing, or a difference.
+/// A parameter of one wing, or of a difference between left and right wings.
 struct Own {
     name: String,
     unit: &'static str,
@@ -102,7 +102,7 @@ impl Own {
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters, with the owned texts of the parameters that the model does not have.
+    /// All parameters of a vehicle, with the names and descriptions of the parameters that the model does not have.
     struct Named {
         owner: Vec<Own>,
         #[covariant]
@@ -113,7 +113,7 @@ self_cell!(
 /// Parameter table of a vehicle.
 pub(super) struct Table {
     named: Named,
-    /// The model's parameters, which come first.
+    /// Parameters of the model, which are the first rows of the table.
     model: &'static [Parameter<'static>],
     /// Indices of the model's parameters that may differ between wings.
     own: Vec<usize>,
@@ -121,11 +121,11 @@ pub(super) struct Table {
     wings: usize,
     mirrored: Vec<bool>,
     has_differences: bool,
-    /// Indices of the body's velocity and rates, if the model has them.
+    /// Indices of the parameters for velocity and rates of the body, if the model has these parameters.
     motion: Option<[usize; 6]>,
 }
 
-/// Returns true if wings may have different values of this parameter of the model.
+/// Returns true if the wings may have different values of a parameter of the model.
 pub(super) fn may_differ(parameter: &Parameter<'_>) -> bool {
     let shared = parameter.name == "drive_frequency" || BodyParameters::MOTION.contains(&parameter.name);
     !matches!(parameter.kind, Kind::Choice(_)) && !shared
@@ -193,7 +193,7 @@ impl Table {
         Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences, motion })
     }
 
-    /// Returns all parameters: of the model, of the vehicle, of its wings, and differences.
+    /// Returns all parameters: of the model, of the vehicle, of single wings, and of differences between wings.
     pub(super) fn parameters(&self) -> &[Parameter<'_>] {
         self.named.borrow_dependent()
     }
@@ -223,10 +223,11 @@ impl Table {
         }
     }
 
-    /// Returns the values of a wing's own design point.
+    /// Returns the parameter values of the model for one wing.
     ///
     /// # Errors
-    /// If a difference moves a value out of its range, or belongs to a parameter that is not set and follows others.
+    /// Returns an error if a difference shifts a value out of its range. Returns an error, too, if a difference belongs
+    /// to a parameter that is not set and follows other parameters.
     pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
         let mut own_values = values[..self.model.len()].to_vec();
         let own = self.begin(wing) + PLACE.len();
@@ -257,7 +258,8 @@ impl Table {
         Ok(own_values)
     }
 
-    /// Returns the values with a motion of the body that is not zero at any wing, if the model has such parameters.
+    /// Returns `values` with a forward velocity of the body of 1 m/s, so that the terms of body motion are not zero. If
+    /// the model has no parameters for body motion, `values` does not change.
     pub(super) fn in_motion(&self, values: &[f64]) -> Vec<f64> {
         let mut moving = values.to_vec();
         if let Some(motion) = self.motion {
@@ -268,7 +270,7 @@ impl Table {
         moving
     }
 
-    /// Replaces the motion of the body in a wing's values by the motion of its shoulder.
+    /// Replaces the motion of the body in the values of a wing by the motion of the wing's shoulder.
     fn turn_motion(&self, values: &[f64], wing: usize, own_values: &mut [f64]) {
         let Some(motion) = self.motion else { return };
         let body: [f64; 6] = core::array::from_fn(|i| values[motion[i]]);
@@ -284,15 +286,16 @@ impl Table {
     }
 }
 
-/// Returns the index of the parameter of all wings whose value replaces an unset parameter of one wing; `None` for
-/// other parameters.
+/// For a parameter of one wing, returns the index of the parameter of all wings whose value is used if the parameter is
+/// not set. For other parameters, returns `None`.
 pub fn of_all_wings(parameters: &[Parameter<'_>], index: usize) -> Option<usize> {
     let Kind::Following(_, follows) = parameters[index].kind else { return None };
     let wing = parameters[index].name.strip_suffix(follows)?;
     if wing.ends_with('_') { Parameter::index(parameters, follows) } else { None }
 }
 
-/// Returns the value of a parameter at a point. An unset parameter of one wing has the value of all wings.
+/// Returns the value of a parameter at a point. If a parameter of one wing is not set, the result is the value for all
+/// wings.
 pub fn standing(parameters: &[Parameter<'_>], values: &[f64], index: usize) -> f64 {
     let shared = of_all_wings(parameters, index).filter(|_| values[index].is_nan());
     values[shared.unwrap_or(index)]

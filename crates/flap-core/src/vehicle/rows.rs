@@ -1,4 +1,4 @@
-//! Rows of a vehicle, from the rows of its wings.
+//! Rows of a vehicle, computed from the rows of its wings.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -51,7 +51,8 @@ impl Simulator for Vehicle {
         self.table.parameters()
     }
 
-    /// Returns the presets of the model. The vehicle's own parameters are not part of them and have their defaults.
+    /// Returns the presets of the model. The presets do not set the parameters of the vehicle, which have their
+    /// defaults.
     fn presets(&self) -> &'static [Preset] {
         self.model.presets()
     }
@@ -69,7 +70,7 @@ impl Simulator for Vehicle {
     }
 }
 
-/// Design of one or several equal wings of a vehicle at a point.
+/// Parameter values of one wing, or of several equal wings, of a vehicle at a point.
 struct Design {
     values: Vec<f64>,
     begin: Option<Vec<f64>>,
@@ -80,12 +81,12 @@ struct Design {
 struct Wings {
     values: Vec<f64>,
     designs: Vec<Design>,
-    /// Design of each wing.
+    /// Index of the design of each wing.
     of_wing: Vec<usize>,
 }
 
 impl Wings {
-    /// Returns the wings at a point. Equal wings share one design.
+    /// Returns the wings of a vehicle at a point. Equal wings have the same design.
     fn new(vehicle: &Vehicle, values: Vec<f64>, begin: Option<&[f64]>) -> Result<Wings, Invalid> {
         let states = vehicle.states.len() / vehicle.mounts.len();
         let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
@@ -103,7 +104,7 @@ impl Wings {
         Ok(wings)
     }
 
-    /// Returns the row of the vehicle, once all designs have rows.
+    /// Returns the row of the vehicle if all designs have rows, otherwise `None`.
     fn row(&self, vehicle: &Vehicle) -> Option<Row> {
         let rows: Option<Vec<&Row>> =
             self.of_wing.iter().map(|&design| self.designs[design].row.as_ref()).collect();
@@ -135,7 +136,7 @@ impl Wings {
 }
 
 impl Design {
-    /// Returns true if all bits are equal.
+    /// Returns true if the values of both designs are equal to the last bit.
     fn is(&self, other: &Design) -> bool {
         let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
         bits(&self.values) == bits(&other.values)
@@ -143,13 +144,15 @@ impl Design {
     }
 }
 
-/// Source of points of the model, one for each wing design of a vehicle's points.
+/// Source of points of the model, with one point for each wing design at each point of the vehicle.
 struct WingJobs<'a> {
     vehicle: &'a Vehicle,
     jobs: &'a mut dyn Jobs,
-    /// Wings to be run. The index is composed of the indices of the vehicle's point and of the design.
+    /// Points of wings that are not yet simulated. The index of a wing's point is composed of the number of the
+    /// vehicle's point and the index of the design.
     waiting: VecDeque<Point>,
-    /// Points from `jobs` without a row, by number: their index in `jobs`, and their wings.
+    /// Points of the vehicle whose row is not finished. The key is the number of the point, and the value contains the
+    /// index of the point in `jobs` and the wings.
     begun: HashMap<u64, (u64, Wings)>,
     /// Number of the next point.
     next: u64,

@@ -1,4 +1,5 @@
-//! The actuator as a beam: factors of equations (3), (5) and (6) that depend on its shape and layers.
+//! The bimorph actuator as a beam: factors of Eqs. (3), (5) and (6) that depend on the shape and the layers of the
+//! actuator.
 
 use super::params::{Params, WIDTH_RATIOS};
 use crate::parameter::Invalid;
@@ -6,23 +7,23 @@ use crate::parameter::Invalid;
 /// A cantilever of two piezoelectric plates on a carbon-fibre layer, tapered in width, with a rigid extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Actuator {
-    /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
+    /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), Eq. (5).
     ///
     /// ```text
     /// s_ε = (t_pzt + t_cf)/(l_pzt² (1 + 2l_r))     ε₁ = −s_ε x     ε₂ = s_ε x
     /// ```
     pub(super) strain_per_tip: f64,
-    /// Strain of a plate's outer face over the strain of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
+    /// Strain of a plate's outer face, divided by the strain of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
     pub(super) surface_strain_ratio: f64,
-    /// Stiffness of the tip (N/m) per Pa of the plates' modulus E_e, (3).
+    /// Stiffness of the tip (N/m) per Pa of the plates' modulus E_e, Eq. (3).
     ///
     /// ```text
     /// K_pre D_E = p₄p₅ w_n G/(l_pzt³ (1 + 2l_r)) · t_pzt (1.5t_cf² + 3t_cf t_pzt + 2t_pzt²)
     /// ```
     pub(super) stiffness_per_modulus: f64,
-    /// Contribution of the carbon fibre to the stiffness of the tip (N/m), (3): K_pre E_cf t_cf³/4.
+    /// Contribution of the carbon fibre to the stiffness of the tip (N/m), Eq. (3): K_pre E_cf t_cf³/4.
     pub(super) shim_stiffness: f64,
-    /// Blocked force of a plate (N) per piezoelectric stress (Pa), without the effect of strain, (6).
+    /// Blocked force of a plate (N) per piezoelectric stress (Pa), without the effect of strain, Eq. (6).
     ///
     /// ```text
     /// F_pre = ¾ p₃ G w_n t_pzt (t_pzt + t_cf)/l_pzt
@@ -31,7 +32,7 @@ pub(super) struct Actuator {
 }
 
 impl Actuator {
-    /// Returns the actuator of a point.
+    /// Returns the actuator for the parameters of a point.
     ///
     /// # Errors
     /// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
@@ -55,17 +56,18 @@ impl Actuator {
     }
 }
 
-/// Returns the gain G of a tapered cantilever with a rigid extension, (3), (6). The paper takes it from its reference
-/// 9.
+/// Returns the gain G of a tapered cantilever with a rigid extension, Eqs. (3) and (6). The paper cites its reference 9
+/// for G.
 ///
-/// `width_ratio` w_r is the width at the base over the mean width. `extension_ratio` l_r is the length of the
-/// extension over the length of the taper. With c = 1 + 2l_r and δ = w_r − 1,
+/// `width_ratio` w_r is the width at the base, divided by the mean width. `extension_ratio` l_r is the length of the
+/// extension, divided by the length of the taper. With c = 1 + 2l_r and δ = w_r − 1, the gain is:
 ///
 /// ```text
 /// G = c / (3 I)     I = ∫₀¹ (1 + l_r − s)²/(w_r + 2 (1 − w_r) s) ds = ⅛ ∫₋₁¹ (c − z)²/(1 − δz) dz
 /// ```
 ///
-/// The closed form loses digits as 1/δ³. For |δ| ≤ ½ the integrand is therefore expanded in powers of δz.
+/// The rounding error of the closed form grows as 1/δ³. For |δ| ≤ ½ the integrand is therefore expanded in powers of
+/// δz.
 ///
 /// # Errors
 /// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.

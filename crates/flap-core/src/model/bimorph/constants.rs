@@ -1,7 +1,7 @@
 //! Constants of the bimorph model, computed once per point.
 //!
-//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections listed in
-//! `docs/models/bimorph.md`. Products of constants that the equations of motion use are computed here.
+//! Equation numbers refer to Jafferis, Graule and Wood (2016), with the corrections listed in `docs/models/bimorph.md`.
+//! The module also computes the products of constants that the equations of motion contain.
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
@@ -15,120 +15,119 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Drive: half of the peak-to-peak drive voltage, as constant part and as amplitude. The two plates have
+        /// Drive whose constant part and amplitude are both half of the peak-to-peak drive voltage. The two plates have
         /// amplitudes of opposite sign.
         pub drive: DriveConstants<R>,
-        /// Half of the bias between the plates (V). It is added to the voltage of plate 1 and subtracted from plate
-        /// 2.
+        /// Half of the bias between the plates (V). Half of the bias is added to the voltage of plate 1 and subtracted
+        /// from the voltage of plate 2.
         pub half_offset: R,
 
         /// Field per voltage (1/m): 1/t_pzt.
         pub field_per_volt: R,
-        /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), (6).
+        /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), Eq. (6).
         pub f_min: R,
-        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min. If (6) is
-        /// read as printed, f_31,min is subtracted twice.
+        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min. With Eq. (6) as
+        /// printed, f_31,min is subtracted twice.
         pub f_rise: R,
-        /// Decline of the stress per field with the field a₄ f_31,max (N/V²), (6).
+        /// Decline of the stress per field with the field a₄ f_31,max (N/V²), Eq. (6).
         pub f_decline: R,
-        /// Field of the transition ℰ₀ (V/m), (6).
+        /// Field of the transition ℰ₀ (V/m), Eq. (6).
         pub field_0: R,
-        /// Steepness of the transition a₃ (m/V), (6).
+        /// Steepness of the transition a₃ (m/V), Eq. (6).
         pub a_3: R,
-        /// e^p for each plate, with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition at the constant part of its
-        /// voltage.
+        /// e^p for each plate, with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition and the constant part V of the
+        /// plate's voltage.
         pub transition: [R; 2],
-        /// Change of these exponents per unit of the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two
-        /// plates.
+        /// Change of the exponents p per unit of the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two plates.
         pub transition_swing: R,
-        /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, (6).
+        /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, Eq. (6).
         pub force_per_stress: [R; 2],
-        /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), (5), (6).
+        /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), Eqs. (5) and (6).
         pub b: R,
         /// Capacitance of a plate C_p (F).
         pub c_p: R,
         /// Equivalent conductance of a plate's dielectric loss (S).
         pub conductance: R,
-        /// Share of the returned power that the supply recovers.
+        /// Share, recovered by the supply, of the power that the actuator returns.
         pub charge_recovery: R,
 
-        /// Stiffness of the carbon fibre at the tip (N/m), (3).
+        /// Stiffness of the carbon fibre at the tip (N/m), Eq. (3).
         pub k_shim: R,
-        /// Stiffness of the plates at the tip without field and without the stiffening by strain (N/m), (3).
+        /// Stiffness of the plates at the tip without field and without the stiffening by strain (N/m), Eq. (3).
         pub k_plates: R,
-        /// Force of the strain stiffening (N) per unit of L without field, (3), (4).
+        /// Force of the strain stiffening (N) per unit of L without field, Eqs. (3) and (4).
         pub f_plates: R,
         /// Relative reduction of the plates' modulus per field (m/V).
         pub modulus_decline: R,
-        /// Stiffness of the actuator without the stiffening by strain (N/m), (3).
+        /// Stiffness of the actuator without the stiffening by strain (N/m), Eq. (3).
         pub k_soft: R,
-        /// Force of the strain stiffening (N) per unit of L, (3), (4).
+        /// Force of the strain stiffening (N) per unit of L, Eqs. (3) and (4).
         pub f_stiff: R,
-        /// Strain over the width of the modulus transition, per displacement: a₁ s_ε (1/m), (4).
+        /// Strain divided by the width of the modulus transition, per displacement of the tip: a₁ s_ε (1/m), Eq. (4).
         pub u_per_tip: R,
-        /// Progress of the modulus transition at zero strain σ(a₁ε₀), from 0 to 1, (4).
+        /// Progress of the modulus transition at zero strain σ(a₁ε₀), from 0 to 1, Eq. (4).
         pub sigma_0: R,
         /// Stiffness of the transmission K_t (N/m).
         pub k_t: R,
 
-        /// 1/m_e (1/kg), with the effective mass m_e = (I_zz + I_am) T².
+        /// Inverse 1/m_e of the effective mass m_e = (I_zz + I_am) T² + m_a (1/kg).
         pub inverse_m_e: R,
-        /// Inertia of the stroke, as a mass at the tip: J T² (kg).
+        /// Inertia J of the stroke, as an equivalent mass at the actuator's tip: J T² (kg).
         pub stroke_mass: R,
-        /// Mass of the actuator, as a mass at its tip: m_a (kg).
+        /// Mass of the actuator, as an equivalent mass at its tip: m_a (kg).
         pub tip_mass: R,
-        /// Equivalent damping of the loss factor of the stroke's springs, at the tip (N·s/m).
+        /// Viscous damping at the actuator's tip that is equivalent to the loss factor of the stroke's springs (N·s/m).
         pub tip_damping: R,
         /// Damping of the stroke, at the tip (N·s/m): the damping about the stroke axis times T².
         pub stroke_damping: R,
-        /// Drag at the tip C_A (kg/m), (8).
+        /// Drag at the tip C_A (kg/m), Eq. (8).
         pub c_a: R,
-        /// Change of the drag at the tip with the pitch C_B (kg/m), (8).
+        /// Change of the drag at the tip with the pitch C_B (kg/m), Eq. (8).
         pub c_b: R,
 
-        /// 1/I_xx (1/(kg·m²)).
+        /// Inverse of the moment of inertia of the wing about the hinge's axis, 1/I_xx (1/(kg·m²)).
         pub inverse_i_xx: R,
-        /// I_xx (kg·m²).
+        /// Moment of inertia I_xx of the wing about the hinge's axis (kg·m²).
         pub i_xx: R,
-        /// I_xz (kg·m²).
+        /// Product of inertia I_xz of the wing (kg·m²).
         pub i_xz: R,
-        /// Inertial torque per acceleration of the tip T I_xz (kg·m), (2).
+        /// Inertial torque per acceleration of the tip T I_xz (kg·m), Eq. (2).
         pub coupling: R,
-        /// Centrifugal torque per ẋ² sin 2ψ (kg): ½ I_xx T², (2).
+        /// Centrifugal torque per ẋ² sin 2ψ (kg): ½ I_xx T², Eq. (2).
         pub centrifugal: R,
         /// Stiffness of the hinge κ_wh (N·m/rad).
         pub kappa_wh: R,
-        /// Damping of the hinge (N·m·s), with the equivalent damping of its loss factor.
+        /// Viscous damping of the hinge, including the damping equivalent to the hinge's loss factor (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
+        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
         pub hinge_strain: R,
-        /// Rotational drag C_C (N·m·s²), (9).
+        /// Rotational drag C_C (N·m·s²), Eq. (9).
         pub c_c: R,
-        /// Aerodynamic torque about the hinge per coefficient and centre of pressure (kg), (10), (11).
+        /// Aerodynamic torque about the hinge per coefficient and centre of pressure (kg), Eqs. (10) and (11).
         pub hinge_torque: R,
-        /// Chordwise centre of pressure for ψ = 90°, in mean widths, (11).
+        /// Chordwise centre of pressure for ψ = 90°, in mean widths, Eq. (11).
         pub p_min: R,
-        /// Shift of the chordwise centre of pressure from ψ = 90° to ψ = 0, in mean widths, (11).
+        /// Shift of the chordwise centre of pressure from ψ = 90° to ψ = 0, in mean widths, Eq. (11).
         pub p_swing: R,
 
-        /// Mean of the drag coefficient's largest and smallest value b₁.
+        /// Mean b₁ of the largest and the smallest drag coefficient.
         pub b_1: R,
-        /// Half of the drag coefficient's range b₂, positive.
+        /// Half of the difference between the largest and the smallest drag coefficient, b₂.
         pub b_2: R,
         /// Amplitude of the lift coefficient b_L.
         pub b_l: R,
-        /// Force on the wing per coefficient and ẋ² (kg/m): ½ρA_w r̂₂²R²T².
+        /// Force on the wing, divided by the force coefficient and ẋ² (kg/m): ½ρA_w r̂₂²R²T².
         pub force: R,
         /// Spanwise centre of pressure R_cp (m).
         pub pressure_radius: R,
 
         /// Transmission ratio T (rad/m).
         pub ratio: R,
-        /// Growth of the ratio with the square of the displacement: τ = T₃/T (1/m²).
+        /// Growth of the transmission ratio with the square of the displacement: τ = T₃/T (1/m²).
         pub ratio_growth: R,
-        /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), (5).
+        /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), Eq. (5).
         pub strain_per_tip: R,
-        /// Strain of a plate's outer face over the strain of its mid-plane.
+        /// Strain of a plate's outer face, divided by the strain of its mid-plane.
         pub surface_strain_ratio: R,
         /// Mass of the vehicle (kg).
         pub vehicle_mass: R,
@@ -140,20 +139,20 @@ crate::per_lane! {
         pub circulation: Circulation<R>,
         /// Normal force of the rotational drag.
         pub rotation: RotationalForce<R>,
-        /// Added mass of the sections, besides I_am.
+        /// Added mass of the sections, in addition to the added inertia I_am.
         pub added: AddedMass<R>,
-        /// Motion of the body, and the strips on which it acts.
+        /// Motion of the body, and the strips of the wing that move with the body.
         pub moving: Moving<R>,
     }
 }
 
-/// Largest magnitude of an exponent in the equations. Their exponential function does not check its range.
+/// Largest magnitude of an exponent in the equations, because the exponential function does not check its argument.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
-/// Checks that the transitions (2), (4) can be computed for plates at up to `voltage_max` (V).
+/// Checks that the transitions of Eqs. (4) and (6) can be computed for plate voltages of up to `voltage_max` (V).
 ///
 /// # Errors
-/// If a transition is too steep.
+/// Returns an error if a transition is too steep.
 pub(super) fn check_transitions(p: &Params, voltage_max: f64) -> Result<(), Invalid> {
     let stress = (p.stress_field.abs() + voltage_max / p.piezo_thickness) * p.stress_steepness;
     let modulus = p.modulus_steepness * p.modulus_strain;
@@ -171,7 +170,7 @@ impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// If the actuator's width is zero at one end, or a constant is not finite.
+    /// Returns an error if the width of the actuator is zero at one end, or a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Exponent of the modulus transition (4) at zero strain.
@@ -275,7 +274,7 @@ impl Constants<f64> {
     }
 
     /// # Errors
-    /// If the plates have no stiffness, or the mass matrix is not positive definite at every pitch.
+    /// Returns an error if the plates have no stiffness, or the mass matrix is not positive definite at every pitch.
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if self.softening() <= 0.0 {
             return Err(Invalid::together(
@@ -301,8 +300,8 @@ impl Constants<f64> {
 
     /// Returns the constants with another drive.
     ///
-    /// The mean of the plates' fields is the constant part of the drive, because the plates are in antiphase. Their stiffness
-    /// is therefore constant too: plates of half the stiffness each, with the moduli E (1 − a ℰ₁) and E (1 − a ℰ₂).
+    /// Because the plates are in antiphase, the mean of the fields in both plates is the constant part of the drive.
+    /// The total stiffness of both plates, with the moduli E (1 − a ℰ₁) and E (1 − a ℰ₂), is therefore constant too.
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;

@@ -1,12 +1,13 @@
 //! The equations of the bimorph model with the terms that the paper leaves out.
 //!
 //! The terms are motion of the body, further terms of the attack angle, forces of the sections along the normal, and
-//! nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! nonlinear springs. If all these terms are zero, [`super::rhs`] computes the same derivatives, apart from rounding
+//! errors.
 //!
-//! The paper's wing is lumped. Body motion changes the direction of the flow along the span, so the wing is cut into four
-//! strips ([`super::strips`]) on a moving body.
+//! The wing of the paper is lumped: the forces depend on integrals over the whole wing. Body motion changes the
+//! direction of the flow along the span, so the wing is cut into four strips ([`super::strips`]) on a moving body.
 //!
-//! These functions are compiled out of line, so that the terms cost nothing where they are zero.
+//! The functions of this module are compiled out of line, so that the terms need no computing time if they are zero.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -26,7 +27,7 @@ struct Motion<R> {
     transmission: Transmission<R>,
     /// φ and φ̇.
     stroke: [R; 2],
-    /// φ̇/T, which is ẋ in the paper.
+    /// Stroke rate φ̇, divided by the transmission ratio T; φ̇/T is ẋ in the paper.
     rate: R,
     /// ψ and ψ̇.
     pitch: [R; 2],
@@ -61,7 +62,7 @@ impl<R: Real> Motion<R> {
 pub(super) struct Air<R> {
     /// Load of the air.
     pub(super) load: Load<R>,
-    /// Part of the load's span moment from the rotational drag (9) (N·m).
+    /// Part of the span moment that results from the rotational drag of Eq. (9) (N·m).
     pub(super) rotation_moment: R,
 }
 
@@ -150,18 +151,18 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
     [e_0, e_1 - rates[0] * rates[1] * turned[0], e_2]
 }
 
-/// Returns the derivative of the state: (1), (2) with the moments of the air M_D and M_s.
+/// Returns the derivative of the state, from Eqs. (1) and (2) with the aerodynamic moments M_D and M_s.
 ///
-/// N is the load of the added mass. The dots stand for the stop of the hinge and the damping. A turning body adds the inertial
-/// moment −g φ̇ of the hinge, see [`Shoulder::gyroscopic`].
+/// In the equations, N is the load of the added mass, and the dots stand for the stop of the hinge and the damping. The
+/// rotation of the body adds the inertial moment −g φ̇ about the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + κ₃ ψ³ + … = M_s + N_s + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ − g φ̇
 /// ```
 ///
-/// (1) contains no reaction of the hinge, and no inertial moment either. N contains φ̈ and ψ̈, so both equations are solved
-/// together.
+/// Eq. (1) contains neither a reaction of the hinge nor an inertial moment. Because N contains φ̈ and ψ̈, both
+/// equations are solved together.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,

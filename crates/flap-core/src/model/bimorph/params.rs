@@ -22,7 +22,7 @@ crate::parameters! {
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Constant voltage difference between the two plates. Half of drive_offset is added to the voltage of plate 1,
-        /// and half is subtracted from the voltage of plate 2. Jafferis et al. (2016) do not use this parameter.
+        /// and half is subtracted from the voltage of plate 2. Jafferis et al. (2016) do not use drive_offset.
         drive_offset: f64 = ("V", "", Number(Any), default: 0.0) 0.0,
 
         ["transmission"]
@@ -32,12 +32,12 @@ crate::parameters! {
         /// rotational stiffness kappa_t.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true, scales_with: &[("transmission_ratio", 2.0)]) 197.7,
         /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
-        /// Jafferis et al. (2016) do not use this parameter.
+        /// Jafferis et al. (2016) do not use transmission_growth.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of the
-        /// stroke, against the stroke. Jafferis et al. (2016) do not use this parameter.
+        /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of
+        /// the stroke, against the stroke. Jafferis et al. (2016) do not use stroke_stiffening.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
-        /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use this parameter.
+        /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use stroke_damping.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the springs that act on the stroke: the actuator and the transmission together. The loss
         /// factor adds a viscous damping: loss factor times stiffness, divided by the angular drive frequency.
@@ -50,8 +50,9 @@ crate::parameters! {
         wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
-        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius determines
-        /// the chord along the span for body motion, circulation_factor, rotation_force_factor and added_mass_factor. Jafferis et al. (2016) do not use this parameter.
+        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius
+        /// determines the chord along the span for body motion, circulation_factor, rotation_force_factor and
+        /// added_mass_factor. Jafferis et al. (2016) do not use wing_radius_1.
         wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
@@ -69,13 +70,14 @@ crate::parameters! {
         ["hinge"]
         /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "kappa_wh", Number(Positive), is_fitted: true, scales_with: FLEXURE) 0.985 * 1.52e-6,
-        /// Viscous damping of the wing hinge. Jafferis et al. (2016) do not use this parameter.
+        /// Viscous damping of the wing hinge. Jafferis et al. (2016) do not use hinge_damping.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor, stiffening, stop and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["air"]
-        /// Density of the air. The value is assumed, because Jafferis et al. (2016) do not give the density.
+        /// Density of the air. The value of air_density is assumed, because Jafferis et al. (2016) do not give the
+        /// density.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)) 1.2,
         /// Drag coefficient of the wing at an attack angle of 90 deg (pitch 0).
         drag_coefficient_max: f64 = ("", "b_max", Number(NonNegative), is_fitted: true) 1.25 * 3.4,
@@ -94,15 +96,16 @@ crate::parameters! {
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
         /// Further terms of the force coefficients and of the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
-        /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
-        /// and Sane and Dickinson (2002). Jafferis et al. (2016) do not use this parameter.
+        /// Factor that multiplies the rotational circulation of potential flow. With a factor of 1, the circulation
+        /// follows the theory of Kramer (1932) and Sane and Dickinson (2002). Jafferis et al. (2016) do not use
+        /// circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
-        /// consistent with the moment of Eq. (9).
-        /// Jafferis et al. (2016) do not use this parameter.
+        /// consistent with the moment of Eq. (9). Jafferis et al. (2016) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. A factor of 1 is the
-        /// added mass of a plate in potential flow. Jafferis et al. (2016) use only added_inertia_stroke.
+        /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. With a factor
+        /// of 1, the added mass is the added mass of a plate in potential flow. Jafferis et al. (2016) use only
+        /// added_inertia_stroke.
         added_mass_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Distance of the hinge's axis from the leading edge, in chords. The distance affects only circulation_factor,
         /// rotation_force_factor and added_mass_factor.
@@ -132,7 +135,7 @@ crate::parameters! {
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
         /// Relative reduction of the modulus of the piezoelectric plates per electric field. The reduction depends on
         /// the mean of the fields in both plates, which is constant over a period. Jafferis et al. (2016) do not use
-        /// this parameter.
+        /// modulus_decline.
         modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.
@@ -163,7 +166,7 @@ crate::parameters! {
         /// of the actuator to the measured deflection. A factor of 1 means no correction.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
         /// Force of plate 2, divided by the force of plate 1 at the same voltage. Jafferis et al. (2016) do not use
-        /// this parameter.
+        /// plate_ratio.
         plate_ratio: f64 = ("", "", Number(NonNegative), default: 1.0) 1.0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
@@ -178,55 +181,57 @@ crate::parameters! {
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]
-        /// Transition of the piezoelectric stress with the electric field, Eq. (6): corrected, or as printed. The
-        /// printed equation halves the force.
+        /// Transition of the piezoelectric stress with the electric field, Eq. (6): corrected ("corrected"), or as
+        /// printed ("printed"). Eq. (6) as printed halves the force of the plates.
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
         /// Attack angle that determines the chordwise centre of pressure, Eq. (11): folded to at most 90 deg
-        /// ("folded"), relative to the motion ("directional"), or as printed ("literal"). The printed equation breaks
+        /// ("folded"), relative to the motion ("directional"), or as printed ("literal"). Eq. (11) as printed breaks
         /// the mirror symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
-        /// Stiffness of the actuator: dependent on the strain, Eq. (4), or constant. The constant stiffness is the
-        /// stiffness at zero strain.
+        /// Stiffness of the actuator: dependent on the strain, Eq. (4) ("strain-dependent"), or constant ("constant").
+        /// The constant stiffness is the stiffness at zero strain.
         actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)) ActuatorStiffness::StrainDependent,
     }
 
-    /// Returns Table I, at 200 V and the frequency of its largest stroke. Fitted factors are written out as printed.
+    /// Returns the parameters of Table I of the paper, at 200 V and at the frequency of the largest stroke. The values
+    /// of fitted parameters are products of two factors, as printed in the table.
     pub fn jafferis2016() -> Params;
 }
 
 crate::choice! {
-    /// Readings of Eq. (6): the term that the exponential of the field multiplies.
+    /// Interpretations of Eq. (6): the term that is multiplied by the exponential of the field.
     pub enum FieldTransition {
-        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: rises from f_min to f_max, as the paper's text describes.
+        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: the stress rises from f_min to f_max, as the text of the paper
+        /// describes.
         Corrected = "corrected",
-        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): as printed. The printed stress never approaches f_max.
+        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): the stress as printed, which never approaches f_max.
         Printed = "printed",
     }
 }
 
 crate::choice! {
-    /// Readings of Eq. (11): the pitch on which the centre of pressure depends.
+    /// Interpretations of Eq. (11): the pitch on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |ψ|: the attack angle is never above 90°.
         Folded = "folded",
         /// ψ sign(ẋ): the attack angle is relative to the motion.
         Directional = "directional",
-        /// ψ: as printed. The printed angle breaks the mirror symmetry of the two half strokes.
+        /// ψ: the pitch as printed, which breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }
 
 crate::choice! {
-    /// Stiffness of the actuator against strain.
+    /// Dependence of the stiffness of the actuator on strain.
     pub enum ActuatorStiffness {
-        /// Eq. (3) with the modulus (4).
+        /// Eq. (3) with the strain-dependent modulus of Eq. (4).
         StrainDependent = "strain-dependent",
-        /// Eq. (3) with the modulus (4) at zero strain.
+        /// Eq. (3) with the modulus of Eq. (4) at zero strain.
         Constant = "constant",
     }
 }
 
-/// Range of the width ratio in which the actuator has a positive width at both ends.
+/// Range of `width_ratio` in which the actuator has a positive width at both ends.
 pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
@@ -251,7 +256,8 @@ impl Params {
         },
     ];
 
-    /// Returns the redesign of section III-B: transmission and hinge of Table II, all other parameters as in Table I.
+    /// Returns the redesign of section III-B of the paper: transmission and hinge of Table II, all other parameters as
+    /// in Table I.
     pub fn jafferis2016_improved() -> Params {
         Params {
             drive_frequency: 155.0,
@@ -269,16 +275,16 @@ impl Params {
         DriveConstants::new(self.drive_frequency, &self.waveform, [half, half])
     }
 
-    /// Returns these parameters with the transmission ratio scaled by `ratio`.
+    /// Returns the parameters with the transmission ratio multiplied by `ratio`.
     ///
-    /// The stiffnesses of transmission and hinge are scaled as in section III-A, which preserves the family of
-    /// response curves.
+    /// The stiffnesses of transmission and hinge are scaled as in section III-A of the paper, so that the response
+    /// curves stay similar.
     ///
     /// ```text
     /// T ∝ r     κ_t ∝ r^−2.14, so K_t = T² κ_t ∝ r^−0.14     κ_wh ∝ r^−1.47
     /// ```
     ///
-    /// Figure 5 shows r = 0.8 (T₂) and 0.6 (T₃).
+    /// Figure 5 of the paper shows r = 0.8 (T₂) and r = 0.6 (T₃).
     #[must_use]
     pub fn with_transmission_scaled(self, ratio: f64) -> Params {
         Params {

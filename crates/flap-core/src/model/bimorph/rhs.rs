@@ -1,11 +1,11 @@
 //! Equations of motion and outputs of the bimorph model.
 //!
-//! Jafferis, Graule and Wood 2016; numbers in parentheses are the paper's equations, with the corrections
-//! listed in `docs/models/bimorph.md`.
+//! Equation numbers refer to Jafferis, Graule and Wood (2016), with the corrections listed in `docs/models/bimorph.md`.
 //!
-//! The state is `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and pitch (rad), each with its rate. The
-//! stroke is T x. ψ = 0 if the wing is perpendicular to its motion. ψ > 0 if the trailing edge lags a wing that moves
-//! with ẋ > 0. Lift is positive upwards. The equations describe one actuator and one wing.
+//! The state is `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and pitch (rad), each with its rate. The stroke
+//! is T x. The pitch ψ is zero if the wing is perpendicular to its motion. At ẋ > 0, the pitch is positive if the
+//! trailing edge lags behind the leading edge. Lift is positive upwards. The equations describe one actuator and one
+//! wing.
 
 use core::f64::consts::{FRAC_2_PI, PI};
 
@@ -16,12 +16,13 @@ use crate::drive::{DriveConstants, Wave};
 use crate::model::Load;
 use crate::num::Real;
 
-/// A plate at a voltage: its force g at zero strain, and the derivatives of g with respect to the voltage.
+/// A piezoelectric plate at a voltage, with the force g at zero strain, and the derivatives of g with respect to the
+/// voltage.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate<R> {
     /// Voltage across the plate and its rate.
     pub voltage: Wave<R>,
-    /// Force at zero strain g (N), (6).
+    /// Force at zero strain g (N), Eq. (6).
     pub force: R,
     /// dg/dV (N/V).
     pub force_per_volt: R,
@@ -29,13 +30,14 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
-/// Returns the two plates at a wave of the drive, in antiphase, (7).
+/// Returns the two plates at a value `wave` of the waveform, in antiphase, Eq. (7).
 ///
 /// ```text
 /// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)
 /// ```
 ///
-/// A bias between the plates is added with opposite signs. The plates' forces differ by the factor in `c`.
+/// Half of the bias between the plates is added to V₁ and subtracted from V₂. The ratio of the forces of both plates is
+/// a constant in `c`.
 #[inline(always)]
 pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     let DriveConstants { bias, amplitude, .. } = c.drive;
@@ -45,17 +47,17 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     [plate(c, f_1, wave.scaled(first, -amplitude), s_1), plate(c, f_2, wave.scaled(second, amplitude), s_2)]
 }
 
-/// Returns the progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, (6).
+/// Returns the progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, Eq. (6).
 ///
-/// The two fields are waves of opposite sign about constant parts, so one exponential and one division serve both
-/// plates.
+/// The time-dependent parts of the two fields have opposite signs, so both plates together need only one exponential
+/// and one division.
 ///
 /// ```text
 /// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
 /// ```
 ///
-/// `check_transitions` limits these exponents to `EXPONENT_MAX`. The product of both denominators is then infinite
-/// only where both S are below 1e-47. They are rounded to zero.
+/// `check_transitions` limits the exponents to `EXPONENT_MAX`. The product of both denominators therefore overflows
+/// only if both S₁ and S₂ are below 1e-47. In this case both results are zero.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     let [e_1, e_2] = c.transition;
@@ -65,14 +67,14 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     [second * both, first * power * both]
 }
 
-/// Returns a plate with its force at zero strain (6), and the derivatives that the current contains. `s` is the
-/// progress of the transition.
+/// Returns a plate with its force at zero strain, Eq. (6), and the derivatives of the force that the current contains.
+/// `s` is the progress of the transition.
 ///
 /// ```text
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
 /// ```
 ///
-/// The equation of A in the paper contains 2 f_min instead of f_min.
+/// In the paper, the equation for A contains 2 f_min instead of f_min.
 #[inline(always)]
 fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R) -> Plate<R> {
     let field = voltage.value * c.field_per_volt;
@@ -94,7 +96,7 @@ fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R)
     }
 }
 
-/// Returns the forces F₁ and F₂ (N) of the two plates at a displacement of the tip, (5), (6).
+/// Returns the forces F₁ and F₂ (N) of the two plates at a displacement of the tip, Eqs. (5) and (6).
 ///
 /// ```text
 /// F₁ = g(V₁) (1 − b x)     F₂ = g(V₂) (1 + b x)     b = a₂ s_ε
@@ -105,7 +107,7 @@ pub(super) fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x:
     [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
 }
 
-/// Returns the stiffening of the compressed plate, (4): L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|.
+/// Returns the stiffening of the compressed plate, Eq. (4): L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|.
 ///
 /// ```text
 /// L = ln(1 + σ₀ (eᵘ − 1))     σ₀ = σ(z₀)     z₀ = a₁ε₀
@@ -120,9 +122,9 @@ pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
     (c.sigma_0 * within.exp_m1_of_ordinary()).ln_1p_of_normal() + (u - within)
 }
 
-/// Returns the actuator's elastic force K_act(x) x (N), (3), (4).
+/// Returns the actuator's elastic force K_act(x) x (N), Eqs. (3) and (4).
 ///
-/// K_act is a secant stiffness that contains L/u. Its product with x contains no division by the strain.
+/// K_act is a secant stiffness that contains L/u. The product of K_act and x contains no division by the strain.
 ///
 /// ```text
 /// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
@@ -132,16 +134,16 @@ pub(super) fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
     c.k_soft * x + c.f_stiff * stiffening(c, x).copysign(x)
 }
 
-/// Returns the actuator's secant stiffness K_act (N/m), (3); at x = 0 its limit.
+/// Returns the actuator's secant stiffness K_act (N/m), Eq. (3), which at x = 0 is the limit of K_act.
 #[inline(always)]
 pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
     let x = x.abs().max(x.lit(1e-100));
     elastic_force(c, x) / x
 }
 
-/// Returns the lift coefficient of the wing per sin 2ψ, b_L, and the drag coefficient, b₁ + b₂ cos 2ψ.
+/// Returns the lift coefficient of the wing divided by sin 2ψ, b_L, and the drag coefficient, b₁ + b₂ cos 2ψ.
 ///
-/// If `harmonics` is true, both contain the further terms of the attack angle 90° − ψ.
+/// If `harmonics` is true, both coefficients contain the further terms of the attack angle 90° − ψ.
 #[inline(always)]
 fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 2] {
     let (lift, drag) = (c.b_l, c.b_1 + c.b_2 * cos_2psi);
@@ -152,13 +154,13 @@ fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 
     }
 }
 
-/// Returns the drag force at the actuator's tip per ẋ|ẋ| (kg/m), (1), (8): C_A + C_B cos 2ψ.
+/// Returns the drag force at the actuator's tip, divided by ẋ|ẋ| (kg/m), Eqs. (1) and (8): C_A + C_B cos 2ψ.
 #[inline(always)]
 pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
-/// Returns the angle ψ̃ on which the centre of pressure depends in this reading of (11).
+/// Returns the angle ψ̃ on which the centre of pressure depends in the given `reading` of Eq. (11).
 #[inline(always)]
 pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     match reading {
@@ -168,8 +170,8 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     }
 }
 
-/// Returns the aerodynamic torque about the hinge per ẋ|ẋ|, (10), (11): C_D (kg). The centre of pressure is taken at
-/// the [`tilt`] ψ̃.
+/// Returns the aerodynamic torque about the hinge, divided by ẋ|ẋ|: C_D (kg), Eqs. (10) and (11). The centre of
+/// pressure depends on the [`tilt`] ψ̃.
 ///
 /// ```text
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
@@ -193,15 +195,15 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
     (sin * cos * 2.0, cos * cos * 2.0 - 1.0)
 }
 
-/// Returns the derivative `[ẋ, ẍ, ψ̇, ψ̈]`, (1), (2).
+/// Returns the derivative of the state `[ẋ, ẍ, ψ̇, ψ̈]`, Eqs. (1) and (2).
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + (C_A + C_B cos 2ψ) |ẋ| ẋ = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + C_C |ψ̇| ψ̇ = C_D ẋ|ẋ| + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ
 /// ```
 ///
-/// The equations extend the paper by damping of stroke and hinge (zero by default), and by a [`Transmission`] whose
-/// ratio grows. With the latter, T ẋ is φ̇ and T ẍ is φ̈.
+/// In addition to the paper, the equations contain damping of stroke and hinge (zero by default), and a
+/// [`Transmission`] whose ratio grows. If the ratio grows, T ẋ stands for φ̇, and T ẍ for φ̈.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,
@@ -232,7 +234,7 @@ pub(super) fn derivative<R: Real>(
     [x_dot, x_ddot, psi_dot, psi_ddot]
 }
 
-/// Returns the damping force of the stroke at the tip (N), from the springs' loss factor and the damping about the
+/// Returns the damping force at the actuator's tip (N), from the loss factor of the springs and the damping about the
 /// stroke axis.
 #[inline(always)]
 pub(super) fn stroke_damping<R: Real>(
@@ -244,15 +246,17 @@ pub(super) fn stroke_damping<R: Real>(
     c.tip_damping * x_dot + transmission.times(c.stroke_damping * rate)
 }
 
-/// Returns lift and drag of the wing (N). `rate` is the stroke rate φ̇ over T, which is ẋ in the paper.
+/// Returns lift and drag of the wing (N). `rate` is the stroke rate φ̇ divided by the transmission ratio T; φ̇/T is ẋ
+/// in the paper.
 ///
-/// The paper prints neither force; (8) and (10) imply this form.
+/// The paper contains no equations for lift and drag. Eqs. (8) and (10) imply this form:
 ///
 /// ```text
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
 /// ```
 ///
-/// Drag opposes the stroke. Its power R_cp T ẋ D is the actuator's loss to the air. `harmonics` as in [`hinge_drag`].
+/// Drag opposes the stroke. The power of the drag, R_cp T ẋ D, is the power that the actuator loses to the air. If
+/// `harmonics` is true, the coefficients contain the further terms of the attack angle, as in [`hinge_drag`].
 #[inline(always)]
 pub(super) fn lift_and_drag<R: Real>(
     c: &Constants<R>,
@@ -265,7 +269,8 @@ pub(super) fn lift_and_drag<R: Real>(
     [force * lift * sin_2psi, force * drag]
 }
 
-/// Returns the load of the air on the wing at a stroke. Lift and drag act at R_cp; for `rate` see [`lift_and_drag`].
+/// Returns the load of the air on the wing at a stroke. Lift and drag act at the distance R_cp from the stroke axis.
+/// [`lift_and_drag`] explains `rate`.
 ///
 /// ```text
 /// M_L = R_cp L     M_D = R_cp D     M_s = C_D ẋ|ẋ| − C_C |ψ̇| ψ̇
@@ -295,15 +300,16 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Returns the power that charges the plates' capacitance (W): C_p (V₁V̇₁ + V₂V̇₂). Its mean over a period is zero.
+/// Returns the power that charges the plates' capacitance (W): C_p (V₁V̇₁ + V₂V̇₂). The mean of this power over a
+/// period is zero.
 #[inline(always)]
 pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
     let [v_1, v_2] = [plates[0].voltage, plates[1].voltage];
     c.c_p * (v_1.value * v_1.rate + v_2.value * v_2.rate)
 }
 
-/// Returns the currents into the two plates (A): the rates of the charges that are reciprocal to (6). Not in the
-/// paper.
+/// Returns the currents into the two plates (A). The currents are the time derivatives of the charges that are
+/// reciprocal to the forces of Eq. (6). The paper contains no equations for the currents.
 ///
 /// ```text
 /// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
@@ -311,7 +317,7 @@ pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) 
 /// i₂ = C_p V̇₂ − g''(V₂) V̇₂ (x + ½ b x²) − g'(V₂) (1 + b x) ẋ
 /// ```
 ///
-/// The dielectric loss adds the [`leakage`] to these currents.
+/// The currents of the dielectric loss ([`leakage`]) are not included.
 #[inline(always)]
 pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, x_dot: R) -> [R; 2] {
     let [p_1, p_2] = plates;
@@ -324,7 +330,8 @@ pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, 
     ]
 }
 
-/// Returns the currents of the dielectric loss (A): conductance times the deviation of the voltage from its mean.
+/// Returns the currents of the dielectric loss in both plates (A): conductance times the difference between the voltage
+/// and its mean.
 #[inline(always)]
 pub(super) fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
     let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];

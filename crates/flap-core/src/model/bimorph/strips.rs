@@ -6,15 +6,17 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_beta;
 
-/// Number of strips. Four are exact for the forces at zero body motion, and for the first derivatives with respect to it.
+/// Number of strips. With four strips, the forces at zero body motion are exact, and also their first derivatives with
+/// respect to body motion.
 const STRIPS: usize = 4;
 
 crate::per_lane! {
-    /// Motion of the body, and the parts of the wing on which it acts.
+    /// Motion of the body, and the strips of the wing that move with the body.
     pub struct Moving<R> {
         /// Motion of the shoulder.
         pub motion: BodyMotion<R>,
-        /// Strips of the wing. Their chord is the mean chord, to which the centre of pressure (11) refers.
+        /// Strips of the wing. The chord of each strip is the mean chord, which is the unit of the centre of pressure
+        /// in Eq. (11).
         pub strips: [ObliqueStrip<R>; STRIPS],
     }
 }
@@ -24,10 +26,10 @@ impl Moving<f64> {
     pub(super) const REST: Moving<f64> =
         Moving { motion: BodyMotion::REST, strips: [ObliqueStrip::NONE; STRIPS] };
 
-    /// Returns the constants of a point with these terms.
+    /// Returns the constants of a point, if the equations contain the given `terms` of body motion.
     ///
     /// # Errors
-    /// If another reading of the paper or another shape of the wing is required.
+    /// Returns an error if `centre_of_pressure` is "literal", or if no wing has the given radii.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);
@@ -59,7 +61,7 @@ struct Chord {
 
 impl Chord {
     /// # Errors
-    /// If no wing has these radii.
+    /// Returns an error if no wing has the radii `wing_radius_1` and `wing_radius_2`.
     fn of(p: &Params) -> Result<Chord, Invalid> {
         let second = p.wing_radius_2;
         let first = p.wing_radius_1.unwrap_or_else(|| libm::pow(second / 0.929, 1.0 / 0.732));
@@ -77,7 +79,7 @@ impl Chord {
         Ok(Chord { length, mean, p: first * k, q: (1.0 - first) * k })
     }
 
-    /// Returns the mean of r̂³ with the weight c.
+    /// Returns the mean of r̂³ along the span, weighted by the chord c.
     fn third_moment(&self) -> f64 {
         let (p, k) = (self.p, self.p + self.q);
         p * (p + 1.0) * (p + 2.0) / (k * (k + 1.0) * (k + 2.0))
@@ -97,13 +99,13 @@ impl Chord {
     }
 }
 
-/// Forces along the wing's normal.
+/// Constants of the forces along the wing's normal.
 type Unsteady = (Circulation<f64>, RotationalForce<f64>, AddedMass<f64>);
 
 /// Returns rotational circulation, normal force of the rotational drag, and added mass of the wing's sections.
 ///
 /// # Errors
-/// If no wing has these radii, or if a chord that is infinite at root or tip has no integrals.
+/// Returns an error if no wing has the given radii, or if the integrals over the chord diverge at root or tip.
 pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     if !p.has_sections() {
         return Ok((Circulation::NONE, RotationalForce::NONE, AddedMass::NONE));
@@ -129,9 +131,9 @@ pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     ))
 }
 
-/// Returns the strips of the wing: the nodes of the Gauss rule for its [`Chord`].
+/// Returns the strips of the wing, one for each node of the Gauss rule whose weight function is the [`Chord`].
 ///
-/// Moments about the stroke axis have the levers λ r, so that lift and drag act at R_cp at zero body motion:
+/// The lever arms of the moments about the stroke axis are λ r, so that lift and drag act at R_cp at zero body motion:
 ///
 /// ```text
 /// λ = R_cp r̂₂²/(R r̂₃³)     r̂₃³ = P (P + 1) (P + 2)/((P + Q) (P + Q + 1) (P + Q + 2))

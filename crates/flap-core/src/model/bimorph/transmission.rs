@@ -1,10 +1,11 @@
-//! The transmission of the bimorph model: its ratio is constant or grows with the square of the displacement.
+//! The transmission of the bimorph model, whose ratio is constant or grows with the square of the displacement.
 //!
 //! ```text
 //! φ = T x + T₃ x³/3     φ̇ = T(x) ẋ     T(x) = T + T₃ x²
 //! ```
 //!
-//! In the paper the ratio is constant. Lagrange's equation for x with a moment M_φ about the stroke axis is:
+//! In the paper the transmission ratio is constant. Lagrange's equation for x with a moment M_φ about the stroke axis
+//! is:
 //!
 //! ```text
 //! (m_a + J T(x)²) ẍ + J T(x) T′(x) ẋ² = F(x) + T(x) M_φ     T′(x) = 2 T₃ x
@@ -13,7 +14,7 @@
 use super::constants::Constants;
 use crate::num::Real;
 
-/// Laws of the transmission ratio, on which the equations branch.
+/// Law of the transmission ratio as a function of the displacement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Law {
     /// T(x) = T.
@@ -23,7 +24,7 @@ pub enum Law {
     Square,
 }
 
-/// The transmission at a displacement of the tip, relative to its ratio T at rest.
+/// The transmission ratio at a displacement of the tip, relative to the ratio T at rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Transmission<R> {
     /// T(x) = T.
@@ -50,8 +51,8 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Returns t times a number. It turns ẋ into φ̇/T (m/s), and T times a moment about the stroke axis into a force
-    /// at the tip (N).
+    /// Returns `number` times the relative transmission ratio t. For ẋ, the result is φ̇/T (m/s). For T times a moment
+    /// about the stroke axis, the result is a force at the tip (N).
     #[inline(always)]
     pub(super) fn times(&self, number: R) -> R {
         match *self {
@@ -60,7 +61,8 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Returns the acceleration of the tip (m/s²) for a `force` (N) on it: `ẍ = (F − J T T′ ẋ²)/(m_a + J T²)`.
+    /// Returns the acceleration of the actuator's tip (m/s²) for a `force` (N) on the tip: `ẍ = (F − J T T′ ẋ²)/(m_a +
+    /// J T²)`.
     #[inline(always)]
     pub(super) fn acceleration(&self, c: &Constants<R>, force: R, x_dot: R) -> R {
         match *self {
@@ -72,7 +74,7 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Returns the acceleration of the stroke φ̈/T (m/s²): `t ẍ + t′ ẋ²`.
+    /// Returns the acceleration of the stroke, divided by T, φ̈/T (m/s²): `t ẍ + t′ ẋ²`.
     #[inline(always)]
     pub(super) fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
         match *self {
@@ -82,7 +84,7 @@ impl<R: Real> Transmission<R> {
     }
 }
 
-/// Returns the stroke φ (rad) at the displacement `x` (m).
+/// Returns the stroke φ (rad) at the displacement `x` (m) of the actuator's tip.
 #[inline(always)]
 pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
     match law {
@@ -92,9 +94,9 @@ pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
 }
 
 impl Constants<f64> {
-    /// Returns the displacement (m) of the tip at a stroke (rad).
+    /// Returns the displacement (m) of the actuator's tip at a stroke angle (rad).
     ///
-    /// This is the inverse of [`stroke`] between the displacements at which the ratio is zero.
+    /// The function is the inverse of [`stroke`] between the displacements at which the transmission ratio is zero.
     pub(super) fn tip(&self, stroke: f64) -> f64 {
         let tau = self.ratio_growth;
         let linear = stroke / self.ratio;

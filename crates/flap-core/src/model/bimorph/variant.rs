@@ -5,7 +5,7 @@ use super::transmission::Law;
 use crate::drive::Drive;
 use crate::model::Terms;
 
-/// Variant of the bimorph model: the choices on which its equations branch.
+/// Variant of the bimorph model: the choices that select the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bimorph {
     /// Drive voltage.
@@ -19,7 +19,7 @@ pub struct Bimorph {
 }
 
 impl Bimorph {
-    /// Sinusoidal drive, constant transmission ratio, and (11) with the folded attack angle.
+    /// Variant with sinusoidal drive, constant transmission ratio, and Eq. (11) with the folded attack angle.
     pub const SINE: Bimorph = Bimorph {
         drive: Drive::SINE,
         law: Law::Constant,

@@ -1,4 +1,5 @@
-//! The chord along the span, from shape moments or Legendre polynomials. The paper does not print it.
+//! The chord of the wing along the span, from Legendre polynomials or from a table, with the shape moments of the
+//! chord. The paper contains no chord shape.
 
 use super::params::{FlowDirection, Params};
 use crate::aero::{Cut, Strips, check_chords, cut, sum};
@@ -7,13 +8,13 @@ use crate::quadrature::gauss_legendre;
 
 /// Number of blade elements.
 ///
-/// At the nodes of the Gauss-Legendre rule, 8 elements give exact shape moments of a cubic chord. The settled motion
-/// differs by less than 1e-5 from the motion with 64 elements.
+/// With 8 elements at the nodes of the Gauss-Legendre rule, the shape moments of a cubic chord are exact. The relative
+/// difference between the settled motions with 8 and with 64 elements is less than 1e-5.
 pub(super) const BLADES: usize = 8;
 
 impl Params {
-    /// Returns these parameters with the mean chord, the shape moments (22), (33) and the midspan chord of the chord
-    /// shape.
+    /// Returns the parameters with the values that follow from the chord shape: mean chord, midspan chord, and the
+    /// shape moments of Eqs. (22) and (33).
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
         let cuts = elements(&self);
@@ -54,7 +55,8 @@ impl Params {
     }
 }
 
-/// Returns the blade elements, with the velocity at mid-chord. There are none if the flow has one direction.
+/// Returns the blade elements, whose velocity is computed at mid-chord. With `flow_direction` = "uniform", the list of
+/// elements is empty.
 pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     let cuts = match p.flow_direction {
         FlowDirection::Uniform => Vec::new(),
@@ -64,7 +66,7 @@ pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     Ok(Strips::new(&cuts, p.air_density, -0.5))
 }
 
-/// Returns the wing cut into blade elements.
+/// Returns the positions and sizes of the blade elements of the wing.
 pub(super) fn elements(p: &Params) -> Vec<Cut> {
     cut(&gauss_legendre(BLADES), p.root_radius(), p.wing_length, |x| p.chord(x))
 }

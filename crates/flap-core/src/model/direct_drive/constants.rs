@@ -1,7 +1,7 @@
 //! Constants of the direct-drive model, computed once per point.
 //!
-//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations. Products of constants that the
-//! equations of motion use are computed here.
+//! Equation numbers refer to Ozaki and Hamaguchi (2018). The module also computes the products of constants that the
+//! equations of motion contain.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -18,81 +18,85 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Drive voltage, or prescribed stroke.
+        /// Constants of the drive: the voltage, or the prescribed stroke.
         pub drive: DriveConstants<R>,
 
-        /// Stroke stiffness k_φ (N·m/rad), (11).
+        /// Stroke stiffness k_φ (N·m/rad), Eq. (11).
         pub k_phi: R,
         /// Hinge stiffness k_w (N·m/rad).
         pub k_w: R,
-        /// Damping of the stroke (N·m·s), with the equivalent damping of its spring's loss factor.
+        /// Viscous damping of the stroke, including the damping equivalent to the loss factor of the actuator (N·m·s).
         pub stroke_damping: R,
-        /// Damping of the hinge (N·m·s), with the equivalent damping of its loss factor.
+        /// Viscous damping of the hinge, including the damping equivalent to the hinge's loss factor (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
+        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
         pub hinge_strain: R,
-        /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), (11), (38).
+        /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), Eqs. (11) and (38).
         pub gamma: R,
-        /// Capacitance C_p (F), (37).
+        /// Capacitance C_p (F), Eq. (37).
         pub c_p: R,
         /// Equivalent conductance of the dielectric loss (S).
         pub conductance: R,
-        /// Share of the returned power that the supply recovers.
+        /// Share, recovered by the supply, of the power that the actuator returns.
         pub charge_recovery: R,
 
         /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
         pub m11: R,
-        /// Inertia about the span axis that adds to the stroke's inertia when the wing is pitched m_s (kg·m²).
+        /// Inertia m_s of the wing about the span axis, which increases the inertia of the stroke if the pitch is not
+        /// zero (kg·m²).
         pub m_s: R,
         /// Inertial coupling of stroke and pitch m₁₂ (kg·m²).
         pub m12: R,
         /// Pitch inertia m₂₂ (kg·m²).
         pub m22: R,
 
-        /// Added mass (28)–(30), without the rotation about the mid-chord.
+        /// Added mass of Eqs. (28)–(30), without the rotation about the mid-chord.
         pub added: AddedMass<R>,
         /// Rotational circulation of the blade elements.
         pub circulation: Circulation<R>,
         /// Normal force of the rotational drag.
         pub rotational_force: RotationalForce<R>,
-        /// 1 with the gyroscopic terms of the Lagrangian added mass, 0 for the paper's form.
+        /// Factor of the gyroscopic terms of the added mass: 1 for `added_mass` = "lagrangian", 0 for "paper".
         pub gyroscopic: R,
 
-        /// Lever of the stroke rate in the wing's mean velocity: R/2 + x_r (m).
+        /// Factor of the stroke rate in the mean velocity of the wing: R/2 + x_r (m).
         pub mid_radius: R,
-        /// Lever of the pitch rate in the wing's mean velocity: c(R/2)/2 (m).
+        /// Factor of the pitch rate in the mean velocity of the wing: half of the midspan chord, c(R/2)/2 (m).
         pub mid_half_chord: R,
 
-        /// Lift coefficient amplitude K_L, (26).
+        /// Lift coefficient amplitude K_L, Eq. (26).
         pub k_lift: R,
-        /// Mean of the drag coefficient's largest and smallest value, (26).
+        /// Mean of the largest and the smallest drag coefficient, Eq. (26).
         pub drag_mean: R,
-        /// Half of the drag coefficient's range, (26).
+        /// Half of the difference between the largest and the smallest drag coefficient, Eq. (26).
         pub drag_swing: R,
 
         /// Further terms of the force coefficients and of the centre of pressure.
         pub harmonics: Harmonics<R>,
 
-        /// Lift per φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² (kg), (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
+        /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the lift (kg), Eq. (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
         pub lift: [R; 3],
-        /// Stroke moment of the drag per the same products (kg·m), (25): ½ρA_w R [R² I₃₁, −R c̄ I₂₂, c̄² I₁₃/4].
+        /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the stroke moment of the drag (kg·m), Eq. (25): ½ρA_w R [R² I₃₁,
+        /// −R c̄ I₂₂, c̄² I₁₃/4].
         pub stroke: [R; 3],
-        /// Pitch moment per the same products (kg·m), (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃, c̄² I₀₄/4].
+        /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the pitch moment (kg·m), Eq. (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃,
+        /// c̄² I₀₄/4].
         pub pitch: [R; 3],
-        /// Rotational drag moment per ψ̇|ψ̇| (kg·m²), (32): ½ρC_rd R I_rd.
+        /// Moment of the rotational drag, divided by ψ̇|ψ̇| (kg·m²), Eq. (32): ½ρC_rd R I_rd.
         pub rotation: R,
-        /// Blade elements if each has its own direction of flow, otherwise none.
+        /// Blade elements of the wing for `flow_direction` = "blade", otherwise no elements.
         pub blades: Strips<R, BLADES>,
 
-        /// Centre of pressure per radian of attack, in chords, (24).
+        /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (24).
         pub pressure_slope: R,
-        /// Centre of pressure at zero attack, in chords, (24).
+        /// Centre of pressure at an attack angle of zero, in chords, Eq. (24).
         pub pressure_offset: R,
-        /// 1 for the active reading of the attack angle and 0 for the others: π/2 − σψ relative to the motion, π/2 −
-        /// |ψ|, and π/2 − ψ.
+        /// Selects one of three definitions of the attack angle: π/2 − σψ relative to the motion, π/2 − |ψ|, and
+        /// π/2 − ψ. The entry of the selected definition is 1, and the other entries are 0.
         pub attack: [R; 3],
 
-        /// +1 if F_am sin ψ is subtracted from the lift, −1 if added as printed in (35).
+        /// The factor is +1 if F_am sin ψ is subtracted from the lift, and −1 if F_am sin ψ is added as printed in Eq.
+        /// (35).
         pub lift_sign: R,
 
         /// Thickness of the piezoelectric layer t₀ (m).
@@ -117,7 +121,8 @@ fn laminate(p: &Params) -> Laminate<3> {
 }
 
 /// # Errors
-/// If the chord is negative somewhere, or the printed sign of the lift is combined with normal forces that the paper leaves out.
+/// Returns an error if all chords of the table are zero, or if `lift_sign` is "printed" and `circulation_factor` or
+/// `rotation_force_factor` is not zero.
 fn check(p: &Params) -> Result<(), Invalid> {
     p.chords.check()?;
     if p.lift_sign == LiftSign::Printed && (p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0) {
@@ -134,8 +139,9 @@ impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// If the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or a constant is not
-    /// finite. Also if the printed sign of the lift is combined with normal forces that the paper leaves out.
+    /// Returns an error if the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or
+    /// a constant is not finite. Returns an error, too, if the printed sign of the lift is combined with normal forces
+    /// that the paper leaves out.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         check(p)?;
         let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {

@@ -1,10 +1,11 @@
 //! The equations of the direct-drive model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of the attack angle, rotational circulation, rotational drag along the
-//! normal, and nonlinear springs. Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! The terms are motion of the body, further terms of the attack angle, rotational circulation, rotational drag along
+//! the normal, and nonlinear springs. If all these terms are zero, [`super::rhs`] computes the same derivatives, apart
+//! from rounding errors.
 //!
-//! Body motion requires the blade elements, each of which has its own direction of flow. The forces of the air are compiled out of
-//! line, so that the terms cost nothing where they are zero.
+//! Body motion requires the blade elements, each of which has its own direction of flow. The functions for the forces
+//! of the air are compiled out of line, so that the terms need no computing time if they are zero.
 
 use super::constants::Constants;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};
@@ -14,7 +15,7 @@ use crate::body::{BodyTerms, Shoulder};
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Forces of the air on a wing, and what the body's motion adds.
+/// Forces of the air on a wing, and the inertial moment due to the motion of the body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Air<R> {
     /// Translational and rotational aerodynamics.
@@ -26,7 +27,7 @@ pub(super) struct Air<R> {
 }
 
 impl<R: Real> Air<R> {
-    /// Returns the power lost to translational forces (W), with the power of the `normal` load, whose mean is not zero.
+    /// Returns the power that the wing loses to translational forces and to the `normal` load (W).
     #[inline(always)]
     pub(super) fn translational_power(&self, [phi_dot, psi_dot]: [R; 2], cos: R) -> R {
         let Air { forces, normal, .. } = self;
@@ -34,14 +35,15 @@ impl<R: Real> Air<R> {
             + (forces.pitch_moment + normal.span_moment) * psi_dot)
     }
 
-    /// Returns the `normal` load with the added mass at known accelerations.
+    /// Returns the sum of the `normal` load and the load of the added mass, given the accelerations in `dy`.
     #[inline(always)]
     pub(super) fn with_added_mass(&self, c: &Constants<R>, [sin, cos]: [R; 2], dy: &[R; 4]) -> NormalLoad<R> {
         added_mass(c, sin, cos, dy).plus(&self.normal)
     }
 }
 
-/// Returns the forces at a state. On a moving body, they are the terms (19) to (26) of each blade element in oblique flow, and (32).
+/// Returns the forces of the air at a state. On a moving body, Eqs. (19) to (26) are evaluated for each blade element
+/// in oblique flow. Eq. (32) gives the rotational drag.
 #[inline(always)]
 pub(super) fn air<R: Real>(
     c: &Constants<R>,
@@ -105,8 +107,8 @@ fn air_inlined<R: Real>(
     }
 }
 
-/// Returns mass matrix and generalised forces. The `normal` load of the air, the springs' nonlinear parts, and the inertial moments
-/// −g φ̇ and g ψ̇ are added to the moments of [`balance_in`].
+/// Returns mass matrix and generalised forces. The function adds the `normal` load of the air and the nonlinear moments
+/// of the springs to the forces of [`balance_in`]. The inertial moments −g φ̇ and g ψ̇ are also added.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, model: &DirectDrive, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;

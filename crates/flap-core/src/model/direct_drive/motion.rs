@@ -9,10 +9,11 @@ use crate::aero::{AddedMass, sum};
 use crate::body::BodyTerms;
 use crate::parameter::Invalid;
 
-/// Returns the constants of a point with these terms of the body's motion.
+/// Returns the constants of a point, if the equations contain the given `terms` of body motion.
 ///
 /// # Errors
-/// If another reading of the paper is required.
+/// Returns an error if `flow_direction` is "uniform", `centre_of_pressure` is "literal" or `added_mass` is
+/// "lagrangian".
 pub(super) fn with_motion(
     constants: &Constants<f64>,
     p: &Params,

@@ -54,7 +54,7 @@ crate::parameters! {
         ["hinge"]
         /// Rotational stiffness of the wing hinge.
         hinge_stiffness: f64 = ("N*m/rad", "k_w", Number(Positive)) 1.48e-4,
-        /// Viscous damping of the wing hinge. Ozaki and Hamaguchi (2018) do not use this parameter.
+        /// Viscous damping of the wing hinge. Ozaki and Hamaguchi (2018) do not use hinge_damping.
         hinge_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor, stiffening, stop and dimensions of the hinge.
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
@@ -67,8 +67,8 @@ crate::parameters! {
         /// given for these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
-        /// mean_chord. The constant term of the series is 1. Ozaki and Hamaguchi (2018) give no chord shape: the
-        /// coefficients were fitted to the published shape moments.
+        /// mean_chord. The constant term of the polynomial series is 1. Ozaki and Hamaguchi (2018) give no chord shape:
+        /// the coefficients were fitted to the published shape moments.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_2(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
@@ -76,8 +76,8 @@ crate::parameters! {
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
-        /// The chord as a table. The table replaces mean_chord, midspan_chord, the shape moments and rotation_moment,
-        /// for every flow_direction.
+        /// Table of the chord. The table replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
+        /// every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
@@ -114,23 +114,23 @@ crate::parameters! {
         piezo_modulus: f64 = ("Pa", "E_0", Number(Positive)) 14.3e9,
         /// Young's modulus of the adhesive layer.
         adhesive_modulus: f64 = ("Pa", "E_1", Number(NonNegative)) 5.0e9,
-        /// Young's modulus of the shim. The value is already halved because of the slits in the shim.
+        /// Young's modulus of the shim. The value of shim_modulus is already halved because of the slits in the shim.
         shim_modulus: f64 = ("Pa", "E_2", Number(NonNegative)) 50.3e9,
         /// Density of the piezoelectric layer.
         piezo_density: f64 = ("kg/m^3", "rho_0", Number(NonNegative)) 8000.0,
         /// Density of the adhesive layer.
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
-        /// Density of the shim. The value is already halved because of the slits in the shim.
+        /// Density of the shim. The value of shim_density is already halved because of the slits in the shim.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
-        /// Piezoelectric coefficient. A coefficient of the opposite sign gives the mirror image of the motion.
+        /// Piezoelectric coefficient. A piezo_coefficient of the opposite sign gives the mirror image of the motion.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
-        /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the value is for a free
-        /// or a clamped layer.
+        /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the permittivity is for
+        /// a free or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Cubic stiffness of the stroke: the actuator adds a moment of stroke_stiffening times the third power of the stroke,
-        /// against the stroke. Ozaki and Hamaguchi (2018) do not use this parameter.
+        /// Cubic stiffness of the stroke: the actuator adds a moment of stroke_stiffening times the third power of the
+        /// stroke, against the stroke. Ozaki and Hamaguchi (2018) do not use stroke_stiffening.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
-        /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use this parameter.
+        /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use stroke_damping.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
         /// Loss factor of the actuator, which is the spring of the stroke. The loss factor adds a viscous damping: loss
         /// factor times stiffness, divided by the angular drive frequency.
@@ -157,33 +157,34 @@ crate::parameters! {
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
         /// Further terms of the force coefficients and of the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
-        /// Factor that multiplies the rotational circulation of potential flow. A factor of 1 is the theory of Kramer (1932)
-        /// and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use this parameter.
+        /// Factor that multiplies the rotational circulation of potential flow. With a factor of 1, the circulation
+        /// follows the theory of Kramer (1932) and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use
+        /// circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
-        /// consistent with the moment of Eq. (32).
-        /// Ozaki and Hamaguchi (2018) do not use this parameter.
+        /// consistent with the moment of Eq. (32). Ozaki and Hamaguchi (2018) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
         /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion ("directional"),
-        /// folded to at most 90 deg ("folded"), or as printed ("literal"). The printed equation breaks the mirror
+        /// folded to at most 90 deg ("folded"), or as printed ("literal"). Eq. (24) as printed breaks the mirror
         /// symmetry of the two half strokes.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
         /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018) for "paper", or with the
         /// gyroscopic terms of a Lagrangian derivation for "lagrangian".
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
-        /// Sign of the added-mass term in the lift, Eq. (35): corrected, or as printed. "printed" requires that
-        /// circulation_factor and rotation_force_factor are zero.
+        /// Sign of the added-mass term in the lift, Eq. (35): corrected ("corrected"), or as printed ("printed"). The
+        /// option "printed" requires that circulation_factor and rotation_force_factor are zero.
         lift_sign: LiftSign = ("", "", Choice(LiftSign::NAMES)) LiftSign::Corrected,
     }
 
-    /// Returns the small type of Table A1, at the largest voltage and the frequency of Fig. 13.
+    /// Returns the parameters of the small robot in Table A1 of the paper, at the largest voltage and the frequency of
+    /// Fig. 13.
     pub fn ozaki2018_small() -> Params;
 }
 
 crate::choice! {
-    /// Direction of the air's flow over a wing that reverses.
+    /// Direction of the air flow over the wing while the wing reverses.
     pub enum FlowDirection {
         /// One direction for the whole wing, from the mean velocity of the wing, as in the paper.
         Uniform = "uniform",
@@ -193,39 +194,39 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// Readings of Eq. (24): the attack angle on which the centre of pressure depends.
+    /// Interpretations of Eq. (24): the attack angle on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
         Directional = "directional",
-        /// π/2 − |ψ|: never above 90°.
+        /// π/2 − |ψ|: the attack angle is never above 90°.
         Folded = "folded",
-        /// |π/2 − ψ|: as printed. The printed angle breaks the mirror symmetry of the two half strokes.
+        /// |π/2 − ψ|: the attack angle as printed, which breaks the mirror symmetry of the two half strokes.
         Literal = "literal",
     }
 }
 
 crate::choice! {
-    /// Forms of the added-mass moments (28)–(30).
+    /// Forms of the moments of the added mass, Eqs. (28)–(30).
     pub enum AddedMass {
-        /// As in the paper.
+        /// The moments as in the paper.
         Paper = "paper",
-        /// With the gyroscopic terms of a Lagrangian derivation. The gyroscopic terms do no work.
+        /// The moments with the gyroscopic terms of a Lagrangian derivation. The gyroscopic terms do no work.
         Lagrangian = "lagrangian",
     }
 }
 
 crate::choice! {
-    /// Readings of Eq. (35): the sign of F_am sin ψ.
+    /// Interpretations of Eq. (35): the sign of F_am sin ψ.
     pub enum LiftSign {
-        /// F_tr − F_am sin ψ.
+        /// The lift is F_tr − F_am sin ψ.
         Corrected = "corrected",
-        /// F_tr + F_am sin ψ.
+        /// The lift is F_tr + F_am sin ψ.
         Printed = "printed",
     }
 }
 
 impl Params {
-    /// Published presets, and hypotheses on them.
+    /// Published presets, and presets with a hypothesis about the published values.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
@@ -249,7 +250,8 @@ impl Params {
         },
     ];
 
-    /// Returns the large type of Table A1, at the largest voltage and the frequency of Fig. 14.
+    /// Returns the parameters of the large robot in Table A1 of the paper, at the largest voltage and the frequency of
+    /// Fig. 14.
     pub fn ozaki2018_large() -> Params {
         Params {
             drive_voltage_pp: 100.0,
@@ -289,10 +291,10 @@ impl Params {
         self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
-    /// Returns these parameters with the hinge stiffness of `other`.
+    /// Returns the parameters with the hinge stiffness of `other`.
     ///
-    /// Hypothesis: the columns of k_w in Table A1 are swapped. The text of the paper does not prove or disprove the
-    /// hypothesis.
+    /// The hypothesis is that the columns of k_w in Table A1 of the paper are swapped. The text of the paper does not
+    /// prove or disprove the hypothesis.
     fn with_hinge_of(self, other: &Params) -> Params {
         Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }

@@ -1,11 +1,10 @@
 //! Equations of motion and outputs of the direct-drive model.
 //!
-//! Ozaki and Hamaguchi 2018; numbers in parentheses are the paper's equations, with the corrections listed in
-//! `docs/models/direct-drive.md`.
+//! Equation numbers refer to Ozaki and Hamaguchi (2018), with the corrections listed in `docs/models/direct-drive.md`.
 //!
-//! The state is `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), and their rates (rad/s). ψ = 0 if the wing's plane contains
-//! the stroke axis. ψ > 0 if the trailing edge lags a wing that moves with φ̇ > 0. Lift is positive upwards, from the
-//! trailing towards the leading edge.
+//! The state is `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), and their rates (rad/s). The pitch ψ is zero if the plane of
+//! the wing contains the stroke axis. At φ̇ > 0, the pitch is positive if the trailing edge lags behind the leading
+//! edge. Lift is positive upwards: in the direction from the trailing edge to the leading edge.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -17,24 +16,25 @@ use crate::model::Load;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Translational and rotational aerodynamics at one state.
+/// Translational and rotational aerodynamic forces and moments at one state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aerodynamics<R> {
-    /// Translational lift F_tr,Lift (N), (21).
+    /// Translational lift F_tr,Lift (N), Eq. (21).
     pub(super) lift: R,
-    /// Translational drag F_tr,Drag along the wing's motion (N), (19).
+    /// Translational drag F_tr,Drag along the wing's motion (N), Eq. (19).
     pub(super) drag: R,
-    /// Moment about the stroke axis M_tr,y (N·m), (25).
+    /// Moment about the stroke axis M_tr,y (N·m), Eq. (25).
     pub(super) stroke_moment: R,
-    /// Moment of the lift ∫ X dF_tr,Lift (N·m). Neither the paper nor the equations of motion contain it.
+    /// Moment of the lift ∫ X dF_tr,Lift (N·m). Neither the paper nor the equations of motion contain the moment of the
+    /// lift.
     pub(super) lift_moment: R,
-    /// Moment about the span axis M_tr,x′ (N·m), (23) with corrected sign.
+    /// Moment about the span axis M_tr,x′ (N·m), Eq. (23) with corrected sign.
     pub(super) pitch_moment: R,
-    /// Rotational drag moment M_rot (N·m), (32).
+    /// Rotational drag moment M_rot (N·m), Eq. (32).
     pub(super) rotation_moment: R,
 }
 
-/// Returns the aerodynamic forces and moments without the added mass, (19)–(26), (32).
+/// Returns the aerodynamic forces and moments without the added mass, Eqs. (19)–(26) and (32).
 ///
 /// ```text
 /// w = ψ̇ cos ψ     C_L = K_L sin 2ψ     C_N = C_L sin ψ + C_D cos ψ
@@ -84,15 +84,15 @@ pub(super) fn aerodynamics<R: Real>(
 
 /// Integrals of the dynamic pressure q = ½ρ c u|u| along the span.
 struct Pressure<R> {
-    /// ∫ q dr (N).
+    /// Integral ∫ q dr for the force (N).
     force: R,
-    /// ∫ q X dr (N·m).
+    /// Integral ∫ q X dr for the moment about the stroke axis (N·m).
     stroke: R,
-    /// ∫ q c d_cp dr (N·m).
+    /// Integral ∫ q c d_cp dr for the moment about the span axis (N·m).
     pitch: R,
 }
 
-/// Returns the integrals with one direction of flow for the whole wing, σ, as in the paper.
+/// Returns the integrals of the pressure with one direction of flow σ for the whole wing, as in the paper.
 ///
 /// ```text
 /// ∫ q dr = ½ρA_w B_L σ     ∫ q X dr = ½ρA_w R B_Y σ     ∫ q c d_cp dr = ½ρA_w c̄ d_cp(σ) B_X σ
@@ -114,20 +114,21 @@ fn uniform_flow<R: Real>(
     }
 }
 
-/// Returns a quadratic form, given its factors and the products of its variables.
+/// Returns a quadratic form, given the `factors` and the `products` of the variables.
 #[inline(always)]
 fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
     factors[0] * products[0] + factors[1] * products[1] + factors[2] * products[2]
 }
 
-/// Returns the integrals with a separate direction of flow for each blade element.
+/// Returns the integrals of the pressure with a separate direction of flow for each blade element.
 ///
 /// ```text
 /// u = X φ̇ − ½ c w
 /// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
 /// ```
 ///
-/// The velocity of an element is zero where its flow changes direction. Nothing jumps, and there is no `side`.
+/// When the flow past an element changes its direction, the velocity of the element is zero. The integrals therefore
+/// have no jumps and do not depend on a `side`.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: [R; 2]) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
@@ -143,8 +144,8 @@ fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: 
     }
 }
 
-/// Returns the wing's mean velocity ū (m/s) and its rate (m/s²). The sign of ū is the direction of the aerodynamic
-/// forces.
+/// Returns the mean velocity ū of the wing (m/s) and the time derivative of ū (m/s²). The sign of ū is the direction of
+/// the aerodynamic forces.
 ///
 /// ```text
 /// ū = (R/2 + x_r) φ̇ − ½ c(R/2) ψ̇ cos ψ
@@ -159,7 +160,8 @@ pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) 
     [velocity, rate]
 }
 
-/// Returns the centre of pressure d_cp (chords) in a flow of direction `side`, (24), in the reading selected in `c`.
+/// Returns the centre of pressure d_cp (chords) in a flow of direction `side`, Eq. (24). `c` selects the definition of
+/// the attack angle.
 ///
 /// ```text
 /// d_cp = (0.82/π) α_d + 0.05
@@ -175,10 +177,11 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, side: 
     if harmonics { place + c.harmonics.pressure(attack * 2.0) } else { place }
 }
 
-/// Returns the mass matrix and the generalised forces without the actuator's force, from Lagrange's equations
-/// (3)–(18).
+/// Returns the mass matrix and the generalised forces without the force of the actuator, from Lagrange's equations,
+/// Eqs. (3)–(18).
 ///
-/// The added mass (28)–(30) is part of the mass matrix, the aerodynamic moments (34) are part of the forces.
+/// The added mass of Eqs. (28)–(30) is part of the mass matrix. The aerodynamic moments of Eq. (34) are part of the
+/// generalised forces.
 ///
 /// ```text
 /// ⎡m₁₁ + m_s s² + a₁₁ c²   (m₁₂ − a₁₂) c⎤ ⎡φ̈⎤ = ⎡Q₁ + ΓV⎤     s = sin ψ, c = cos ψ
@@ -188,7 +191,7 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, side: 
 /// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
 /// ```
 ///
-/// Damping of stroke and hinge, which is not in the paper, is subtracted in proportion to φ̇ and ψ̇.
+/// In addition to the paper, damping moments proportional to φ̇ and ψ̇ are subtracted from Q₁ and Q₂.
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, with e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
@@ -197,7 +200,7 @@ pub(super) fn balance<R: Real>(c: &Constants<R>, flow: FlowDirection, side: R, y
     balance_in(c, &aerodynamics(c, false, flow, side, y, sin, cos), y, [sin, cos])
 }
 
-/// Returns the same for these aerodynamic forces and moments.
+/// Returns the mass matrix and the generalised forces of [`balance`] for the given aerodynamic forces and moments.
 #[inline(always)]
 pub(super) fn balance_in<R: Real>(
     c: &Constants<R>,
@@ -225,17 +228,17 @@ pub(super) fn balance_in<R: Real>(
     Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
 }
 
-/// Returns the gyroscopic moment e per rate.
+/// Returns the gyroscopic moment e per rate (N·m·s).
 ///
-/// The Lagrangian form of the added mass adds e times the pitch rate to the stroke. It subtracts e times the stroke
-/// rate from the pitch.
+/// The Lagrangian form of the added mass adds e times the pitch rate to the moment of the stroke. The Lagrangian form
+/// subtracts e times the stroke rate from the moment of the pitch.
 #[inline(always)]
 fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, cos: R) -> R {
     c.gyroscopic * (c.added.a11 * *phi_dot * cos - c.added.a12 * *psi_dot) * sin
 }
 
-/// Returns force and moments of the added mass (28)–(30) at known accelerations. M_am,y″ is the chord moment, M_am,x′ the span
-/// moment.
+/// Returns the force and the moments of the added mass, Eqs. (28)–(30), given the accelerations in `dy`. M_am,y″ is the
+/// chord moment, and M_am,x′ is the span moment.
 ///
 /// ```text
 /// A = φ̈ cos ψ − φ̇ψ̇ sin ψ
@@ -252,7 +255,7 @@ pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4])
     }
 }
 
-/// Returns the lift (N), positive upwards, (35) with corrected sign: F_tr,Lift − F_am sin ψ.
+/// Returns the lift (N), positive upwards, Eq. (35) with corrected sign: F_tr,Lift − F_am sin ψ.
 #[inline(always)]
 pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &NormalLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
@@ -288,8 +291,8 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Returns the current into the actuator j_A (A), (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. The dielectric
-/// loss adds to it.
+/// Returns the current j_A into the actuator (A), Eq. (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. The current of
+/// the dielectric loss is not included.
 #[inline(always)]
 pub(super) fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot

@@ -1,7 +1,8 @@
 //! Forces and moments of the air on the wing of the four-bar model.
 //!
-//! Arabagi, Hines and Sitti 2013, (5)–(10), (16)–(18), with the corrections listed in `docs/models/four-bar.md`.
-//! Lift is positive upwards. Moments are about the stroke axis (Q_θ) and the rotation axis (Q_φ).
+//! The equations are Eqs. (5)–(10) and (16)–(18) of Arabagi, Hines and Sitti 2013, with the corrections listed in
+//! `docs/models/four-bar.md`. Lift is positive upwards. Q_θ is the moment about the stroke axis, and Q_φ the moment
+//! about the rotation axis.
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -13,18 +14,19 @@ use crate::num::Real;
 /// Forces and moments of the air on a wing that translates and rotates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aerodynamics<R> {
-    /// Translational lift L_t (N), (5).
+    /// Translational lift L_t (N), Eq. (5).
     pub(super) lift: R,
-    /// Translational drag (N), (5): the horizontal force against the motion for θ̇ > 0.
+    /// Translational drag (N), Eq. (5): the horizontal force, positive if it acts against a motion with θ̇ > 0.
     pub(super) drag: R,
-    /// Moment of the translational drag about the stroke axis (N·m), (16).
+    /// Moment of the translational drag about the stroke axis (N·m), Eq. (16).
     pub(super) stroke_moment: R,
-    /// Moment of the translational lift Σ r L_t (N·m). Neither the paper nor the equations of motion contain it.
+    /// Moment of the translational lift Σ r L_t (N·m). Neither the paper nor the equations of motion contain the moment
+    /// of the lift.
     pub(super) lift_moment: R,
-    /// Moment of translational lift and drag about the rotation axis (N·m), (16), (17).
+    /// Moment of translational lift and drag about the rotation axis (N·m), Eqs. (16) and (17).
     pub(super) pitch_moment: R,
-    /// Rotational force (6), (18). Its lift L_r is the force times sin φ, its moment about the rotation axis Q_φ is minus the
-    /// span moment.
+    /// Rotational force, Eqs. (6) and (18). The lift L_r of the rotational force is the force times sin φ. The moment
+    /// Q_φ about the rotation axis is minus the span moment.
     pub(super) rotation: NormalLoad<R>,
 }
 
@@ -36,7 +38,7 @@ impl<R: Real> Aerodynamics<R> {
     }
 }
 
-/// Returns the rotational force for −|φ̇|φ̇ (`rotation`).
+/// Returns the rotational force for `rotation` = −|φ̇|φ̇ (rad²/s²).
 #[inline(always)]
 pub(super) fn rotational_force<R: Real>(air: &Air<R>, rotation: R) -> NormalLoad<R> {
     NormalLoad {
@@ -46,23 +48,23 @@ pub(super) fn rotational_force<R: Real>(air: &Air<R>, rotation: R) -> NormalLoad
     }
 }
 
-/// Attitude of the wing, for the aerodynamic coefficients.
+/// Angles of the wing on which the aerodynamic coefficients depend.
 #[derive(Clone, Copy, Debug)]
 struct Attitude<R> {
-    /// Attack angle folded into [0, π/2], B.
+    /// Attack angle B, folded into [0, π/2].
     attack: R,
-    /// Inclination of the chord against the vertical τ = arcsin sin φ, in [−π/2, π/2].
+    /// Angle τ between the chord and the vertical, in [−π/2, π/2]: τ = arcsin sin φ.
     tilt: R,
 }
 
-/// Returns attack angle and inclination at the pitch `phi`. `side` is σ = sign tan φ.
+/// Returns the folded attack angle B and the inclination τ of the chord at the pitch `phi`. `side` is σ = sign tan φ.
 ///
 /// ```text
 /// φ = φ_m + kπ     B = π/2 − σφ_m     τ = (−1)^k φ_m
 /// ```
 ///
-/// k is such that φ_m lies within π/2 of σπ/4. Both angles then remain smooth where tan φ changes its sign, as long
-/// as `side` does not change.
+/// The whole number k is chosen so that the distance between φ_m and σπ/4 is at most π/2. As long as `side` does not
+/// change, B and τ are smooth functions of φ, even if tan φ changes its sign.
 #[inline(always)]
 fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     let k = ((phi - side * FRAC_PI_4) * FRAC_1_PI).round_ties_even();
@@ -71,7 +73,7 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     Attitude { attack: -(side * phi_m) + FRAC_PI_2, tilt: (odd * -2.0 + 1.0) * phi_m }
 }
 
-/// Returns lift and drag coefficient (9), (10) at the folded attack angle B (rad).
+/// Returns the lift coefficient, Eq. (9), and the drag coefficient, Eq. (10), at the folded attack angle B (rad).
 ///
 /// ```text
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
@@ -92,7 +94,8 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [
     [lift + sin * c.harmonics.lift(cos), drag + c.harmonics.drag(cos)]
 }
 
-/// Returns the aerodynamic forces and moments without the added mass, at a state on one `side`.
+/// Returns the aerodynamic forces and moments without the added mass, at a state on the given `side` of the switching
+/// surface.
 ///
 /// ```text
 /// α = π/2 + sφ, s = sign U; attack folded to B ≤ π/2; σ = sign tan φ
@@ -100,9 +103,10 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [
 /// d_cp = (0.82/π)(π/2 + sτ) + 0.05     q = ½ρ U² c Δr
 /// ```
 ///
-/// The strips of both directions of flow share C_l, C_d and B, because their angles |α| add up to π. With d_cp
-/// substituted, the sums Σ c q s and Σ c q remain. The latter is a quadratic form of the rates. With `harmonics`, C_l, C_d
-/// and d_cp contain the further terms of the attack angle; the terms of d_cp are proportional to s, too.
+/// For both directions of flow, the values of |α| add up to π, so all strips have the same C_l, C_d and B. The function
+/// substitutes d_cp and computes the sums Σ c q s and Σ c q. The sum Σ c q is a quadratic form of the rates. With
+/// `harmonics`, C_l, C_d and d_cp contain the further terms of the attack angle. The further terms of d_cp are
+/// proportional to s.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -138,18 +142,20 @@ pub(super) fn aerodynamics<R: Real>(
     }
 }
 
-/// Returns the switching function, whose sign σ = sign tan φ = sign sin 2φ is the `side`, and its rate. C_l changes
-/// sign with σ.
+/// Returns the switching function sin 2φ and its rate. The sign σ of the switching function is the `side`, with σ =
+/// sign tan φ. The lift coefficient C_l changes its sign when σ changes.
 ///
-/// At φ = 0 the chord is vertical and C_l jumps between ±C_l(90°). The lift jumps, but the equations of motion do
-/// not, because they contain C_l times sin φ. At |φ| = 90°, C_l jumps between ±C_l(0), and the equations jump too.
+/// At φ = 0 the chord is vertical, and C_l jumps between −C_l(90°) and C_l(90°). The lift jumps, but the equations of
+/// motion do not jump, because the equations contain C_l times sin φ. At |φ| = 90°, C_l jumps between −C_l(0) and
+/// C_l(0), and the equations of motion jump too.
 #[inline(always)]
 pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
     [sin, phi_dot * 2.0 * cos]
 }
 
-/// Returns the load of the air on the wing at a state with derivative `dy`, on one `side`.
+/// Returns the load of the air on the wing at a state with derivative `dy`, on the given `side` of the switching
+/// surface.
 ///
 /// Rotational force and added mass act along the wing's normal, which is (cos φ e_t + sin φ e_z). The normal
 /// acceleration of a strip is r A + κc φ̈, with A = θ̈ cos φ − θ̇φ̇ sin φ:
@@ -158,9 +164,9 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
 /// ```
 ///
-/// The moments have the factor r in every sum. M_s is −Q_φ, with κc in the sums of the added mass: φ > 0 moves the
-/// trailing edge with the stroke. In the equations of motion the added mass acts at the wing's centre of mass
-/// instead, (19).
+/// The moments of lift and drag are the same sums with the additional factor r. The span moment M_s is −Q_φ, because a
+/// positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums of the added mass have the
+/// additional factor κc. In the equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();
@@ -169,7 +175,8 @@ pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) 
     load_in(c, &air, y, [normal, dy[3]], [sin, cos])
 }
 
-/// Returns the same for these aerodynamic forces and moments, and accelerations [A, φ̈].
+/// Returns the load of the air, as [`load`], for the given aerodynamic forces and moments, and the accelerations [A,
+/// φ̈].
 #[inline(always)]
 pub(super) fn load_in<R: Real>(
     c: &Constants<R>,
@@ -192,7 +199,7 @@ pub(super) fn load_in<R: Real>(
     }
 }
 
-/// Returns the lift of the added mass L_a (N), (7) with corrected sign, at known accelerations.
+/// Returns the lift L_a of the added mass (N), Eq. (7) with corrected sign, given the accelerations in `dy`.
 ///
 /// ```text
 /// L_a = −(AM₁ (θ̈ cos φ − θ̇φ̇ sin φ) + AM₂ φ̈) sin φ

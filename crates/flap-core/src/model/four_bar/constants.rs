@@ -1,7 +1,7 @@
 //! Constants of the four-bar model, computed once per point.
 //!
-//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations. Equations in brackets are missing
-//! from the printed paper and were reconstructed (see `docs/models/four-bar.md`).
+//! Equation numbers refer to Arabagi, Hines and Sitti (2013). Equations in brackets are missing from the printed paper
+//! and were reconstructed (see `docs/models/four-bar.md`).
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -19,23 +19,23 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// The actuator in series with a spring.
     pub struct Actuator<R> {
-        /// Stiffness of tip and series spring together k_eff (N/m).
+        /// Stiffness k_eff of the actuator and the series spring together (N/m).
         pub stiffness: R,
-        /// Deflection of the free tip per voltage γ (m/V).
+        /// Deflection γ of the free tip per voltage (m/V).
         pub deflection: R,
-        /// Voltage at which the actuator exerts no force at zero stroke V_ref (V).
+        /// Voltage V_ref at which the actuator exerts no force at zero stroke (V).
         pub rest_voltage: R,
         /// 1/k_sc (m/N).
         pub series_compliance: R,
         /// Charge per deflection of the tip Γ (C/m).
         pub coupling: R,
-        /// Capacitance with the tip blocked C_b (F).
+        /// Capacitance C_b of the actuator with a blocked tip (F).
         pub capacitance: R,
         /// Equivalent conductance of the dielectric loss (S).
         pub conductance: R,
-        /// Share of the returned power that the supply recovers.
+        /// Share, recovered by the supply, of the power that the actuator returns.
         pub charge_recovery: R,
-        /// Mass that moves with the tip m_eff (kg).
+        /// Equivalent mass m_eff of the actuator at its tip (kg).
         pub mass: R,
         /// Thickness of the piezoelectric layer h_p (m).
         pub piezo_thickness: R,
@@ -43,9 +43,9 @@ crate::per_lane! {
 }
 
 crate::per_lane! {
-    /// Inertia of the wing with the added mass (19), and its hinges.
+    /// Inertia of the wing with the added mass of Eq. (19), and the damping and stiffness of its joints.
     pub struct Wing<R> {
-        /// m R² (kg·m²).
+        /// Inertia m R² of the mass at the distance R from the stroke axis (kg·m²).
         pub upright: R,
         /// m β² + J_yy: inertia of the stroke proportional to sin²φ (kg·m²).
         pub j_sin: R,
@@ -55,15 +55,16 @@ crate::per_lane! {
         pub coupling: R,
         /// Pitch inertia J_φ = m β² + J_xx (kg·m²).
         pub j_pitch: R,
-        /// J_d = m β² + J_yy − J_zz (kg·m²).
+        /// Difference of two moments of inertia, J_d = m β² + J_yy − J_zz (kg·m²).
         pub j_difference: R,
         /// Damping of the stroke D (N·m·s).
         pub stroke_damping: R,
-        /// Equivalent damping of the loss factor of actuator and series spring, at the slider-crank (N·s/m).
+        /// Viscous damping at the slider-crank that is equivalent to the loss factor of actuator and series spring
+        /// (N·s/m).
         pub spring_damping: R,
         /// Damping of the hinge d (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch (1/rad); zero if the hinge's dimensions are not set.
+        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
         pub hinge_strain: R,
         /// Stiffness of the hinge k_rot (N·m/rad).
         pub hinge_stiffness: R,
@@ -73,31 +74,32 @@ crate::per_lane! {
 crate::per_lane! {
     /// Aerodynamic coefficients, and moments of the wing's shape.
     pub struct Air<R> {
-        /// Lift coefficient (9): constant term, amplitude of the sine, factor of the attack angle, angle subtracted
-        /// (rad).
+        /// Constants of the lift coefficient, Eq. (9): constant term, amplitude of the sine, factor of the attack
+        /// angle, and subtracted angle (rad).
         pub lift: [R; 4],
-        /// Drag coefficient (10): constant term, amplitude of the cosine, factor of the attack angle, angle
-        /// subtracted (rad).
+        /// Constants of the drag coefficient, Eq. (10): constant term, amplitude of the cosine, factor of the attack
+        /// angle, and subtracted angle (rad).
         pub drag: [R; 4],
-        /// Arm of the centre of pressure at an attack angle of 90°, in chords, (17).
+        /// Arm of the centre of pressure at an attack angle of 90°, in chords, Eq. (17).
         pub pressure_upright: R,
-        /// Shift of the centre of pressure per radian, in chords, (17).
+        /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (17).
         pub pressure_slope: R,
         /// Further terms of the force coefficients and of the centre of pressure.
         pub harmonics: Harmonics<R>,
-        /// Σ c ½ρU²cΔr per θ̇², θ̇φ̇cosφ and (φ̇cosφ)² (kg·m²).
+        /// Factors of θ̇², θ̇φ̇cosφ and (φ̇cosφ)² in the sum Σ c ½ρU²cΔr (kg·m²).
         pub chord: [R; 3],
 
-        /// Rotational force per |φ̇|φ̇ (kg·m), (6): ½C_rotρ I₁ Σ c³Δr.
+        /// Rotational force, divided by |φ̇|φ̇ (kg·m), Eq. (6): ½C_rotρ I₁ Σ c³Δr.
         pub rotation_force: R,
-        /// Moment of the rotational force about the stroke axis (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
+        /// Moment of the rotational force about the stroke axis, divided by |φ̇|φ̇ (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
         pub rotation_stroke: R,
-        /// Moment of the rotational force about the rotation axis (kg·m²), (18): ½C_rotρ I₂ Σ c⁴Δr.
+        /// Moment of the rotational force about the rotation axis, divided by |φ̇|φ̇ (kg·m²), Eq. (18): ½C_rotρ I₂ Σ
+        /// c⁴Δr.
         pub rotation_pitch: R,
 
-        /// Added-mass force per acceleration of the stroke (kg·m), (7).
+        /// Added-mass force per acceleration of the stroke (kg·m), Eq. (7).
         pub added_stroke: R,
-        /// Added-mass force per acceleration of the pitch (kg·m), (7).
+        /// Added-mass force per acceleration of the pitch (kg·m), Eq. (7).
         pub added_pitch: R,
         /// Moment of the added mass about the shoulder per acceleration of the stroke (kg·m²): π/4 ρ Σ r²c²Δr.
         pub added_stroke_2: R,
@@ -111,19 +113,19 @@ crate::per_lane! {
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Drive voltage, or prescribed stroke.
+        /// Constants of the drive: the voltage, or the prescribed stroke.
         pub drive: DriveConstants<R>,
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
-        /// Slider-crank, from the tip's displacement to the four-bar's input link.
+        /// Slider-crank, which connects the actuator's tip to the input link of the four-bar.
         pub(crate) slider_crank: SliderCrank<R>,
-        /// Four-bar, from the input link to the stroke.
+        /// Four-bar linkage, which connects the input link to the wing.
         pub four_bar: FourBarLinkage<R>,
         /// Inertias of the links.
         pub links: LinkInertias<R>,
-        /// Inertia of the wing, and its hinges.
+        /// Inertia of the wing, and the damping and stiffness of its joints.
         pub wing: Wing<R>,
-        /// Aerodynamics of the whole wing.
+        /// Aerodynamic constants of the whole wing.
         pub air: Air<R>,
         /// Strips of the wing.
         pub strips: Strips<R, MAX_STRIPS>,
@@ -140,10 +142,10 @@ impl Constants<f64> {
     /// Returns the constants of a point, with the body at rest.
     ///
     /// # Errors
-    /// - The four-bar has no neutral position.
+    /// - The four-bar has no neutral position, or cannot be assembled in this position.
     /// - The chord is negative somewhere.
     /// - The number of strips is not allowed.
-    /// - The mass matrix is not positive definite at every position.
+    /// - The mass matrix is not positive definite at every position of the wing.
     /// - A constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = strips(p)?;
@@ -185,10 +187,11 @@ impl Constants<f64> {
     }
 }
 
-/// Returns actuator and series spring [(1), (2)] at the angular frequency `rate` (rad/s).
+/// Returns the constants of actuator and series spring, Eqs. [(1), (2)], at the angular frequency `rate` (rad/s).
 ///
-/// The unimorph's tip follows Smits and Choi (1991): δ = γV − F/k_a. The factor 33/140 is that of a cantilever which
-/// bends as under a force at its tip (Rayleigh's method).
+/// The deflection δ of the unimorph's tip is δ = γV − F/k_a (Smits and Choi 1991).
+/// The factor 33/140 of the effective mass is the one of a cantilever that bends as under a force at its tip (Rayleigh's
+/// method).
 ///
 /// ```text
 /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
@@ -222,7 +225,7 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     }
 }
 
-/// Parameters that determine if the four-bar can be assembled.
+/// Names of the parameters that determine if the four-bar can be assembled.
 const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
 
 /// Returns the four-bar in its neutral position.
@@ -248,7 +251,8 @@ fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     }
 }
 
-/// Returns the inertias of uniform links. Links with a pivot have theirs about the pivot.
+/// Returns the inertias of uniform links. The inertia of a link with a fixed pivot is the inertia about the pivot, and
+/// the inertia of the coupler is about its centre.
 fn link_inertias(p: &Params) -> LinkInertias<f64> {
     let about_centre =
         |given: Option<f64>, mass: f64, length: f64| given.unwrap_or(mass * length * length / 12.0);
@@ -263,9 +267,11 @@ fn link_inertias(p: &Params) -> LinkInertias<f64> {
     }
 }
 
-/// Returns the wing's inertia with the added mass at its centre of mass (13), (19), and the damping of its joints.
+/// Returns the inertia of the wing with the added mass at the centre of mass, Eqs. (13) and (19), and the damping of
+/// the joints.
 ///
-/// `rate` is the angular frequency (rad/s), `spring` the stiffness (N/m) at the slider-crank.
+/// `rate` is the angular frequency of the drive (rad/s), and `spring` is the stiffness of actuator and series spring at
+/// the slider-crank (N/m).
 fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
     let m = p.wing_mass + FRAC_PI_4 * p.air_density * sum(cuts, |_, c| c * c);
     let (r, beta) = (p.mass_centre_radius, p.mass_centre_depth);
@@ -284,7 +290,7 @@ fn wing(p: &Params, cuts: &[Cut], spring: f64, rate: f64) -> Wing<f64> {
     }
 }
 
-/// Returns the aerodynamics of the whole wing.
+/// Returns the aerodynamic constants of the whole wing.
 fn air(p: &Params, cuts: &[Cut]) -> Air<f64> {
     let [kappa, origin] = arms(p);
     let dynamic = 0.5 * p.air_density;

@@ -1,12 +1,13 @@
 //! The equations of the four-bar model with the terms that the paper leaves out.
 //!
 //! The terms are motion of the body, further terms of the attack angle, rotational circulation, and nonlinear springs.
-//! Without such terms, [`super::rhs`] has the same derivatives, to rounding.
+//! If all these terms are zero, [`super::rhs`] computes the same derivatives, apart from rounding errors.
 //!
-//! On a moving body, each strip has its own direction of flow and its own jump of the lift. The forces of the air are compiled out of
-//! line, so that the terms cost nothing where they are zero.
+//! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a different time.
+//! The functions for the forces of the air are compiled out of line, so that the terms need no computing time if they
+//! are zero.
 //!
-//! The pitch ψ of [`crate::body`] is −φ.
+//! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in this model: ψ = −φ.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,12 +22,13 @@ use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
 
-/// Sine of the angle between flow and normal below which the side determines the direction of the chordwise flow.
+/// Limit of |u_C|/U: below this limit, the `side` of the switching surface determines the direction of the flow along
+/// the chord.
 const GRAZING: f64 = 1e-9;
 
 /// Returns the sign of u_C, the direction of the flow along the chord.
 ///
-/// On the switching surface, rounding cannot determine the sign: it is the sign of −σ u_N, see
+/// On the switching surface, u_C is zero apart from rounding errors. The function then returns the sign of −σ u_N, see
 /// [`side_of`](super::aerodynamics::side_of).
 #[inline(always)]
 fn direction<R: Real>(side: R, flow: &Flow<R>) -> R {
@@ -35,13 +37,15 @@ fn direction<R: Real>(side: R, flow: &Flow<R>) -> R {
     side.lit(1.0).copysign(R::select(grazes, -(side * normal), chordwise))
 }
 
-/// Returns the forces along normal and chord per weight (m²/s²), (9), (10), and the centre of pressure (chords).
+/// Returns the forces along normal and chord, divided by the weight of the strip (m²/s²), with the coefficients of Eqs.
+/// (9) and (10). Returns the centre of pressure, too (chords).
 ///
 /// ```text
 /// F_N = U (C_l s u_C sign u_N + C_d u_N)     F_C = U (C_l s |u_N| − C_d u_C)     s = sign u_C
 /// ```
 ///
-/// For a constant `direction` s, they are smooth where u_C changes its sign. The force along the chord jumps there with s.
+/// If the `direction` s stays constant, both forces are smooth at u_C = 0. If s changes its sign, the force along the
+/// chord jumps.
 #[inline(always)]
 fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
     let Flow { normal, chordwise, speed } = *flow;
@@ -57,12 +61,12 @@ fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
     ([speed * normal_force, speed * chord_force], pressure)
 }
 
-/// Motion of a wing and its sections at a state.
+/// Motion of a wing and of its sections at a state.
 #[derive(Clone, Copy)]
 struct Motion<R> {
     stroke: R,
     shoulder: Shoulder<R>,
-    /// φ̇ and ψ̇ of [`crate::body`].
+    /// Stroke rate φ̇ and pitch rate ψ̇, as in [`crate::body`].
     rates: [R; 2],
     sections: Sections<R>,
     /// Sine and cosine of ψ.
@@ -89,7 +93,7 @@ impl<R: Real> Motion<R> {
         Flow::past(&self.sections, strip, self.pitch)
     }
 
-    /// Returns −|φ̇|φ̇ (rad²/s²) of the pitch rate relative to still air.
+    /// Returns −|φ̇|φ̇ (rad²/s²), where φ̇ is the pitch rate relative to still air.
     #[inline(always)]
     fn rotation(&self) -> R {
         let rate = self.shoulder.pitch_rate(self.rates[1]);
@@ -129,14 +133,15 @@ impl<R: Real> Motion<R> {
         c.circulation.load(&self.sections, self.shoulder.pitch_rate(self.rates[1]), self.pitch)
     }
 
-    /// Returns the part of the added mass's lift that is due to the motion of the body.
+    /// Returns the part of the lift of the added mass that is due to the motion of the body.
     #[inline(always)]
     fn added_mass_lift(&self, c: &Constants<R>) -> R {
         let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
         (c.air.added_stroke * e_1 - c.air.added_pitch * e_2 + c.moving.added * e_0) * self.pitch[0]
     }
 
-    /// Returns the load of the air. The added mass has the normal acceleration that [`Shoulder::accelerations`] adds.
+    /// Returns the load of the air. The load of the added mass includes the normal accelerations of
+    /// [`Shoulder::accelerations`].
     #[inline(always)]
     fn load(&self, c: &Constants<R>, air: &Aerodynamics<R>, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
         let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
@@ -156,7 +161,7 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// Returns the motion at a state, and the forces and moments of the air without the added mass.
+/// Returns the motion of the wing at a state, and the forces and moments of the air without the added mass.
 #[inline(always)]
 fn motion_in_air<R: Real>(
     c: &Constants<R>,
@@ -194,15 +199,16 @@ fn motion_in_air_inlined<R: Real>(
 
 /// Returns the forces and moments of the air without the added mass.
 ///
-/// The second number is the part of the added mass's lift that is due to the motion of the body.
+/// The second result is the part of the lift of the added mass that is due to the motion of the body.
 #[inline(always)]
 pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> (Aerodynamics<R>, R) {
     let (motion, air) = motion_in_air(c, model.terms.body == BodyTerms::All, side, y);
     (air, motion.added_mass_lift(c))
 }
 
-/// Returns mass matrix and generalised forces, with the springs' nonlinear parts, and the inertial moments of a turning body. The
-/// added mass is part of the wing's mass, which a constant velocity does not change.
+/// Returns the mass matrix and the generalised forces. The forces include the nonlinear moments of the springs, and the
+/// inertial moments that result from the rotation of the body. The added mass is part of the mass of the wing, which
+/// does not depend on the velocity of the body.
 #[inline(always)]
 pub(super) fn balance<R: Real>(
     c: &Constants<R>,
@@ -230,14 +236,14 @@ pub(super) fn load<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 
     motion.load(c, &air, y, dy)
 }
 
-/// Number of steps of the search for a jump, by regula falsi with the rule of Illinois.
+/// Number of steps in the search for the time of a jump, by regula falsi with the Illinois rule.
 const SEARCH: usize = 5;
 
 /// Nodes and weights of the Gauss-Legendre rule on [0, 1].
 const GAUSS: [[f64; 2]; 3] =
     [[0.112_701_665_379_258_31, 5.0 / 18.0], [0.5, 8.0 / 18.0], [0.887_298_334_620_741_7, 5.0 / 18.0]];
 
-/// Returns the motion at the fraction `theta` of a step.
+/// Returns the motion of the wing at the fraction `theta` of a step.
 #[inline(always)]
 fn motion_within<R: Real>(
     c: &Constants<R>,
@@ -251,10 +257,12 @@ fn motion_within<R: Real>(
 
 /// Returns the time integral of the load at the shoulder over a step.
 ///
-/// The flow past each strip keeps the direction that it has at the beginning of the step, so the load is smooth. If the
-/// flow past a strip turns, the difference of the loads in both directions is added while the flow is reversed.
+/// The first integral assumes that the direction of the flow past each strip does not change within the step, so that
+/// the load is smooth. If the flow past a strip changes its direction, the integral of the change of the load is added
+/// for the time of reversed flow.
 ///
-/// `state` returns the state of the wing from the integrated state at a time, and `slope` its derivative.
+/// `state` converts the integrated state at a time to the state of the wing, and `slope` converts the derivative of the
+/// state.
 #[inline(always)]
 pub(super) fn impulse<R: Lanes>(
     c: &Constants<R>,
@@ -326,20 +334,20 @@ pub(super) fn impulse<R: Lanes>(
     sums
 }
 
-/// Number of parts of a step in which the flow past a strip turns at most once.
+/// Number of parts into which a step is divided, so that the flow past a strip reverses at most once in each part.
 const PARTS: usize = 4;
 
 /// A part of a step.
 struct Part<R> {
-    /// Its beginning, as a fraction of the step.
+    /// Beginning of the part, as a fraction of the step.
     begin: f64,
-    /// Components of the flow along the first direction at both ends.
+    /// Components of the flow in its initial direction, at both ends of the part.
     ends: [R; 2],
 }
 
 impl<R: Lanes> Part<R> {
-    /// Returns where the flow is reversed, as an interval of fractions of the step; empty where it is not. `value` returns the
-    /// component along the first direction.
+    /// Returns the interval of the step, in fractions of the step, in which the flow is reversed. The interval is empty
+    /// if the flow is not reversed. `value` returns the component of the flow in its initial direction.
     #[inline(always)]
     fn reversed(&self, value: impl Fn(R) -> R) -> [R; 2] {
         let [mut f_low, mut f_high] = self.ends;

@@ -4,10 +4,11 @@
 //! IEEE/ASME Transactions on Mechatronics 18, 787 (2013).
 //!
 //! The model contains a quasi-static actuator in series with a spring, and a transmission with the inertia of its
-//! links. The wing has Lagrangian inertia and quasi-steady aerodynamics by strips. The lift is given by component.
+//! links. The wing has Lagrangian inertia and quasi-steady aerodynamics by strips. The model reports each component of
+//! the lift separately.
 //!
-//! The paper prints neither the actuator's equations nor the dimensions of wing and actuator. The equations were
-//! reconstructed and the dimensions assumed. Current and power are an extension.
+//! The paper contains neither the equations of the actuator nor the dimensions of wing and actuator. The equations were
+//! reconstructed, and the dimensions are assumed. Current and power are not in the paper.
 
 mod aerodynamics;
 mod constants;

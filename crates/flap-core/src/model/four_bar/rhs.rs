@@ -1,10 +1,10 @@
 //! Equations of motion of the four-bar model.
 //!
-//! Arabagi, Hines and Sitti 2013; numbers in parentheses are the paper's equations, with the corrections listed in
-//! `docs/models/four-bar.md`.
+//! Equation numbers refer to Arabagi, Hines and Sitti (2013), with the corrections listed in `docs/models/four-bar.md`.
 //!
-//! The state is `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), and their rates (rad/s). At φ = 0 the chord is vertical,
-//! with the trailing edge below. φ > 0 displaces the trailing edge towards positive θ.
+//! The state is `[θ, φ, θ̇, φ̇]`: stroke and pitch (rad), and their rates (rad/s). At φ = 0 the chord is vertical, and
+//! the trailing edge is below the leading edge. If φ > 0, the trailing edge is displaced in the direction of positive
+//! θ.
 
 use super::aerodynamics::{Aerodynamics, aerodynamics};
 use super::constants::{Actuator, Constants, Wing};
@@ -12,18 +12,18 @@ use crate::drive::Wave;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Actuator, slider-crank and four-bar, reduced to the stroke.
+/// Displacement and inertia of actuator, slider-crank and four-bar as functions of the stroke.
 #[derive(Clone, Copy, Debug)]
 pub struct Transmission<R> {
     /// Displacement of the slider-crank δ (m).
     pub displacement: R,
-    /// δ′ = dδ/dθ (m).
+    /// First derivative of δ with respect to the stroke, δ′ = dδ/dθ (m).
     pub slope: R,
-    /// δ″ (m).
+    /// Second derivative of δ with respect to the stroke, δ″ (m).
     pub bend: R,
-    /// Inertia of links and actuator about the stroke axis G (kg·m²), the sums of (13).
+    /// Inertia G of links and actuator about the stroke axis (kg·m²): the sums in Eq. (13).
     pub inertia: R,
-    /// Half of the derivative of G with respect to θ, G′/2 (kg·m²).
+    /// Half of the derivative of the inertia G with respect to θ, G′/2 (kg·m²).
     pub half_inertia_slope: R,
 }
 
@@ -51,7 +51,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
     }
 }
 
-/// Returns the force of the actuator on the slider-crank F (N) [(1), (2)].
+/// Returns the force F of the actuator on the slider-crank (N), Eqs. [(1), (2)].
 ///
 /// ```text
 /// F = k_eff (γ (V − V_ref) − δ)
@@ -61,8 +61,8 @@ pub(super) fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) 
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
-/// Returns the displacement of the actuator's tip δ_a (m), the sum of the displacements of slider-crank and series
-/// spring. Not in the paper.
+/// Returns the displacement δ_a of the actuator's tip (m): the sum of the displacements of slider-crank and series
+/// spring. The paper does not contain this equation.
 ///
 /// ```text
 /// δ_a = δ + F/k_sc
@@ -72,7 +72,8 @@ pub(super) fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
     displacement + force * c.series_compliance
 }
 
-/// Returns the current into the actuator (A), by reciprocity. Not in the paper.
+/// Returns the current into the actuator (A), which follows from the reciprocity of actuator force and charge. The
+/// paper does not contain this equation.
 ///
 /// ```text
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
@@ -83,7 +84,8 @@ pub(super) fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R)
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
 
-/// Returns the part of the [`current`] that charges capacitances (A). Its mean power over a period is zero.
+/// Returns the part of the [`current`] that charges the capacitances of the actuator (A). The mean power of this part
+/// over a period is zero.
 ///
 /// ```text
 /// (C_b + Γ k_eff γ/k_sc) V̇
@@ -99,7 +101,7 @@ pub(super) fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
     c.stiffness * c.deflection * swing
 }
 
-/// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), from (13).
+/// Returns the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), from Eq. (13).
 ///
 /// ```text
 /// M₁₁ = m R² + (m β² + J_yy) sin²φ + J_zz cos²φ + G     M₁₂ = P cos φ     M₂₂ = J_φ
@@ -114,22 +116,22 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
     ]
 }
 
-/// Returns the mass matrix and the generalised forces without the actuator's force, from Lagrange's equations (14),
-/// (15).
+/// Returns the mass matrix and the generalised forces without the force of the actuator, from Lagrange's equations,
+/// Eqs. (14) and (15).
 ///
 /// ```text
 /// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡F δ′ + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 ///
-/// The damping of the stroke includes the loss factor of the drive's springs: D + γ k_eff δ′²/ω.
+/// The damping of the stroke includes the loss factor γ of actuator and series spring: D + γ k_eff δ′²/ω.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let (sin, cos) = y[1].sin_cos();
     balance_in(c, links, &aerodynamics(c, false, side, y, sin, cos), y, [sin, cos])
 }
 
-/// Returns the same for these aerodynamic forces and moments.
+/// Returns the mass matrix and the generalised forces for the given aerodynamic forces and moments.
 #[inline(always)]
 pub(super) fn balance_in<R: Real>(
     c: &Constants<R>,
@@ -152,8 +154,8 @@ pub(super) fn balance_in<R: Real>(
     Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
 }
 
-/// Returns the damping of the stroke (N·m·s): D, and the equivalent damping of the loss factor γ of actuator and
-/// series spring.
+/// Returns the damping of the stroke (N·m·s). The damping is the sum of D and the damping equivalent to the loss factor
+/// γ of actuator and series spring.
 ///
 /// The loss factor is not in the paper.
 ///

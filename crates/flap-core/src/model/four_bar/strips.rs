@@ -1,4 +1,4 @@
-//! Strips of the wing of the four-bar model, and the motion of the body as constants.
+//! Strips of the wing of the four-bar model, and the constants of the motion of the body.
 
 use core::f64::consts::FRAC_PI_4;
 
@@ -8,7 +8,7 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::{gauss_legendre, midpoints};
 
-/// Returns the wing cut into strips.
+/// Returns the positions and sizes of the strips of the wing.
 pub(super) fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Invalid::unless_within("strips", p.strips, STRIPS)?;
     p.chords.check()?;
@@ -28,8 +28,8 @@ pub(super) fn strips(p: &Params) -> Result<Vec<Cut>, Invalid> {
     Ok(cuts)
 }
 
-/// Returns κ, the distance from the rotation axis to the mid-chord in (8), and χ₀, the offset in (17); both in
-/// chords.
+/// Returns two lengths in chords: the distance κ from the rotation axis to the mid-chord in Eq. (8), and the offset χ₀
+/// in Eq. (17).
 pub(super) fn arms(p: &Params) -> [f64; 2] {
     match p.arms {
         Arms::Printed => [0.5, 0.0],
@@ -38,13 +38,13 @@ pub(super) fn arms(p: &Params) -> [f64; 2] {
 }
 
 crate::per_lane! {
-    /// Motion of the body, and the parts of the wing on which it acts.
+    /// Motion of the body, and the constants of the wing that depend on this motion.
     pub struct Moving<R> {
         /// Motion of the shoulder.
         pub motion: BodyMotion<R>,
-        /// Distance of the mid-chord behind the rotation axis in (8), κ (chords).
+        /// Distance κ of the mid-chord behind the rotation axis in Eq. (8) (chords).
         pub behind: R,
-        /// Added mass Σ π/4 ρ c²Δr (kg).
+        /// Added mass of the wing, Σ π/4 ρ c²Δr (kg).
         pub added: R,
     }
 }
@@ -53,7 +53,7 @@ impl Moving<f64> {
     /// A body at rest.
     pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, behind: 0.0, added: 0.0 };
 
-    /// Returns the constants of a point with these terms.
+    /// Returns the constants of a point, if the equations contain the given `terms` of body motion.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);

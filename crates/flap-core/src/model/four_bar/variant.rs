@@ -3,17 +3,17 @@
 use crate::drive::Drive;
 use crate::model::Terms;
 
-/// Variant of the four-bar model: the choices on which its equations branch.
+/// Variant of the four-bar model: the choices that select the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
-    /// Drive voltage, or prescribed stroke.
+    /// Drive of the wing: a voltage, or a prescribed stroke.
     pub drive: Drive,
     /// Terms that the paper leaves out.
     pub terms: Terms,
 }
 
 impl FourBar {
-    /// Sinusoidal drive, with the body at rest.
+    /// Variant with sinusoidal drive and the body at rest.
     pub const SINE: FourBar = FourBar { drive: Drive::SINE, terms: Terms::NONE };
 }
 

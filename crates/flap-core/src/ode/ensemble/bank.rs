@@ -1,4 +1,4 @@
-//! Numbers in an ensemble's lanes, and a step of all lanes.
+//! Numbers in the lanes of an ensemble, and the integration of one step in all lanes.
 
 use super::queue::Observer;
 use crate::num::{Lanes, PerLane};
@@ -10,7 +10,7 @@ use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
 use crate::ode::variation::{RESPONSE_SCALE, Varied};
 use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
-/// Numbers of the runs in lanes, with responses to D changes.
+/// Numbers of the runs in all lanes, with the responses to D changes of the initial state.
 pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     token: R::Token,
     tolerances: Tolerances,
@@ -24,7 +24,7 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     atol_of_responses: [R; N],
     t: R,
     h: R,
-    /// Step size at the beginning of a span.
+    /// Step size at the beginning of the current span.
     h_begin: R,
     step: Step<R, N>,
     responses: [Step<R, N>; D],
@@ -35,7 +35,7 @@ pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, c
     error: R,
 }
 
-/// Lanes with an event in a step, one bit each.
+/// Lanes in which the step ended a span or failed, with one bit for each lane.
 pub(super) struct Events {
     /// Lanes at the end of their span.
     pub(super) landed: u64,
@@ -44,7 +44,7 @@ pub(super) struct Events {
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Bank<R, O, V, N, D> {
-    /// Returns a bank with the same run in every lane, so that idle lanes compute ordinary numbers.
+    /// Returns a bank with the same run in each lane, so that the numbers in idle lanes are finite.
     #[inline(always)]
     pub(super) fn new(
         token: R::Token,
@@ -86,7 +86,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         self.restart(lane, start, observer);
     }
 
-    /// Restarts the run of a lane with the same constants.
+    /// Restarts the run in a lane from another initial state, with the same constants.
     pub(super) fn restart<C>(&mut self, lane: usize, next: &Start<C, N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
@@ -104,7 +104,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         }
     }
 
-    /// Computes first slope and step size in the `fresh` lanes, one bit each. The other lanes keep theirs.
+    /// Computes the first slope and the step size in the `fresh` lanes, which have one bit each. The other lanes do not
+    /// change.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
         let fresh = R::mask(self.token, fresh);
@@ -199,7 +200,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         Events { landed, failed: exhausted | stuck }
     }
 
-    /// Recomputes the first slope in the lanes that have arrived at their switching surface.
+    /// Computes the first slope again in lanes whose state has arrived at the switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());
@@ -228,7 +229,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         begins
     }
 
-    /// Returns the mean square of error over tolerance of the step, as in [`crate::ode::norm`].
+    /// Returns the mean square of the errors of the step, divided by their tolerances, as in [`crate::ode::norm`].
     #[inline(always)]
     fn error_squared(&self) -> R {
         let Step { y: [y, .., y_new], error, .. } = &self.step;
@@ -239,27 +240,27 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         sum * (1.0 / (N * (1 + D)) as f64)
     }
 
-    /// Returns the state of one lane.
+    /// Returns the state of the run in one lane.
     pub(super) fn state(&self, lane: usize) -> [f64; N] {
         self.step.y[0].get(lane)
     }
 
-    /// Returns the responses in one lane.
+    /// Returns the responses of the run in one lane.
     pub(super) fn responses(&self, lane: usize) -> [[f64; N]; D] {
         core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }
 
-    /// Returns the totals of one lane.
+    /// Returns the observer's totals for the run in one lane.
     pub(super) fn totals(&self, lane: usize) -> V::Totals<f64> {
         self.totals.get(lane)
     }
 
-    /// Returns the ending of a run that failed in its last step.
+    /// Returns the kind of failure of a run that failed in its last step.
     pub(super) fn failure(&self, lane: usize) -> Ending {
         Ending::of_failure(self.error.lane(lane))
     }
 
-    /// Returns the number of crossings of the switching surface in one lane.
+    /// Returns the number of times that the run in one lane has crossed the switching surface.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -270,7 +271,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
     }
 }
 
-/// Returns the absolute tolerances of responses to changes of these sizes.
+/// Returns the absolute tolerances of the responses to changes of the given sizes.
 fn of_responses<const N: usize>(
     tolerances: &Tolerances,
     tolerance_factor: f64,

@@ -8,7 +8,7 @@ use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
 /// Result of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Integrated<T, const N: usize> {
-    /// Final state. If the run failed, the last state.
+    /// Final state of the run, or the last state before a failure.
     pub y: [f64; N],
     /// Totals of the observer.
     pub totals: T,
@@ -16,12 +16,12 @@ pub struct Integrated<T, const N: usize> {
     pub outcome: Outcome,
 }
 
-/// Integrates one run from each of `starts` over `spans` spans, in the SIMD lanes of `backend`.
+/// Integrates one run from each initial state in `starts` over `spans` spans of time, in the SIMD lanes of `backend`.
 ///
-/// The results are in the order of the starts. `observer` sums up quantities along the runs; use
-/// [`Unobserved`](super::Unobserved) if you need none. `spans` is at least 1.
+/// The results have the order of `starts`. `observer` sums up quantities during the runs. If you do not need sums, use
+/// [`Unobserved`](super::Unobserved). `spans` is at least 1.
 ///
-/// Example: decays x' = −k x with 1,000 rates k (1/s), from x = 1 over one second.
+/// The example integrates the decay x' = −k x with 1,000 rates k (1/s), from x = 1 over one second.
 ///
 /// ```
 /// use flap_core::num::{Backend, Real};
@@ -87,7 +87,7 @@ struct List<'a, C, T, const N: usize> {
     starts: &'a [Start<C, N>],
     spans: u32,
     begun: usize,
-    /// Position of the run in each lane, and number of spans left.
+    /// Index of the run in each lane, and the number of its remaining spans.
     lanes: [(usize, u32); MOST_LANES],
     ends: Vec<Option<Integrated<T, N>>>,
 }

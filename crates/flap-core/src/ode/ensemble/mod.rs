@@ -1,9 +1,9 @@
-//! Many runs in SIMD lanes.
+//! Integration of many runs at the same time, one run in each SIMD lane.
 //!
-//! Every lane has its own time, step size, error control and constants. When the run in a lane ends or fails, the
-//! lane takes the next run from the queue while the other lanes go on. All lanes are used until the queue is empty.
+//! Every lane has its own time, step size, error control and constants. If the run in a lane ends or fails, the lane
+//! takes the next run from the queue, while the other lanes continue. All lanes are used until the queue is empty.
 //!
-//! No operation mixes lanes: a run's results do not depend on the other runs, and equal the results of
+//! No operation mixes lanes. The results of a run do not depend on other runs, and equal the results of
 //! [`super::solve`] to the last bit.
 
 mod bank;

@@ -1,4 +1,5 @@
-//! Schedule of an ensemble: it loads runs from the queue into lanes, steps, and unloads runs that have ended.
+//! Schedule of an ensemble, which loads runs from the queue into lanes, integrates the runs, and passes the results to
+//! the queue.
 
 use core::ops::AddAssign;
 
@@ -7,12 +8,12 @@ use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
-/// Use of the lanes.
+/// Use of the lanes: how many attempted steps belong to a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
-    /// Steps attempted in lanes with a run.
+    /// Number of steps attempted in lanes that have a run.
     pub used: u64,
-    /// Steps attempted in all lanes.
+    /// Number of steps attempted in all lanes.
     pub room: u64,
 }
 
@@ -23,7 +24,7 @@ impl AddAssign for Occupancy {
     }
 }
 
-/// Integrates the runs of `queue` until it is empty or interrupted. Returns the use of the lanes.
+/// Integrates the runs of `queue` until the queue is empty or interrupted. Returns the use of the lanes.
 pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -34,7 +35,7 @@ pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
 }
 
-/// [`run`] with the responses of the states to changes of their initial values.
+/// Integrates as [`run`], and computes the responses of the states to changes of the initial state.
 pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -45,7 +46,8 @@ pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N:
     run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
 }
 
-/// [`run`] with responses to D changes. The queue is not generic, so this is compiled once per observer.
+/// Integrates as [`run`], and computes the responses to D changes. Because the type of `queue` is not generic, the
+/// function is compiled once for each observer.
 fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
     simd: S,
     ode: &O,
@@ -64,18 +66,18 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     )
 }
 
-/// The lanes, and which of them have a run.
+/// The numbers in the lanes, and the state of each lane.
 struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     bank: Bank<R, O, V, N, D>,
-    /// Number of vector steps at the beginning of the run in each lane.
+    /// Value of `steps` at the beginning of the run in each lane.
     began: [u64; MOST_LANES],
-    /// Number of vector steps.
+    /// Number of steps that all lanes attempted together.
     steps: u64,
-    /// Number of steps of the runs that have ended.
+    /// Number of steps of all runs that have ended.
     used: u64,
-    /// Lanes with a run, one bit each.
+    /// Lanes that have a run, with one bit for each lane.
     active: u64,
-    /// Lanes whose run has not started, one bit each.
+    /// Lanes whose run has not started, with one bit for each lane.
     fresh: u64,
 }
 
@@ -135,7 +137,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         }
     }
 
-    /// Attempts steps in every lane until a lane has an event, or for a few milliseconds.
+    /// Attempts steps in each lane until a span ends, a run fails, or a few milliseconds have passed.
     #[inline(always)]
     fn advance(&mut self, ode: &O, observer: &V) -> Events {
         let mut left = INTERRUPT_STEPS;
@@ -148,7 +150,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         }
     }
 
-    /// Fills waiting lanes, as long as the queue has runs.
+    /// Loads runs into free lanes, as long as the queue contains runs.
     fn refill(&mut self, observer: &V, queue: &mut dyn Queue<O, V, N>) {
         for lane in 0..R::LANES {
             if self.active & (1 << lane) != 0 {
@@ -161,7 +163,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         }
     }
 
-    /// Passes runs at the ends of their spans and failed runs to the queue.
+    /// Passes failed runs, and runs at the end of a span, to the queue.
     fn settle(&mut self, events: &Events, observer: &V, queue: &mut dyn Queue<O, V, N>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
