@@ -20,7 +20,7 @@ fn main() {
     }
 }
 
-/// The script of a page, and the paths of the modules in it.
+/// The script of a page, and the paths of the modules in the script.
 #[derive(Default)]
 struct Joined {
     script: String,

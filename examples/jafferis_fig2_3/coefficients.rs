@@ -17,25 +17,26 @@ pub(crate) struct Coefficients {
 pub(crate) const FIG_3: Coefficients = Coefficients { lift: 1.8, drag_mean: 1.9, drag_swing: 1.5 };
 
 impl Coefficients {
-    /// Lift coefficient, given sin 2ψ.
+    /// Lift coefficient, from sin 2ψ.
     #[inline(always)]
     pub(crate) fn lift<R: Real>(&self, sin_2psi: R) -> R {
         sin_2psi * self.lift
     }
 
-    /// Drag coefficient, given cos 2ψ.
+    /// Drag coefficient, from cos 2ψ.
     #[inline(always)]
     pub(crate) fn drag<R: Real>(&self, cos_2psi: R) -> R {
         cos_2psi * self.drag_swing + self.drag_mean
     }
 
-    /// Coefficient of the force along the wing's normal, which turns the hinge; the bracket of Eq. (10).
+    /// Coefficient of the force along the wing's normal, which rotates the wing about the hinge; the bracket of Eq.
+    /// (10).
     #[inline(always)]
     pub(crate) fn normal<R: Real>(&self, sin: R, cos: R) -> R {
         self.drag(cos * cos * 2.0 - 1.0) * cos + self.lift(sin * cos * 2.0) * sin
     }
 
-    /// Lift over drag at a pitch (deg).
+    /// Lift-to-drag ratio at a pitch (deg).
     pub(crate) fn lift_to_drag(&self, degrees: f64) -> f64 {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
         self.lift(sin_2psi) / self.drag(cos_2psi)
@@ -57,7 +58,7 @@ impl Coefficients {
     }
 }
 
-/// The pitch (deg, in steps of 0.01) at which a curve is highest, and its value there.
+/// The pitch (deg, in steps of 0.01) at which a curve is highest, and the value of the curve at this pitch.
 pub(crate) fn highest(curve: impl Fn(f64) -> f64) -> (f64, f64) {
     (0..9000)
         .map(|i| 0.01 * f64::from(i))

@@ -6,7 +6,7 @@
 //! cargo run --release -p flap-core --example jafferis_fig2_3 fig3 > fig3.csv
 //! ```
 //!
-//! `oscillators.rs` shows how to integrate equations of one's own, `response.rs` how to bring them to a settled motion.
+//! `oscillators.rs` shows how to integrate your own equations, and `response.rs` shows how to reach a settled motion.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 
@@ -20,7 +20,7 @@ use coefficients::{FIG_3, highest};
 use oscillators::{DAMPING, HeldWing, Linear, TABLE_I};
 use response::{Response, peaks, response};
 
-/// Forces at which the wing on its hinge shows its regimes.
+/// Forces at which the wing with a hinge shows different regimes.
 const FORCES: [f64; 4] = [0.2, 0.3, 0.4, 0.5];
 
 fn main() -> ExitCode {

@@ -1,6 +1,7 @@
 //! The three oscillators of Fig. 2, as new equations for flap's integrator.
 //!
-//! Stroke x and pitch ψ are in radians, and the time is in units of 1/ω₀, with the undamped resonance ω₀. A force F sin ωt drives each of them.
+//! Stroke x and pitch ψ are in radians, and the time is in units of 1/ω₀, with the undamped resonance ω₀. A force F sin
+//! ωt drives each oscillator.
 
 use flap_core::num::Real;
 use flap_core::ode::Ode;
@@ -13,14 +14,14 @@ flap_core::per_lane! {
     pub struct Drive<R> {
         /// Amplitude F of the force.
         pub force: R,
-        /// Frequency ω over the undamped resonance.
+        /// Frequency ω divided by the undamped resonance.
         pub frequency: R,
         /// Damping coefficient of the stroke.
         pub damping: R,
     }
 }
 
-/// An oscillator, of `N` states.
+/// An oscillator with `N` states.
 pub(crate) trait Oscillator<const N: usize>: Sync {
     /// Rates of the states under a force.
     fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; N]) -> [R; N];
@@ -33,7 +34,7 @@ impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
     type Constants<R: Real> = Drive<R>;
     type Input<R: Real> = R;
 
-    /// The force at time `t`: what depends on time alone is computed apart from the state.
+    /// The force at time `t`. Values that depend only on time are computed separately from the state.
     #[inline(always)]
     fn input<R: Real>(&self, c: &Drive<R>, t: R) -> R {
         c.force * (c.frequency * t).sin()
@@ -92,21 +93,21 @@ impl Oscillator<2> for HeldWing {
 /// ψ̈ + k ψ + c |ψ̇|ψ̇ = m (C_D cos ψ + C_L sin ψ) |ẋ|ẋ + j ẍ cos ψ + ½ ẋ² sin 2ψ
 /// ```
 pub(crate) struct TurningWing {
-    /// Stiffness k of the hinge over the wing's inertia.
+    /// Stiffness k of the hinge divided by the wing's inertia.
     pub(crate) stiffness: f64,
     /// Damping c of the hinge.
     pub(crate) damping: f64,
     /// Moment m of the air.
     pub(crate) moment: f64,
-    /// Coupling inertia j over the wing's inertia.
+    /// Coupling inertia j divided by the wing's inertia.
     pub(crate) coupling: f64,
 }
 
-/// Ratios as of Table I, in round numbers.
+/// The ratios of Table I, in round numbers.
 pub(crate) const TABLE_I: TurningWing =
     TurningWing { stiffness: 2.15, damping: 0.32, moment: 1.1, coupling: 0.66 };
 
-/// The stroke's damping with a drag coefficient of 1, as of Table I.
+/// The damping of the stroke in Table I, for a drag coefficient of 1.
 pub(crate) const DAMPING: f64 = 0.67;
 
 impl Oscillator<4> for TurningWing {

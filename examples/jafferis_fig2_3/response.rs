@@ -11,10 +11,10 @@ use super::oscillators::{Drive, Forced, Oscillator};
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
 
-/// A change of the state from period to period that counts as none.
+/// The tolerance of a settled motion: the largest change of the state from period to period.
 const SETTLED: f64 = 1e-4;
 
-/// Periods after which a motion is taken as it is.
+/// Largest number of periods of a motion, even if the motion has not settled.
 const PATIENCE: u32 = 400;
 
 /// Frequencies of the curves, as ratios to the undamped resonance.
@@ -25,7 +25,7 @@ pub(crate) fn frequencies() -> impl Iterator<Item = f64> {
 /// A point of a response curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Response {
-    /// Frequency over the undamped resonance.
+    /// Frequency divided by the undamped resonance.
     pub(crate) frequency: f64,
     /// Amplitude of the stroke per force.
     pub(crate) stroke: f64,

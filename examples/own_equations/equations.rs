@@ -1,7 +1,6 @@
-//! The equations of motion, and what is measured of them.
-//!
-//! A bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force: Eqs. (1), (2), (8) to
-//! (11), numbers of Table I.
+//! The equations of motion and the measures.
+//! A bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force. The equations are Eqs.
+//! (1), (2) and (8) to (11) of the paper, with the numbers of its Table I.
 
 #[path = "constants.rs"]
 mod constants;
@@ -24,7 +23,7 @@ use constants::{
 flap_core::per_lane! {
     /// The drive.
     pub struct Drive<R> {
-        /// Amplitude of the force over the mass (m/s²).
+        /// Amplitude of the force divided by the mass (m/s²).
         pub force: R,
         /// Angular frequency (rad/s).
         pub frequency: R,
@@ -117,7 +116,7 @@ impl Observer<Wing, 4> for Measured {
     }
 }
 
-/// The larger of `so_far` and of what a state comes to where its rate changes sign within the step.
+/// The larger of `so_far` and the magnitude of a state at the time in the step at which its rate changes sign.
 #[inline(always)]
 fn peak<R: Lanes>(attempt: &Attempt<'_, R, 4>, accepted: R::Mask, state: usize, rate: usize, so_far: R) -> R {
     let Attempt { h, step, .. } = *attempt;

@@ -4,10 +4,10 @@
 //! cargo run --release -p flap-core --example own_equations -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
-//! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for 40
-//! drive periods from rest. OUT.csv gets the amplitudes of tip and pitch and the mean lift, over the last five periods.
-//! The time of the runs goes to stdout, as JSON. SET names the instructions: avx512, avx2, neon or scalar. Default: the
-//! fastest set of the processor.
+//! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for
+//! 40 drive periods from rest. OUT.csv contains the amplitudes of tip and pitch and the mean lift, over the last five
+//! periods. The program prints the time of the runs to stdout, as JSON. SET is the name of the SIMD instructions:
+//! avx512, avx2, neon or scalar. Without SET, the program uses the fastest instructions of the processor.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 
@@ -24,7 +24,7 @@ use nix::time::{ClockId, clock_gettime};
 
 use equations::{Drive, Measured, SCALE, Sums, Wing};
 
-/// Drive periods before the measurement, and measured drive periods.
+/// Number of drive periods before the measurement, and number of measured drive periods.
 const PERIODS: [u32; 2] = [35, 5];
 
 type Begin = Start<Drive<f64>, 4>;
@@ -76,12 +76,12 @@ fn read(text: &str) -> Result<Vec<Point>, Box<dyn Error>> {
     rows.collect()
 }
 
-/// Time that this process has computed.
+/// Processor time of this process.
 fn cpu_time() -> Result<Duration, nix::Error> {
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map(Duration::from)
 }
 
-/// The sums over the last periods of every run, and the right-hand sides of all.
+/// The sums over the last periods of every run, and the number of right-hand sides of all runs.
 struct Found {
     sums: Vec<Sums<f64>>,
     rhs_evals: u64,
@@ -109,7 +109,8 @@ fn integrated(backend: Backend, points: &[Point], tolerances: &Tolerances) -> Fo
 mod tests {
     use super::*;
 
-    /// Numbers of a long-double solver at a tolerance of 1e-12, with 2,048 samples per period: see tests/data.
+    /// Reference numbers in tests/data: a long-double solver computed them at a tolerance of 1e-12, with 2,048 samples
+    /// per period.
     const REFERENCE: &str = include_str!("../../tests/data/own_equations.csv");
 
     #[test]

@@ -57,11 +57,11 @@ pub(crate) const PAPER: Paper = Paper {
     ],
 };
 
-/// One of the two systems, with the frequencies its responses are looked at.
+/// One of the two systems, with the range of frequencies of its responses.
 struct System {
     name: &'static str,
     params: Params,
-    /// From, to and step (Hz).
+    /// First frequency, last frequency and step (Hz).
     range: [f64; 3],
 }
 
@@ -86,7 +86,7 @@ impl System {
         })
     }
 
-    /// The same system at another voltage.
+    /// The same system with another drive voltage.
     fn at(self, drive_voltage_pp: f64) -> System {
         System { params: Params { drive_voltage_pp, ..self.params }, ..self }
     }

@@ -1,8 +1,8 @@
-//! Claims: the statement of a paper, the number that flap computes, and the verdict that follows from the two.
+//! Claims: the statement of a paper, the number that flap computes, and the verdict that follows from both.
 //!
-//! Verdicts are rules applied to numbers; none is written by hand.
+//! Rules compute each verdict from the numbers.
 
-/// A statement of a paper beside what flap computes.
+/// A statement of a paper, and the number that flap computes.
 pub(crate) struct Claim {
     /// Section, figure or table of the paper.
     pub(crate) place: &'static str,
@@ -18,31 +18,31 @@ pub(crate) struct Claim {
 /// The outcome of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Verdict {
-    /// The computed number is the published one to its rounding, or the statement holds.
+    /// The computed number equals the published number to its rounding, or the statement holds.
     Met,
-    /// The computed number is off by this share of the published one, within what the claim allows.
+    /// The relative error of the computed number, within the limit of the claim.
     MetWithin(f64),
-    /// It is further off, or the statement does not hold.
+    /// The relative error exceeds the limit of the claim, or the statement does not hold.
     NotReproduced,
-    /// There is nothing to compare, and why.
+    /// The reason why the claim cannot be compared.
     CannotBeChecked(&'static str),
 }
 
-/// The share by which a resonance, or a number that the paper computed from the same parameters, may be off.
+/// Largest relative error of a resonance, or of a number that the paper computed from the same parameters.
 const CLOSELY: f64 = 0.03;
-/// The share by which a number may be off that the paper calls approximate.
+/// Largest relative error of a number that the paper calls approximate.
 const ABOUT: f64 = 0.10;
-/// The share by which a number may be off that the paper measured.
+/// Largest relative error of a number that the paper measured.
 const MEASURED: f64 = 0.20;
-/// The share by which a number may be off where wing and actuator are assumed.
+/// Largest relative error of a number, if wing and actuator are assumed.
 const ASSUMED: f64 = 0.25;
 
-/// A published number and how far off a computed one may be.
+/// A published number, and the largest relative error of the computed number.
 pub(crate) struct Expected {
     value: f64,
     /// Half a unit of the published number's last digit, or half the width of a range.
     rounding: f64,
-    /// Largest share of the published number beyond which a computed one does not reproduce it.
+    /// Largest relative error at which the computed number reproduces the published number.
     limit: f64,
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn assumed(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: ASSUMED }
 }
 
-/// A range that a number is in or not.
+/// A published range, in which the computed number must be.
 pub(crate) fn between(low: f64, high: f64) -> Expected {
     Expected { value: 0.5 * (low + high), rounding: 0.5 * (high - low), limit: 0.0 }
 }
@@ -84,30 +84,30 @@ impl Expected {
     }
 }
 
-/// A statement of a paper, before anything is computed.
+/// A statement of a paper, before flap computes a number.
 pub(crate) struct Said {
     place: &'static str,
     statement: String,
     published: String,
 }
 
-/// The paper says at `place` that `statement`: `published`.
+/// The statement `statement` at `place` of a paper, with the published number `published`.
 pub(crate) fn said(place: &'static str, statement: impl Into<String>, published: impl Into<String>) -> Said {
     Said { place, statement: statement.into(), published: published.into() }
 }
 
 impl Said {
-    /// The claim, where the computed number is compared with the published one.
+    /// The claim, with a comparison of the computed and the published number.
     pub(crate) fn is(self, expected: &Expected, computed: f64, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), expected.verdict(computed))
     }
 
-    /// The claim, where what was computed fulfils the statement or does not.
+    /// The claim, with the result whether the computed numbers fulfil the statement.
     pub(crate) fn holds(self, holds: bool, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), if holds { Verdict::Met } else { Verdict::NotReproduced })
     }
 
-    /// The claim, if there is nothing to compare.
+    /// The claim, if no number can be compared.
     pub(crate) fn cannot_be_checked(self, why: &'static str, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), Verdict::CannotBeChecked(why))
     }

@@ -10,16 +10,16 @@ use crate::points::Bench;
 /// Samples per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// The beginning of a free motion.
+/// The first periods of a free motion.
 pub(crate) struct Swing {
     pub(crate) fit: DampedSine,
-    /// The stroke where it first turns back (deg).
+    /// The stroke at the first reversal (deg).
     pub(crate) first_peak: f64,
 }
 
 impl Bench {
-    /// The damped sine through the first `cycles` periods after an impulse by which the first mode alone, undamped, would
-    /// reach `amplitude` (rad).
+    /// The damped sine that fits the first `cycles` periods after an impulse. Without damping, the impulse would move
+    /// the first mode alone to `amplitude` (rad).
     pub(crate) fn swing(&self, values: &[f64], amplitude: f64, cycles: u32) -> Swing {
         let modes = self.experiments().modes(values).expect("published parameters are possible");
         let request = ImpulseRequest {
@@ -37,7 +37,7 @@ impl Bench {
         Swing { fit: fit.expect("the stroke swings"), first_peak }
     }
 
-    /// The spectra of the first second after an impulse of that size.
+    /// The spectra of the first second after an impulse with this amplitude, see [`swing`](Self::swing).
     pub(crate) fn spectra(&self, values: &[f64], amplitude: f64) -> FreeMotion {
         let request =
             FreeRequest { amplitude, fit_cycles: 4, spectrum_window: 1.0, samples_per_cycle: SAMPLES };

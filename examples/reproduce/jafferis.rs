@@ -47,7 +47,7 @@ fn bench() -> Bench {
     Bench::new("bimorph", 1e-4)
 }
 
-/// The design with the transmission of Table I scaled: 1 for T₁, 0.8 for T₂, 0.6 for T₃.
+/// The design with a scaled transmission of Table I: ratio 1 for T₁, 0.8 for T₂, 0.6 for T₃.
 fn transmission(ratio: f64) -> Params {
     Params::jafferis2016().with_transmission_scaled(ratio)
 }

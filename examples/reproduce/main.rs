@@ -1,6 +1,6 @@
 //! Computes the cases of the papers and prints `docs/evidence/reproduction.md`.
 //!
-//! `just reproduce` writes the page; with `--short` only what is quick to compute is printed.
+//! `just reproduce` writes the page; with `--short` the program prints only the parts that are quick to compute.
 
 mod arabagi;
 mod claim;
@@ -64,7 +64,7 @@ fn main() -> io::Result<()> {
     io::stdout().lock().write_all(page(short).as_bytes())
 }
 
-/// The page; if `short`, without the counts and with quick groups only.
+/// Returns the page. If `short`, the page has no counts and only the groups that are quick to compute.
 fn page(short: bool) -> String {
     let mut sections = Vec::new();
     let mut verdicts: Vec<(&Paper, Vec<Verdict>)> = Vec::new();
@@ -84,7 +84,7 @@ fn page(short: bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    /// The committed page has every line of what is quick to compute.
+    /// The committed page contains every line of the groups that are quick to compute.
     #[test]
     fn the_page_is_up_to_date() {
         let written = include_str!("../../docs/evidence/reproduction.md");

@@ -67,7 +67,7 @@ pub(crate) const PAPER: Paper = Paper {
     ],
 };
 
-/// A type of actuator, with the voltages V₀ and the frequency it is driven with in the calculations of Figs. 13 to 16.
+/// A type of actuator, with the drive voltages V₀ and the drive frequency in the calculations of Figs. 13 to 16.
 struct Type {
     name: &'static str,
     params: Params,
@@ -93,7 +93,7 @@ fn bench() -> Bench {
 }
 
 impl Type {
-    /// Settled at the lower and at the higher voltage.
+    /// The settled motions at the lower and at the higher voltage.
     fn performance(&self) -> [Settled; 2] {
         self.voltages.map(|v_0| bench().point(driven(&self.params, v_0, self.frequency)))
     }

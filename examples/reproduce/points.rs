@@ -1,11 +1,11 @@
-//! Design points, settled on lanes, and their responses to a parameter that is swept.
+//! Design points, settled on lanes, and their responses over a parameter.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{
     Experiments, Motions, Point, Simulator, SolverSettings, Status, by_name, never, run_list,
 };
 
-/// A model with the settings its points are run with.
+/// A model with the settings of its runs.
 pub(crate) struct Bench {
     pub(crate) model: &'static dyn Simulator,
     pub(crate) solver: SolverSettings,
@@ -17,14 +17,14 @@ pub(crate) struct Settled {
     measures: Vec<f64>,
 }
 
-/// Settled points along a parameter.
+/// Settled points over a parameter.
 pub(crate) struct Response {
     points: Vec<(f64, Settled)>,
 }
 
 impl Bench {
-    /// The model called `name`. `settle_tol` goes into [`SolverSettings`]. The integrator is ten times stricter than by
-    /// default, so that the printed digits do not depend on it.
+    /// The model called `name`. `settle_tol` is a setting of [`SolverSettings`]. The tolerance of the integrator is ten
+    /// times smaller than the default, so that the printed digits do not depend on the tolerance.
     pub(crate) fn new(name: &str, settle_tol: f64) -> Bench {
         let model = by_name(name).expect("flap has this model");
         let solver = SolverSettings {
@@ -64,19 +64,19 @@ impl Bench {
             .collect()
     }
 
-    /// One point.
+    /// Returns the settled motion at one point.
     pub(crate) fn point(&self, values: Vec<f64>) -> Settled {
         self.settle(vec![values]).remove(0)
     }
 
-    /// The response to `xs`, where `values` are the parameters for one of them.
+    /// The response over `xs`; `values` returns the parameters for an element of `xs`.
     pub(crate) fn response(&self, xs: &[f64], values: impl Fn(f64) -> Vec<f64>) -> Response {
         let settled = self.settle(xs.iter().map(|&x| values(x)).collect());
         Response { points: xs.iter().copied().zip(settled).collect() }
     }
 }
 
-/// Numbers from `from` to `to` in steps.
+/// Numbers from `from` to `to` with the step `step`.
 pub(crate) fn steps(from: f64, to: f64, step: f64) -> Vec<f64> {
     let last = to + 0.5 * step;
     (0..10_000).map(|i| from + f64::from(i) * step).take_while(|x| *x < last).collect()
@@ -91,12 +91,12 @@ impl Settled {
 }
 
 impl Response {
-    /// The values of a column with what they respond to.
+    /// The values of a column, each with the value of the parameter over which the response is computed.
     pub(crate) fn column(&self, column: &str) -> Vec<(f64, f64)> {
         self.points.iter().map(|(x, point)| (*x, point.get(column))).collect()
     }
 
-    /// The point at which a column is largest, and its value along the axis.
+    /// The point at which a column is largest, with the value of the parameter at this point.
     pub(crate) fn peak(&self, column: &str) -> (f64, &Settled) {
         let largest = self.points.iter().max_by(|a, b| a.1.get(column).total_cmp(&b.1.get(column)));
         largest.map(|(x, point)| (*x, point)).expect("a response has points")

@@ -15,12 +15,12 @@ pub(crate) struct Group {
     pub(crate) title: &'static str,
     /// Introduction to the table: one sentence per line, or empty.
     pub(crate) preface: &'static str,
-    /// True if it is quick to compute.
+    /// True if the group is quick to compute.
     pub(crate) quick: bool,
     pub(crate) claims: fn() -> Vec<Claim>,
 }
 
-/// A group as a section.
+/// Returns a group as a section of the page.
 pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     let mut lines = vec![
         "| place | statement of the paper | published | computed | verdict |".to_owned(),
@@ -32,7 +32,7 @@ pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     format!("### {}\n\n{}{}\n\n", group.title, paragraph(group.preface), lines.join("\n"))
 }
 
-/// Text and the empty line after it; nothing if there is no text.
+/// Returns a text and an empty line; an empty string if the text is empty.
 pub(crate) fn paragraph(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{text}\n\n") }
 }

@@ -1,4 +1,4 @@
-//! Torques of vehicles, of several papers.
+//! Claims of several papers about torques of vehicles.
 
 mod coupling;
 mod damping;

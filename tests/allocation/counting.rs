@@ -1,14 +1,14 @@
-//! An allocator that counts.
+//! An allocator that counts allocations.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 thread_local! {
-    /// Allocations made by this thread: tests run side by side.
+    /// Number of allocations of this thread. Other tests run on other threads.
     static COUNT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// The number of allocations this thread makes in `work`. One that grows counts again.
+/// The number of allocations of this thread in `work`. An allocation that grows counts again.
 pub(crate) fn allocations(work: impl FnOnce()) -> u64 {
     let before = COUNT.get();
     work();

@@ -1,4 +1,4 @@
-//! Marching allocates nothing: ten times the cycles make the same number of allocations.
+//! Marching allocates nothing: ten times as many cycles make the same number of allocations.
 
 mod counting;
 mod runs;

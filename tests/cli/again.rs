@@ -1,4 +1,4 @@
-//! Sweeps whose results are there already, and grids that come from stdin.
+//! Sweeps whose results already exist, and grids from stdin.
 
 use std::fs;
 

@@ -17,7 +17,7 @@ const COMMANDS: [&str; 7] = [
 
 const BESIDE: [&str; 6] = [".tmp", ".journal", ".part", ".meta.toml", ".meta.toml.tmp", ".journal.tmp"];
 
-/// The user's text in such a file.
+/// The user's text in a file beside an output.
 const PRECIOUS: &str = "precious";
 
 fn folder() -> Folder {
@@ -28,7 +28,8 @@ fn folder() -> Folder {
     folder
 }
 
-/// Each command beside each file, with and without `--force`: it does its work, or names the file and writes nothing.
+/// Runs each command beside each file, with and without `--force`. The command succeeds, or names the file and writes
+/// nothing.
 #[test]
 fn they_stay_as_they_are() {
     let folder = folder();
@@ -85,7 +86,7 @@ fn name(command: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// Complete results stay until they are replaced, with files of the user beside them.
+/// Complete results and the user's files beside the results stay until a command replaces the results.
 #[test]
 fn results_are_replaced_beside_them() {
     let folder = folder();
@@ -105,7 +106,7 @@ fn results_are_replaced_beside_them() {
     }
 }
 
-/// Rows that were moved away without their sidecar: its numbers are those of other rows.
+/// The rows were moved away without their sidecar, so the sidecar contains the totals of the moved rows.
 #[test]
 fn a_sidecar_without_its_rows_is_kept() {
     let folder = folder();
@@ -126,7 +127,7 @@ fn a_sidecar_without_its_rows_is_kept() {
     folder.ends(0, "results verify rows.csv");
 }
 
-/// A journal that is a device file of the user: an input that lies beside the output.
+/// A device file of the user whose name is the name of the output's journal. The device file is an input.
 #[test]
 fn an_input_beside_the_output_is_kept() {
     let folder = Folder::new();
@@ -136,7 +137,7 @@ fn an_input_beside_the_output_is_kept() {
     assert!(folder.read("y.csv").starts_with("time_"), "{}", folder.read("y.csv"));
 }
 
-/// Links beside an output, to files of the user and to none.
+/// Links beside an output, to files of the user and to missing files.
 #[test]
 #[cfg(unix)]
 fn links_beside_an_output_are_not_followed() {
@@ -170,7 +171,7 @@ fn links_beside_an_output_are_not_followed() {
     }
 }
 
-/// An output that is a link stays one, and its target gets the rows, if there is one or not.
+/// An output that is a link stays a link. The target of the link gets the rows, also if the target does not exist.
 #[test]
 #[cfg(unix)]
 fn outputs_are_written_through_links() {
@@ -201,7 +202,7 @@ fn outputs_are_written_through_links() {
     }
 }
 
-/// The limit on the size of files is an error of writing, for every command.
+/// For every command, the limit on the size of files causes a write error.
 #[test]
 #[cfg(unix)]
 fn a_file_that_grows_too_large_is_an_error() {

@@ -47,7 +47,8 @@ fn every_shell_completes_commands_and_options() {
     }
 }
 
-/// A shell that waits reads the header alone: not the terabyte behind it, nor the checksums in the sidecar.
+/// A shell waits for the candidates, so flap reads only the header, not a terabyte of rows or the checksums in the
+/// sidecar.
 #[test]
 fn columns_come_from_the_header() {
     let folder = Folder::with_grid(&frequencies(3));
@@ -96,7 +97,7 @@ fn names_are_completed() {
     }
 }
 
-/// The script works in a real shell.
+/// The completion script works in bash.
 #[test]
 #[cfg(unix)]
 fn bash_completes_with_the_script() {

@@ -19,7 +19,8 @@ fn near(found: f64, wanted: f64, share: f64) {
     assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
 }
 
-/// An input that is almost zero is changed by a share of its typical size: its own would be lost in rounding.
+/// If an input is almost zero, the change is a share of its typical size. A share of the input itself would be lost in
+/// rounding.
 #[test]
 fn inputs_of_almost_nothing_have_the_slopes_of_zero() {
     let folder = Folder::with_grid(VEHICLE);
@@ -39,7 +40,7 @@ fn inputs_of_almost_nothing_have_the_slopes_of_zero() {
     near(difference("--set difference_drive_offset=1e-9 --set drive_offset=1e-9"), difference(""), 1e-4);
 }
 
-/// After a trim to no torque the differences are almost zero.
+/// After a trim to zero torque, the differences of the wings' inputs are almost zero.
 #[test]
 fn the_matrix_after_a_trim_is_that_without_the_rest() {
     let folder = Folder::with_grid(&format!(
@@ -58,7 +59,7 @@ fn the_matrix_after_a_trim_is_that_without_the_rest() {
     }
 }
 
-/// A column per per cent is the value times the slope, however small the value is.
+/// The derivative per one per cent is the value times the slope, for any small value.
 #[test]
 fn per_cents_of_almost_nothing_are_exact() {
     let folder = Folder::with_grid(VEHICLE);
@@ -78,7 +79,7 @@ fn per_cents_of_almost_nothing_are_exact() {
     }
 }
 
-/// A wing's own parameter that is not set has the value of all wings, wherever it is named.
+/// A wing's parameter that is not set has the value of all wings, wherever an expression names the parameter.
 #[test]
 fn parameters_of_a_wing_that_are_not_set_have_the_common_value() {
     let folder = Folder::with_grid(&format!(
@@ -119,7 +120,7 @@ fn trims_reach_small_targets_too() {
     near(found[0].2[4], 0.01, 1e-6);
 }
 
-/// Inputs that change nothing are not among the usual ones.
+/// The default inputs do not include inputs without effect.
 #[test]
 fn usual_inputs_do_something() {
     let folder = Folder::new();
@@ -136,7 +137,7 @@ fn usual_inputs_do_something() {
     }
 }
 
-/// A damping that is zero can only grow, and moves force and torque.
+/// If damping is zero, it can only grow, and its change affects force and torque.
 #[test]
 fn an_input_that_is_zero_has_its_one_sided_derivative() {
     let folder = Folder::with_grid(VEHICLE);

@@ -1,4 +1,5 @@
-//! Results that have changed since they were written: found, refused, and read all the same if asked.
+//! Results that have changed since they were written: flap detects and rejects them, but reads them with
+//! `--ignore-damage`.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -20,10 +21,10 @@ use crate::support::{Folder, quick, start, wait};
 
 const ENDINGS: [&str; 3] = ["csv", "csv.zst", "parquet"];
 
-/// Corruptions of each file.
+/// Number of corruptions of each file.
 const CORRUPTIONS: usize = 300;
 
-/// Rows of three blocks, the last of which is not full.
+/// Number of rows: three blocks, and the last block is not full.
 const ROWS: u64 = 700;
 
 /// Finished results in every format.
@@ -35,7 +36,7 @@ fn finished() -> Folder {
     folder
 }
 
-/// The same numbers in every run (xorshift).
+/// Random numbers that are the same in every run (xorshift).
 struct Random(u64);
 
 impl Random {
@@ -47,7 +48,7 @@ impl Random {
     }
 }
 
-/// Other bytes than those of the file: what disks, transfers and editors do to it.
+/// Returns the bytes of a file with a change that disks, transfers or editors can cause.
 fn corrupted(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
     let mut other = bytes.to_vec();
     let at = random.below(bytes.len());
@@ -68,7 +69,7 @@ fn corrupted(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
     other
 }
 
-/// Other rows than those of the text.
+/// Returns the text with changed rows.
 fn edited(random: &mut Random, text: &str) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = 1 + random.below(lines.len() - 1);
@@ -96,7 +97,7 @@ fn edited(random: &mut Random, text: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The rows of `text` in a format, sound as far as the format itself can tell.
+/// The rows of `text` in a format; the file is valid for the format.
 fn written(folder: &Folder, format: Format, text: &str, provenance: &Provenance) -> Vec<u8> {
     match format {
         Format::Csv => text.as_bytes().to_vec(),
@@ -126,7 +127,7 @@ fn is_damaged(path: &Path) -> bool {
     }
 }
 
-/// True if `flap results resume` calls it complete.
+/// True if `flap results resume` reports complete results.
 fn is_complete(path: &Path) -> bool {
     let sidecar = Sidecar::read(&sidecar_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
@@ -192,7 +193,7 @@ fn no_corruption_of_a_sidecar_goes_unnoticed() {
     }
 }
 
-/// The message of every command about damage, and its work with `--ignore-damage`.
+/// Each command reports the damage, and with `--ignore-damage` each command works.
 #[test]
 fn commands_refuse_what_is_damaged() {
     let folder = finished();
@@ -268,7 +269,7 @@ fn conversion_does_not_heal() {
     assert_eq!((ended.code, ended.stdout), (3, format!("out.parquet: damaged: {told}\n")));
 }
 
-/// A line that is none is left out if damage is ignored.
+/// With `--ignore-damage`, flap leaves out lines that are not rows.
 #[test]
 fn what_is_no_row_is_left_out() {
     let folder = finished();
@@ -281,7 +282,7 @@ fn what_is_no_row_is_left_out() {
     assert_eq!(folder.read("out.csv").lines().count(), 1 + 698);
 }
 
-/// Rows that no checksum protects are at least those of the grid.
+/// Without checksums, flap checks that the rows are rows of the grid.
 #[test]
 fn rows_without_checksums_must_be_those_of_the_grid() {
     let folder = finished();
@@ -364,7 +365,7 @@ fn an_edited_sidecar_is_noticed() {
     assert!(!folder.path("out.csv").exists());
 }
 
-/// Unfinished results as a killed sweep leaves them: the header, rows up to a checkpoint, and junk.
+/// Unfinished results as a killed sweep leaves them: the header, rows up to a checkpoint, and incomplete rows.
 fn unfinished(ending: &str) -> Folder {
     unfinished_of(&quick(100_000_000), ending)
 }
@@ -431,7 +432,7 @@ fn rows_of(folder: &Folder, ending: &str) -> PathBuf {
     folder.path(&format!("rows.{ending}{part}"))
 }
 
-/// Every row that the journal records must be there, however little is missing.
+/// Every row that the journal records must be in the file; one missing row is damage.
 #[test]
 fn lost_rows_of_unfinished_results_are_damage() {
     for ending in ENDINGS {
@@ -494,7 +495,7 @@ fn lost_rows_of_unfinished_results_are_damage() {
     }
 }
 
-/// The journal tells whose rows these are: a sidecar of another sweep does not describe them.
+/// The journal identifies the sweep of the rows, so flap rejects a sidecar of another sweep.
 #[test]
 fn the_sidecar_of_another_sweep_is_noticed() {
     for ending in ENDINGS {
@@ -530,7 +531,7 @@ fn the_sidecar_of_another_sweep_is_noticed() {
     }
 }
 
-/// Before its first checkpoint a sweep has not even a header.
+/// Before its first checkpoint, a sweep has written no header.
 #[test]
 fn results_without_a_checkpoint_have_no_rows_yet() {
     for ending in ENDINGS {
@@ -548,7 +549,7 @@ fn results_without_a_checkpoint_have_no_rows_yet() {
     }
 }
 
-/// Bytes that are not text are hashed as they are.
+/// The checksum of the sidecar is computed from bytes, also if the bytes are not text.
 #[test]
 fn a_sidecar_that_is_not_utf8_is_damaged() {
     let folder = Folder::with_grid(&format!("# \u{FFFD}\n{}", quick(3)));
@@ -563,7 +564,7 @@ fn a_sidecar_that_is_not_utf8_is_damaged() {
         .prints("rows.csv.meta.toml is damaged: its first line is not the checksum");
 }
 
-/// Rows of a sweep that was never finished, of which the journal was lost.
+/// Rows of an unfinished sweep whose journal was lost.
 #[test]
 fn half_a_row_at_the_end_is_no_row() {
     let folder = finished();

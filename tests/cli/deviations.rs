@@ -29,7 +29,7 @@ drive_frequency = { from = 60, to = 200, n = 15 }
     assert!(!ended.stdout.contains("DIFFERS FROM"), "{}", ended.stdout);
 }
 
-/// Millimetres that became metres.
+/// A length in millimetres that is written as metres.
 #[test]
 fn values_far_from_the_preset_are_warned_of() {
     for grid in [
@@ -61,7 +61,7 @@ fn values_far_from_the_preset_are_warned_of() {
     assert!(ended.stderr.starts_with("the point did not settle"), "{}", ended.stderr);
 }
 
-/// A value with its unit behind it is meant as it is, however far it is from the preset's.
+/// If a value has a unit, flap prints no warning, even if the value is far from the preset's value.
 #[test]
 fn values_with_their_units_are_not_doubted() {
     let folder = Folder::new();
@@ -90,7 +90,8 @@ fn values_with_their_units_are_not_doubted() {
     assert!(!set.stderr.contains("warning"), "{}", set.stderr);
 }
 
-/// A bare number on top of a device with units is doubted, a value of the device that stays is not.
+/// A number without a unit that overrides a device with units causes a warning. An unchanged value of the device causes
+/// no warning.
 #[test]
 fn values_of_devices_are_doubted_like_those_of_grids() {
     let folder = Folder::new();
@@ -122,7 +123,8 @@ fn check_says_when_every_point_is_invalid() {
     assert!(!ended.stdout.contains(told), "{}", ended.stdout);
 }
 
-/// Formulas follow the geometry: K_t = T² κ_t, and a bending flexure's E w t³ / (12 l).
+/// The formulas for linked parameters contain the geometry: K_t = T² κ_t, and the stiffness E w t³ / (12 l) of a
+/// bending flexure.
 #[test]
 fn check_names_linked_parameters_that_stay_the_same() {
     let linked = |folder: &Folder| {

@@ -1,4 +1,4 @@
-//! Devices: files with a preset and parameters of one's own, wherever a preset is named.
+//! Devices: files with a preset and the user's own parameters, which can replace a preset everywhere.
 
 use std::fs::{self, File};
 
@@ -22,7 +22,7 @@ coefficient = 0.6
 
 const AXES: &str = "[axes]\ndrive_frequency = { from = 110, to = 130, n = 5 }\n";
 
-/// A folder with a device, a grid that begins with it, and one that sets the same values on the preset.
+/// A folder with a device, a grid that begins with the device, and a grid that sets the same values on the preset.
 fn folder() -> Folder {
     let folder = Folder::with_grid(&format!("device = \"mybee.toml\"\n{AXES}"));
     fs::write(folder.path("mybee.toml"), DEVICE).unwrap();
@@ -153,7 +153,7 @@ fn commands_take_a_device_for_a_preset() {
     folder.ends(2, "models none.toml").says("none.toml: there is no such file");
 }
 
-/// A grid that begins with this device is refused with a message at a place.
+/// Fails the test unless flap rejects a grid that begins with this device, with `message` and `place`.
 #[track_caller]
 fn refused(folder: &Folder, device: &str, message: &str, place: &str) {
     fs::write(folder.path("mybee.toml"), device).unwrap();

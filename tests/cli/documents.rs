@@ -37,7 +37,7 @@ fn points(path: &Path) -> String {
     ended.stdout.split(' ').next().unwrap().to_owned()
 }
 
-/// Every example says how to run it and how many designs it has, and is listed with them in `docs/reference/grid.md`.
+/// Every example contains its command and its number of designs, and `docs/reference/grid.md` lists both.
 #[test]
 fn example_grids_are_valid_and_described() {
     let page = document("docs/reference/grid.md");
@@ -68,7 +68,7 @@ fn example_grids_run() {
     }
 }
 
-/// The tasks of the example for Slurm, run one after the other, make shards that can be merged.
+/// The tasks of the example for Slurm compute shards that can be merged. The test runs the tasks one after the other.
 #[test]
 #[cfg(unix)]
 fn the_slurm_example_works() {
@@ -91,7 +91,7 @@ fn the_slurm_example_works() {
     assert_eq!(folder.read("grid.csv").lines().count(), 51);
 }
 
-/// Every key of the sidecar and every status is described.
+/// The page on results describes every key of the sidecar and every status.
 #[test]
 fn the_results_page_is_complete() {
     let page = document("docs/reference/results.md");

@@ -1,4 +1,4 @@
-//! Rows that are to be read with care: what a sweep says of them at its end, and what helps.
+//! Rows with reduced accuracy or reliability: the report at the end of a sweep, and the commands that improve the rows.
 
 use crate::support::Folder;
 
@@ -22,7 +22,7 @@ fn rows_that_miss_the_accuracy_are_counted_and_can_be_run_again() {
     folder.ends(2, "results rerun again.csv --out third.csv");
 }
 
-/// The rows do not tell which of them are inaccurate.
+/// The rows have no column that shows which rows are inaccurate.
 #[test]
 fn rows_without_their_estimate_cannot_be_chosen_by_it() {
     let grid =
@@ -54,7 +54,7 @@ fn resonances_at_an_end_of_their_range_are_counted() {
     folder.ends(0, "sweep --grid grid.toml --out rows.csv").says("1 resonance is at an end of its range");
 }
 
-/// A wide wing on a soft hinge, which pitches fast beside its stroke.
+/// A wide wing on a soft hinge, whose pitch is fast compared with its stroke.
 const GAINING: &str = r#"
 preset = "ozaki2018-large"
 

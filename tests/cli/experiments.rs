@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::support::Folder;
 
-/// A table of 401 samples of a sine of 75 Hz and `amplitude`.
+/// A table with 401 samples of a sine of 75 Hz with the amplitude `amplitude`.
 fn sine(heading: &str, amplitude: f64) -> String {
     let mut text = format!("time_ms,{heading}\n");
     for i in 0..=400 {
@@ -49,7 +49,8 @@ fn a_waveform_from_a_file_drives_like_its_shape() {
     assert_eq!(folder.read("t.csv").lines().count(), 1 + 51);
 }
 
-/// A spline through five samples of a square wave leaves the range of the samples, and so does the field.
+/// A spline through five samples of a square wave exceeds the range of the samples, so the electric field is also
+/// larger.
 #[test]
 fn a_waveform_with_too_few_samples_is_warned_of() {
     let folder = folder_with("wave.csv", "time_ms,wave\n0,1\n1,1\n1.1,-1\n4,-1\n5,1\n");
@@ -73,7 +74,7 @@ fn a_stroke_from_a_file_is_prescribed() {
     folder.ends(2, "run jafferis2016 --stroke stroke.csv").says("cannot be prescribed");
 }
 
-/// Forces along a motion that was simulated are those of the simulation.
+/// Forces along a simulated motion equal the forces of the simulation.
 #[test]
 fn lift_of_a_given_motion_is_that_of_the_simulation() {
     for preset in ["ozaki2018-small", "arabagi2013-75hz"] {
@@ -126,7 +127,7 @@ fn tracked_points_become_a_motion() {
     );
 }
 
-/// A filmed stroke without pitch leads to the command that computes the pitch.
+/// For a filmed stroke without pitch, the message names the command that computes the pitch.
 #[test]
 fn a_stroke_alone_is_run_and_not_lifted() {
     let mut stroke = "time_s,stroke_deg\n".to_owned();
@@ -145,7 +146,7 @@ fn a_stroke_alone_is_run_and_not_lifted() {
     folder.ends(2, "test lift jafferis2016 stroke.csv").says("`flap run PRESET --stroke stroke.csv`");
 }
 
-/// Two columns of the time may stand in a file if they agree.
+/// A file may have two columns of the time if the columns agree.
 #[test]
 fn contradictory_columns_are_refused() {
     let lift = |text: &str| {
@@ -192,7 +193,7 @@ fn unusable_files_are_named_with_line_and_column() {
     refused("run ozaki2018-small --once --trajectory -", "", "--once requires --waveform or --stroke");
 }
 
-/// A chirp that would last for years is refused before it begins, with its numbers and the rate that is allowed.
+/// flap rejects a chirp that would last for years, and the message contains its numbers and the allowed rate.
 #[test]
 fn chirps_end() {
     let folder = Folder::new();
@@ -231,7 +232,7 @@ fn chirps_end() {
     assert_eq!(folder.names(), ["envelope.csv"]);
 }
 
-/// Numbers whose rates or forces are beyond the range of numbers are refused with the range that is allowed.
+/// flap rejects numbers whose rates or forces exceed the range of numbers, and the message contains the allowed range.
 #[test]
 fn motions_have_finite_forces() {
     let motion = |time: [&str; 2], stroke: &str, pitch: &str| {
@@ -270,7 +271,7 @@ fn motions_have_finite_forces() {
     folder.refuses("test track points.csv", "tip_x is 1e308 in row 1, and must be from -1e12 to 1e12\n");
 }
 
-/// Each line of `flap test terms` has the changes that `--set` makes.
+/// Each line of `flap test terms` contains the changes that `--set` with the same parameter causes.
 #[test]
 fn terms_change_the_measures_as_their_parameters_do() {
     let folder = Folder::new();

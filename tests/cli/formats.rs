@@ -8,7 +8,7 @@ use crate::support::{Folder, frequencies, quick};
 
 const ENDINGS: [&str; 3] = ["csv", "csv.zst", "parquet"];
 
-/// More rows than a compressed frame takes, of all kinds of cells: words, numbers, and none.
+/// More rows than one compressed frame contains, with all kinds of cells: words, numbers, and empty cells.
 fn grid() -> String {
     quick(700) + "[[zip]]\nadded_mass = [\"paper\", \"lagrangian\"]\n"
 }
@@ -55,7 +55,7 @@ fn converted_files_have_the_bytes_of_written_ones() {
     assert!(size("csv.zst.csv.zst") * 3 < size("csv.csv"), "compressed");
 }
 
-/// `zstd -d` gives the CSV file, and the compressed file has more than one frame.
+/// `zstd -d` restores the CSV file, and the compressed file has more than one frame.
 #[test]
 fn compressed_files_are_frames_of_plain_ones() {
     let folder = Folder::with_grid(&quick(600));
@@ -108,7 +108,7 @@ fn parquet_carries_types_units_and_provenance() {
     assert!(!entry("flap").is_empty() && !entry("flap.arithmetic").is_empty());
 }
 
-/// A grid whose rows have columns of their own behind the model's: of the resonance, and of `[measure]`.
+/// A grid whose rows have more columns after the model's columns: columns of the resonance, and columns of `[measure]`.
 #[test]
 fn every_format_holds_the_columns_of_resonances_and_own_measures() {
     use parquet::basic::Type;
@@ -188,7 +188,7 @@ fn endings_that_stand_for_no_format() {
     }
 }
 
-/// In capital letters, too.
+/// Endings in capital letters are valid too.
 #[test]
 fn endings_are_those_of_any_system() {
     let folder = Folder::with_grid(&quick(3));

@@ -52,7 +52,7 @@ fn a_sweep_tells_what_it_left_out() {
     assert_eq!((low["condition"].as_str(), low["points"].as_integer()), (Some("low"), Some(1)));
 }
 
-/// The size of a hinge follows nothing, unlike other parameters that are not set.
+/// The size of a hinge has no default. Other parameters that are not set follow from parameters that are set.
 #[test]
 fn parameters_without_a_default_are_told_as_such() {
     let told = |section: &str| {

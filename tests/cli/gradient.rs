@@ -29,7 +29,7 @@ rtol = 1e-9
 settle_tol = 1e-9
 "#;
 
-/// The columns of a table of results by name, without those that are not numbers.
+/// The numbers of the column `name` of a table of results, without cells that are not numbers.
 fn numbers(csv: &str, name: &str) -> Vec<f64> {
     let mut lines = csv.lines().map(|line| line.split(','));
     let place = lines.next().unwrap().position(|column| column == name).unwrap_or_else(|| panic!("{name}"));
@@ -70,7 +70,7 @@ fn rows_with_derivatives_have_the_same_bytes_however_they_are_made() {
     );
 }
 
-/// The change of a measure per per cent of what `grid` multiplies by a factor: two-sided differences of rows, extrapolated.
+/// The change of a measure per one per cent of a factor in `grid`, by extrapolated two-sided differences of rows.
 fn differences(grid: impl Fn(f64) -> String, measure: &str) -> Vec<f64> {
     let rows = |factor: f64| {
         let folder = Folder::with_grid(&grid(factor));
@@ -112,7 +112,7 @@ fn derivatives_follow_derived_parameters_and_measures_of_ones_own() {
     assert!(rows.lines().skip(1).all(|row| row.ends_with(',')), "no derivative is missing");
 }
 
-/// A row says why it lacks a derivative, and has the others.
+/// If a derivative is missing, the row contains the reason and all other derivatives.
 #[test]
 fn missing_derivatives_have_a_reason() {
     let folder = Folder::with_grid(

@@ -2,7 +2,7 @@
 
 use crate::support::{Folder, WINGS};
 
-/// The robot of the manual, with `[vehicle]` to be continued.
+/// The robot of the manual, up to the table `[vehicle]`, to which each test adds keys.
 const HEAD: &str = "\
 preset = \"jafferis2016\"
 [params]
@@ -36,7 +36,8 @@ fn near(found: f64, wanted: f64, share: f64) {
     assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
 }
 
-/// The columns of hover are the numbers that `flap vehicle` prints, and every way to compute them gives the same bytes.
+/// The columns of hover contain the numbers that `flap vehicle` prints. Threads, shards and formats do not change the
+/// bytes.
 #[test]
 fn rows_at_hover_are_the_numbers_of_the_command() {
     let folder = Folder::with_grid(&format!("{HEAD}{BODY}trim = \"hover\"\ndamping = true\n{WINGS}"));
@@ -119,7 +120,7 @@ fn designs_that_cannot_hover_are_invalid() {
     assert!(one.stderr.contains("does not reach hover"), "{}", one.stderr);
 }
 
-/// Without moments of inertia, rows at hover have their inputs and their power, but no modes.
+/// Without moments of inertia, rows at hover contain inputs and power, but no modes.
 #[test]
 fn a_mass_is_enough_for_the_power_of_hover() {
     let folder =
@@ -144,7 +145,7 @@ fn rows_of_the_four_bar_have_a_damping_matrix() {
     assert!(vertical < 0.0, "{vertical}");
 }
 
-/// The search for hover changes the inputs, so a formula of `[measure]` has the inputs at hover.
+/// The search for hover changes the inputs, so a formula of `[measure]` uses the inputs at hover.
 #[test]
 fn measures_have_the_inputs_at_hover() {
     let own = "[measure]\nvolts = \"drive_voltage_pp\"\n";
@@ -208,7 +209,7 @@ fn rows_of_masses([from, to]: [f64; 2], n: usize, solver: &str) -> String {
     rows
 }
 
-/// Masses for which the accuracy of the rows ends the search for hover before its own tolerance.
+/// Masses for which the limited accuracy of the rows ends the search for hover before its tolerance.
 #[test]
 fn hover_is_reached_within_the_accuracy_of_rows() {
     let rows = rows_of_masses([160.0, 180.0], 41, "");
@@ -225,7 +226,7 @@ fn rows_of_a_coarse_tolerance_are_near_hover() {
     assert!(residual.iter().all(|share| (1e-4..5e-3).contains(share)), "{residual:?}");
 }
 
-/// Rows with terms of the body belong to one design.
+/// A grid with `damping` or with `trim` must have only one design.
 #[test]
 fn several_designs_have_no_rows_at_hover() {
     let presets = "preset = [\"jafferis2016\", \"jafferis2016-improved\"]";

@@ -1,4 +1,4 @@
-//! Inputs of a command are never overwritten, whatever their names, even with `--force`.
+//! flap never overwrites inputs of a command, for any names of the files, even with `--force`.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -148,7 +148,7 @@ fn a_sample_without_parameters_is_a_mistake() {
     }
 }
 
-/// Some kilobytes that stand for gigabytes without an end of a line.
+/// A file of some kilobytes that decompresses to gigabytes without a line end.
 #[test]
 fn a_small_file_does_not_fill_the_memory() {
     let folder = Folder::with_grid(&quick(3));
@@ -176,7 +176,8 @@ fn a_small_file_does_not_fill_the_memory() {
     }
 }
 
-/// An input without end, or larger than memory, is refused by its size or its kind, with little memory and in little time.
+/// flap rejects an endless input, or an input larger than memory, by its size or kind. The rejection needs little
+/// memory and little time.
 #[test]
 #[cfg(target_os = "linux")]
 fn inputs_end() {
@@ -258,7 +259,7 @@ fn bounded(folder: &Folder, arguments: &str) -> crate::support::Ended {
     folder.shell(&format!("ulimit -v 1500000 -t 20; exec {flap} {arguments}"))
 }
 
-/// The shell's own pipes end with the command that writes to them.
+/// flap reads pipes of the shell, which end with the command that writes to them.
 #[test]
 #[cfg(target_os = "linux")]
 fn pipes_of_the_shell_are_read() {
@@ -273,7 +274,7 @@ fn pipes_of_the_shell_are_read() {
     assert_eq!(ended.code, 0, "{}", ended.stderr);
 }
 
-/// A line of a million commas takes a multiple of its bytes.
+/// flap needs memory in proportion to the length of a line with a million commas.
 #[test]
 #[cfg(target_os = "linux")]
 fn long_lines_of_points_are_refused() {

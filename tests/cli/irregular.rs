@@ -1,4 +1,4 @@
-//! `flap sweep` over designs of which some never repeat, or only after several drive periods.
+//! `flap sweep` over designs with motions that never repeat, or repeat only after several drive periods.
 
 use crate::support::Folder;
 
@@ -22,8 +22,9 @@ max_cycles = 500
 columns = ["stroke_pp_deg", "vehicle_lift_mgf", "cycles", "residual", "period", "floquet_max", "stable", "error_estimate", "rhs_evals"]
 "#;
 
-/// Periods are those that an independent integration finds (the classical fourth-order method with 2000 steps in a drive
-/// period): to rounding at 160 V, also from other states than rest; unsettled motions return within none of four periods.
+/// The periods equal the periods of an independent integration (the classical fourth-order method with 2000 steps in a
+/// drive period). At 160 V the periods agree to rounding, also from other initial states than rest. Unsettled motions
+/// do not repeat within four periods.
 #[test]
 fn motions_that_do_not_repeat_every_drive_period_have_no_numbers() {
     let folder = Folder::with_grid(SOFT_HINGE);

@@ -1,4 +1,4 @@
-//! Commands that are killed before each of the system calls by which they change files.
+//! Commands that are killed before each system call that changes files.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use crate::trace::{Call, Fate, Traced, trace};
 
 type Files = Vec<(String, Vec<u8>)>;
 
-/// Every file of a folder but temporary ones, of which a kill may leave one.
+/// Every file of a folder except temporary files. A kill may leave one temporary file.
 fn files(folder: &Folder) -> Files {
     let names: Vec<String> = folder.names();
     assert!(names.iter().filter(|name| name.starts_with('.')).count() <= 2, "{names:?}");
@@ -33,8 +33,8 @@ fn bytes(folder: &Folder, name: &str) -> Vec<u8> {
     fs::read(folder.path(name)).unwrap()
 }
 
-/// Kills `command`, which begins with `begin`, before each of its calls in turn. `check` looks at what is left, given the call in
-/// words. Returns the number of kills.
+/// Kills `command` before each of its calls in turn, each time in a new folder with the files `begin`. `check` examines
+/// the remaining files; its second argument describes the call. Returns the number of kills.
 fn kill_everywhere(begin: &Files, command: &str, check: impl Fn(&Folder, &str)) -> usize {
     for at in 0.. {
         let folder = copy(begin);
@@ -49,8 +49,8 @@ fn kill_everywhere(begin: &Files, command: &str, check: impl Fn(&Folder, &str)) 
     unreachable!("a command has an end")
 }
 
-/// The rows of `out` stay what they were or become those of `command`, and are never called damaged; it takes one command to
-/// make them the one or the other as a whole, wherever `command` is killed.
+/// The rows of `out` stay the same, or become the rows of `command`, and flap never reports damage. Wherever `command`
+/// is killed, one further command makes the rows complete.
 fn replaces(folder: &Folder, out: &str, command: &str) {
     let begin = files(folder);
     let sidecar = format!("{out}.meta.toml");
@@ -96,7 +96,7 @@ fn replaces(folder: &Folder, out: &str, command: &str) {
     assert!(kills > 15, "{command}: {kills}");
 }
 
-/// Results of three points in `out`, and a grid of two.
+/// Results with three points in `out`, and a grid with two points.
 fn replaced(out: &str) -> Folder {
     let folder = Folder::with_grid(&quick(3));
     folder.ends(0, &format!("sweep grid.toml --out {out}"));
@@ -150,7 +150,7 @@ fn a_forced_merge() {
     replaces(&folder, "rows.parquet", "results merge rows.parquet grid.1of2.csv grid.2of2.csv --force");
 }
 
-/// Unfinished results can be replaced too.
+/// A command can also replace unfinished results.
 #[test]
 fn a_forced_sweep_over_unfinished_rows() {
     let folder = Folder::with_grid(&quick(3));
@@ -173,7 +173,7 @@ fn a_forced_sweep_over_unfinished_rows() {
     });
 }
 
-/// A sweep: where it is killed, the same command completes it.
+/// If a sweep is killed, the same command completes the sweep.
 #[test]
 fn a_new_sweep() {
     for ending in ["csv", "parquet"] {
@@ -197,13 +197,13 @@ fn a_new_sweep() {
     }
 }
 
-/// The place of the first call with this name and these files.
+/// The position of the first call with this name and these files.
 fn place(calls: &[Call], name: &str, files: &[&str]) -> usize {
     let found = calls.iter().position(|call| call.name == name && call.files == files);
     found.unwrap_or_else(|| panic!("{name} {files:?} is not in {calls:#?}"))
 }
 
-/// A crash of the machine keeps what is durable alone: each step waits for the one before it.
+/// After a crash of the machine, only synced files remain, so each step waits until the step before is synced.
 #[test]
 fn names_are_durable_before_what_leads_to_them_is_removed() {
     let folder = Folder::with_grid(&quick(3));
@@ -235,7 +235,7 @@ fn names_are_durable_before_what_leads_to_them_is_removed() {
     assert_eq!((calls[rows + 1].name, &calls[rows + 1].files[..]), ("sync", &[".".to_owned()][..]));
 }
 
-/// On a file system without locks, flap works, and says once that it cannot protect the results.
+/// On a file system without locks, flap works, and prints one warning that it cannot protect the results.
 #[test]
 fn a_missing_lock_is_mentioned_once() {
     let folder = Folder::with_grid(&quick(3));
@@ -262,7 +262,7 @@ fn a_missing_lock_is_mentioned_once() {
     }
 }
 
-/// Complete results need no permission to write, as on a file system that is read-only.
+/// flap reads complete results without permission to write, for example on a read-only file system.
 #[test]
 fn complete_results_are_only_read() {
     let folder = Folder::with_grid(&quick(3));

@@ -1,4 +1,4 @@
-//! `flap check`, `flap models`, `flap models` and help.
+//! `flap check`, `flap models` and help.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -193,7 +193,8 @@ fn long_lists_have_symbols_and_allowed_values() {
     assert!(line.contains(". Symbol: kappa_wh. Allowed: more than zero"), "{line}");
 }
 
-/// A mark in the short list; the long one has it in words, and programs read numbers alone.
+/// The short list has a mark. The long list describes the mark in words, and the formats for programs contain only
+/// numbers.
 #[test]
 fn lists_mark_fits_to_one_vehicle() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\npressure_min = 0.2\n");
@@ -455,7 +456,7 @@ fn no_color_turns_colours_off() {
     assert!(!is_coloured(&stderr(&[])), "a file has none");
 }
 
-/// The values of a device or a grid file stand in place of a preset's.
+/// The values of a device or a grid file replace the values of the preset.
 #[test]
 fn parameters_of_a_file_have_its_values() {
     let folder = Folder::with_grid("preset = \"jafferis2016\"\n[params]\nwing_area = \"50 mm^2\"\n");

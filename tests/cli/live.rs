@@ -1,4 +1,5 @@
-//! `flap live`: its rows are those of a sweep, newer requests cancel older ones, and nobody but the page is answered.
+//! `flap live`: its rows equal the rows of a sweep, newer requests cancel older requests, and only the page gets
+//! answers.
 
 mod foreign;
 mod server;
@@ -13,7 +14,7 @@ use server::Live;
 use crate::documents::{blocks, document, examples};
 use crate::support::{Folder, send, wait};
 
-/// A grid with everything that the page keeps: a derived parameter, a condition, a measure, a setting.
+/// A grid with all entries that the page keeps: a derived parameter, a condition, a measure, a setting.
 const GRID: &str = r#"
 description = "a grid for the page"
 preset = "ozaki2018-large"
@@ -42,7 +43,7 @@ fn table(text: &str) -> Vec<BTreeMap<String, String>> {
     lines.map(row).collect()
 }
 
-/// Fails unless the rows of an answer are those of a sweep's file, bit for bit.
+/// Fails unless the rows of an answer equal the rows of a sweep's file, bit for bit.
 #[track_caller]
 fn assert_same_rows(answer: &Value, csv: &str) {
     let rows = table(csv);
@@ -68,7 +69,7 @@ fn assert_same_rows(answer: &Value, csv: &str) {
     }
 }
 
-/// Saves the grid of a family, sweeps it, and compares the rows with those of the page.
+/// Saves the grid of a family, sweeps the grid, and compares the rows with the rows of the page.
 fn check_family(arguments: &[&str], folder: &Folder, family: &Value) {
     let live = Live::start(folder, arguments);
     let mut wanted = family.clone();

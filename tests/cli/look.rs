@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::support::{Folder, frequencies, quick, start, wait, wait_for_rows};
 
-/// Two axes; some of the points settle within this number of periods.
+/// A grid with two axes. Some of its points do not settle within `max_cycles` drive periods.
 const GRID: &str = "\
 preset = \"ozaki2018-large\"
 [axes]
@@ -24,7 +24,7 @@ fn swept(grid: &str) -> Folder {
     folder
 }
 
-/// A folder with results of which all rows are periodic.
+/// A folder with results whose rows are all periodic.
 fn periodic() -> Folder {
     swept(&GRID.replace("max_cycles = 20\nnewton = false\n", ""))
 }
@@ -190,7 +190,7 @@ fn every_format_is_read() {
     folder.ends(2, &format!("top grid.toml {top}")).says("grid.toml");
 }
 
-/// Unfinished results are read as far as they go.
+/// flap reads the existing rows of unfinished results.
 #[test]
 #[cfg(unix)]
 fn unfinished_results_are_read() {
@@ -251,7 +251,7 @@ fn percentiles_are_those_of_the_rows() {
     assert!(described.contains("statuses,status,,periodic,41\n"), "{described}");
 }
 
-/// The lift grows with the voltage up to the end of the axis; the best frequency lies inside.
+/// The lift is largest at the end of the voltage axis. The best frequency lies inside its axis.
 #[test]
 fn the_best_row_at_the_end_of_an_axis_is_told() {
     let folder = swept(
@@ -316,7 +316,7 @@ fn the_best_value_of_each_axis_is_told() {
         .prints("largest efficiency_gf_per_w: ");
 }
 
-/// In a sample every parameter tells the rows apart, and each has its best values.
+/// In a sample, every parameter distinguishes the rows, and each parameter has its best values.
 #[test]
 fn all_parameters_of_a_sample_are_described() {
     let folder = swept(
@@ -458,7 +458,8 @@ fn conditions_take_per_cent_and_quoted_words() {
         .says("`drive_shape` is a choice between options, not a number\nhelp: compare it with an option: drive_shape == 'sine'\n");
 }
 
-/// A part of a name leads to the first column that has it, and a table of many columns is not listed as a whole.
+/// A part of a name selects the first column that contains it. flap does not list all columns of a table with many
+/// columns.
 #[test]
 #[cfg(target_os = "linux")]
 fn names_that_are_near_come_first_and_lists_are_short() {
@@ -479,7 +480,7 @@ fn names_that_are_near_come_first_and_lists_are_short() {
     assert_eq!((ended.code, ended.stdout.lines().count()), (0, 1 + 9_000_000), "{}", ended.stderr);
 }
 
-/// Names and words of more characters than the width in a format can have.
+/// Names and words that are longer than the largest width of a format.
 #[test]
 fn names_of_any_length_are_shown() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! The `flap` command from outside: what it prints where, what it writes, and how it exits.
+//! The `flap` command as users run it: its output streams, its files, and its exit codes.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 

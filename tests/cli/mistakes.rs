@@ -40,7 +40,7 @@ grid.toml: 2 mistakes, nothing was run
     );
 }
 
-/// Bounds and whole numbers of a table are known before anything is run.
+/// flap checks bounds and whole numbers of a table before it runs a point.
 #[test]
 fn values_outside_their_bounds_are_found_by_check() {
     for (preset, line, message) in [
@@ -225,7 +225,7 @@ fn threads_are_as_many_as_a_machine_could_have() {
     }
 }
 
-/// A grid file or a sidecar in place of results is named for what it is.
+/// If a command gets a grid file or a sidecar instead of results, it prints an error that names the kind of the file.
 #[test]
 fn grids_and_sidecars_are_not_results() {
     let folder = Folder::with_grid(&frequencies(2));
@@ -251,7 +251,7 @@ fn grids_and_sidecars_are_not_results() {
     }
 }
 
-/// Numbers beyond a float and other impossible ones are refused in words.
+/// flap rejects numbers that are too large for a float, and other impossible numbers, with a message.
 #[test]
 fn impossible_numbers_are_named() {
     let folder = Folder::new();
@@ -272,7 +272,7 @@ fn impossible_numbers_are_named() {
     }
 }
 
-/// Points that did not settle come with the command that runs them longer, and the command works.
+/// If points do not settle, flap prints a command that runs the points longer. The printed command works.
 #[test]
 fn unsettled_points_come_with_a_command() {
     let grid = frequencies(2) + "[solver]\nmax_cycles = 4\n";

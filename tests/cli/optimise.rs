@@ -20,7 +20,7 @@ lift_per_power = "lift_mean_mn / power_mean_mw"
 
 const CONDITION: [&str; 2] = ["--where", "stroke_pp_deg < 60 deg and power_mean_mw < 30 mW"];
 
-/// The value of a row of the answer.
+/// The value in a row of the result.
 fn value(csv: &str, section: &str, name: &str) -> String {
     let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let row = rows.find(|row| row[0] == section && row[1] == name).unwrap_or_else(|| panic!("{name}\n{csv}"));

@@ -14,10 +14,10 @@ use std::fs;
 
 use crate::support::{Ended, Folder};
 
-/// The header of the tables below: two axes, one value throughout, a status, measures.
+/// The header of the tables below: two axes, a constant parameter, a status, and measures.
 const HEADER: &str = "point,drive_voltage_pp,drive_frequency,hinge_stiffness,status,stroke_amplitude_deg,lift_mean_mn,power_mean_mw,cycles,stable";
 
-/// Rows of a sweep of voltages and frequencies. Those at 110 Hz and 80 V or more have no measures.
+/// Rows of a sweep of voltages and frequencies. The rows at 110 Hz and 80 V or more have no measures.
 fn sweep() -> String {
     let mut text = HEADER.to_owned() + "\n";
     let mut point = 0;

@@ -40,7 +40,8 @@ fn a_check_tells_what_a_refinement_adds() {
     }
 }
 
-/// Shards contain the points of the axes. The merged file is continued to the bytes of one run, in every format.
+/// Shards contain only the points of the axes. In every format, a refinement of the merged file has the same bytes as
+/// one run.
 #[test]
 fn merged_shards_of_a_refined_grid_are_continued() {
     let folder = Folder::with_grid(GRID);
@@ -69,7 +70,7 @@ fn merged_shards_of_a_refined_grid_are_continued() {
     }
 }
 
-/// Points of a refinement can be run again, and the rerun can be repeated from its sidecar.
+/// `flap results rerun` can run points of a refinement again, and its results can be repeated from their sidecar.
 #[test]
 fn points_of_a_refinement_are_run_again() {
     let folder = Folder::with_grid(GRID);

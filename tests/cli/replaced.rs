@@ -1,11 +1,11 @@
-//! `--force`: earlier results are kept until the new ones are complete.
+//! `--force`: earlier results are kept until the new results are complete.
 
 use std::fs;
 use std::path::Path;
 
 use crate::support::{Folder, frequencies, quick, send, start, wait};
 
-/// Results of three points in `rows.ENDING`, and a grid of very many more.
+/// Results of three points in `rows.ENDING`, and a grid with many more points.
 fn folder(ending: &str) -> (Folder, Vec<u8>, String) {
     let folder = Folder::with_grid(&quick(3));
     assert_eq!(folder.flap(&format!("sweep --grid grid.toml --out rows.{ending}")).code, 0);
@@ -21,7 +21,7 @@ fn assert_kept(folder: &Folder, ending: &str, rows: &[u8], sidecar: &str) {
     folder.ends(0, &format!("results verify rows.{ending}"));
 }
 
-/// Waits until checkpoints are in the journal, and not those of the journal `before`.
+/// Waits until the journal contains checkpoints that are not in the journal `before`.
 fn wait_until_begun(folder: &Folder, journal: &Path, before: &str) {
     let is_another = |text: &str| before.is_empty() || !text.starts_with(before);
     let begun =
@@ -86,7 +86,7 @@ fn a_completed_force_leaves_nothing_of_the_earlier_results() {
     assert_eq!(folder.read("rows.csv").lines().count(), 6);
 }
 
-/// Somebody else's file of that name is neither overwritten nor removed.
+/// flap neither overwrites nor removes another file with the name of the new results.
 #[test]
 fn a_file_in_the_way_stays() {
     let (folder, rows, sidecar) = folder("csv");
@@ -116,7 +116,7 @@ fn a_file_in_the_way_stays() {
     assert_eq!(folder.read("rows.new.csv"), before);
 }
 
-/// Results that are made at once, in place of results whose replacement is unfinished.
+/// A conversion into results whose replacement is unfinished.
 #[test]
 fn a_conversion_ends_an_unfinished_replacement() {
     let (folder, ..) = folder("csv");
@@ -138,7 +138,7 @@ fn a_conversion_ends_an_unfinished_replacement() {
     folder.ends(0, "results verify rows.csv");
 }
 
-/// A link stays a link: rows go where it points to.
+/// A link stays a link, and flap writes the rows to the target of the link.
 #[test]
 #[cfg(unix)]
 fn a_link_to_results_stays_one() {
@@ -151,7 +151,7 @@ fn a_link_to_results_stays_one() {
     assert!(!folder.path("rows.new.csv").exists());
 }
 
-/// A disk that is full does not cost the earlier file.
+/// If the disk is full, the earlier file stays.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_is_computed_at_once_replaces_an_earlier_file_at_once() {

@@ -1,10 +1,10 @@
-//! Sweeps that are repeated from what lies beside their results.
+//! Sweeps that are repeated from the sidecar of their results.
 
 use std::fs;
 
 use crate::support::{Folder, quick};
 
-/// Some of the points do not settle in so little time.
+/// A grid with few drive periods per point, so that some points do not settle.
 const GRID: &str = r#"
 preset = "ozaki2018-large"
 
@@ -93,7 +93,7 @@ fn what_cannot_be_run_again() {
         .says("writing rows.csv would overwrite the results rows.csv");
 }
 
-/// The file of points is looked for where the grid file was, and must be as it was.
+/// flap reads the file of points in the folder of the grid file. The file must not have changed.
 #[test]
 fn a_sweep_of_a_file_of_points_is_repeated_from_its_sidecar() {
     let folder = Folder::new();

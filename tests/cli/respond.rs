@@ -124,7 +124,7 @@ fn options_are_those_of_the_sidecar() {
     assert!(rerun.stderr.contains("holds curves"), "{}", rerun.stderr);
 }
 
-/// A reader of the summaries that goes away does not stop the rows.
+/// If the reader of the summaries closes its pipe, flap still writes all rows.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_closed_stdout_does_not_end_a_run_into_a_file() {
@@ -135,7 +135,7 @@ fn a_closed_stdout_does_not_end_a_run_into_a_file() {
     folder.ends(0, "results verify rows.csv").prints("rows.csv: sound: ");
 }
 
-/// A band of 0.28 Hz between two steps of 0.5 Hz.
+/// A bistable band of 0.28 Hz between two steps of 0.5 Hz.
 #[test]
 fn a_band_between_two_steps_is_found() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Sweeps that are ended by force, by a full disk or by a lost permission, and gone on with.
+//! Sweeps that are interrupted by a kill, a full disk or a lost permission, and then resumed.
 
 #![cfg(unix)]
 
@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 
 use crate::support::{Folder, frequencies, quick, send, start, sweep_until, wait};
 
-/// Points of sweeps that are to last long enough to be killed several times.
+/// Number of points of sweeps that must last long enough to be killed several times.
 const POINTS: u64 = 60_000;
 
-/// Arguments for many checkpoints in a short time.
+/// Arguments that cause many checkpoints in a short time.
 const OFTEN: [&str; 2] = ["--checkpoint", "5 ms"];
 
 /// A folder with a grid and the rows of an uninterrupted sweep in `whole.<ending>`.
@@ -29,7 +29,7 @@ fn length(folder: &Folder, name: &str) -> u64 {
     fs::metadata(folder.path(name)).map_or(0, |metadata| metadata.len())
 }
 
-/// Waits for `what`; false if the command ends before.
+/// Waits until `what` is true; returns false if the command ends before.
 fn wait_until(child: &mut Child, mut what: impl FnMut() -> bool) -> bool {
     let start = Instant::now();
     while !what() {
@@ -72,7 +72,7 @@ fn assert_same(folder: &Folder, ending: &str) {
     }
 }
 
-/// Kills the sweep `kills` times at random moments, each after it has got a little further, and lets it end.
+/// Kills the sweep `kills` times at random moments, each after some progress, and then waits until the sweep ends.
 fn killed(ending: &str, kills: u32, mut random: u64) {
     let folder = folder(POINTS, ending);
     let out = format!("rows.{ending}");
@@ -115,7 +115,7 @@ fn a_killed_sweep_yields_the_same_parquet() {
     killed("parquet", 7, 3);
 }
 
-/// One that is asked to end loses nothing, in any format.
+/// A sweep that is interrupted with SIGINT loses no rows, in any format.
 #[test]
 fn an_interrupted_sweep_goes_on() {
     for (signal, ending) in [("INT", "csv"), ("TERM", "csv.zst"), ("INT", "parquet")] {
@@ -134,7 +134,7 @@ fn an_interrupted_sweep_goes_on() {
     }
 }
 
-/// Rows with derivatives go on as others do.
+/// Sweeps with derivatives can be resumed like other sweeps.
 #[test]
 fn an_interrupted_sweep_of_derivatives_goes_on() {
     let gradient = "\n[gradient]\nof = [\"lift_mean_mn\"]\nwith_respect_to = [\"hinge_stiffness\", \"drive_frequency\"]\n";
@@ -174,11 +174,11 @@ fn a_full_disk_loses_nothing() {
     }
 }
 
-/// Nobody: root may write where it is not permitted.
+/// The user id of `nobody`: the user root may write without permission.
 const NOBODY: u32 = 65_534;
 
-/// Starts a copy of the command. Another test that starts a process while the copy is made keeps it open for a moment, and what
-/// is open for writing cannot be started.
+/// Starts a copy of the command. If another test starts a process at the same time, the new process keeps the copy open
+/// for a moment. A program that is open for writing cannot be started.
 fn spawn(mut command: Command) -> Child {
     loop {
         match command.spawn() {
@@ -254,7 +254,7 @@ fn results_removed_meanwhile_are_noticed() {
     }
 }
 
-/// Two processes cannot write to the same results, however they begin.
+/// Two processes cannot write to the same results, however the processes begin.
 #[test]
 fn a_running_sweep_is_not_resumed() {
     let folder = Folder::with_grid(&frequencies(100_000_000));
@@ -268,7 +268,7 @@ fn a_running_sweep_is_not_resumed() {
     wait(&mut child);
 }
 
-/// An unfinished sweep of `grid.toml` in `grid.csv`.
+/// An unfinished sweep of `grid.toml`, with its rows in `grid.csv`.
 fn unfinished() -> Folder {
     let folder = Folder::with_grid(&quick(100_000_000));
     let mut child = begin(&folder, "grid.csv");

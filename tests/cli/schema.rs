@@ -34,7 +34,7 @@ fn every_key_has_a_description() {
     }
 }
 
-/// Fails unless the schema and those of its keys have descriptions, or refer to others.
+/// Fails unless the schema and the schemas of its keys have descriptions or references.
 fn assert_described(name: &str, schema: &Value) {
     let is_described = schema["description"].as_str().is_some_and(|about| about.len() > 5);
     let [alone, uncertain] = [&schema["anyOf"][1], &schema["anyOf"][2]];

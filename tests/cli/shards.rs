@@ -1,4 +1,4 @@
-//! Shards of a sweep, and putting them together.
+//! Shards of a sweep, and their merging.
 
 use std::fs;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn merged_shards_are_the_file_of_one_machine() {
     }
 }
 
-/// Shards of a grid with conditions have different numbers of rows, and count what is excluded together.
+/// Shards of a grid with conditions have different numbers of rows. Together, the shards count all excluded points.
 #[test]
 fn merged_shards_of_a_grid_with_conditions_are_the_file_of_one_machine() {
     let grid = quick(1000)
@@ -147,7 +147,7 @@ fn shards_that_do_not_hold_what_they_should_are_refused() {
     }
 }
 
-/// A shard whose sweep was interrupted says so.
+/// flap rejects a shard whose sweep was interrupted, and the error names the interruption.
 #[test]
 fn unfinished_shards_are_refused() {
     let folder = folder(100);
@@ -166,7 +166,7 @@ fn wrong_shards_are_explained() {
     }
 }
 
-/// Merging runs no model: what it needs is one build, not this one.
+/// Merging runs no model, so the shards need the same build, but not the build that merges them.
 #[test]
 fn shards_of_several_builds_are_merged_if_asked() {
     let folder = folder(100);
@@ -211,7 +211,7 @@ fn shards_of_several_builds_are_merged_if_asked() {
     assert_eq!(build_of("merged.parquet"), "zfed");
 }
 
-/// Nor are rows of another build called complete.
+/// flap does not report rows of another build as complete.
 #[test]
 fn results_of_another_build_are_not_gone_on_with() {
     let folder = folder(10);

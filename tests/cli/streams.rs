@@ -20,7 +20,7 @@ fn stdout_carries_rows_and_nothing_else() {
     assert_eq!(folder.names(), ["grid.toml"]);
 }
 
-/// Devices and pipes hold no earlier results, and get neither a sidecar nor a lock.
+/// Devices and pipes contain no earlier results, and flap writes neither a sidecar nor a lock for them.
 #[test]
 #[cfg(target_os = "linux")]
 fn rows_go_to_devices_and_pipes() {
@@ -109,10 +109,10 @@ fn a_second_signal_ends_at_once() {
 /// Solver settings with which no point ends.
 const ENDLESS: &str = "\n[solver]\nnewton = false\nmax_cycles = 1000000000\nsettle_tol = 1e-300\n";
 
-/// Long after a second, so that busy machines pass.
+/// The largest time in which a command must end. Commands should need one second, but busy machines need longer.
 const SOON: Duration = Duration::from_secs(5);
 
-/// Commands that would not end, and a second's patience.
+/// A signal ends each command whose computation is endless.
 #[test]
 #[cfg(unix)]
 fn signals_end_every_command_within_a_point() {
@@ -173,7 +173,7 @@ fn a_sweep_in_the_background_ignores_ctrl_c() {
     assert_eq!(wait(&mut child), Some(130));
 }
 
-/// The folder for commands that are quiet, with a stroke of its own and results.
+/// The folder for commands without messages, with a stroke file and results.
 fn folder_of_quiet_commands() -> Folder {
     let folder = Folder::with_grid(&frequencies(3));
     folder.ends(0, "sweep grid.toml --out rows.csv");

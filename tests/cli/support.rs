@@ -1,4 +1,4 @@
-//! A folder of its own for every test, and the command in it.
+//! A separate folder for every test, and the command `flap` in this folder.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,9 +13,9 @@ use tempfile::TempDir;
 /// A folder with files, in which the command runs.
 pub(crate) struct Folder(TempDir);
 
-/// The end of a command.
+/// The exit code and the output of a command that has ended.
 pub(crate) struct Ended {
-    /// The arguments, as they stand in messages of failed tests.
+    /// The arguments, for messages of failed tests.
     arguments: String,
     pub(crate) code: i32,
     pub(crate) stdout: String,
@@ -42,7 +42,7 @@ impl Folder {
         fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// Changes the sidecar of results, as if it had been written so.
+    /// Changes the sidecar of results, with a valid checksum.
     pub(crate) fn rewrite_sidecar(&self, results: &str, change: impl FnOnce(&mut Sidecar)) {
         let path = self.path(&format!("{results}.meta.toml"));
         let mut sidecar = Sidecar::read(&path).unwrap();
@@ -91,7 +91,7 @@ impl Folder {
         self.flap_reading("", arguments)
     }
 
-    /// Runs a line of a shell.
+    /// Runs a command line in a shell.
     #[cfg(target_os = "linux")]
     pub(crate) fn shell(&self, line: &str) -> Ended {
         let output = Command::new("bash")
@@ -150,7 +150,7 @@ pub(crate) fn frequencies(points: u64) -> String {
     format!("preset = \"ozaki2018-large\"\n\n[axes]\ndrive_frequency = {range}\n")
 }
 
-/// A grid of `points` points that take no time: one drive period each, and none settles.
+/// A grid with `points` points that take little time: each point runs for one drive period, and no point settles.
 pub(crate) fn quick(points: u64) -> String {
     frequencies(points) + "\n[solver]\nrtol = 1e-3\nsettle_tol = 1e-3\nmax_cycles = 1\n"
 }
@@ -172,7 +172,8 @@ pub(crate) const VEHICLE: &str = concat!(
     wings!()
 );
 
-/// Starts `flap` and does not wait for it. It heeds SIGINT, whatever the parent of the tests does.
+/// Starts `flap` and does not wait for its end. SIGINT ends `flap`, even if the parent process of the tests ignores
+/// SIGINT.
 pub(crate) fn start(folder: &Folder, arguments: &[&str]) -> Child {
     let mut command = command(folder, arguments);
     #[cfg(unix)]
@@ -217,7 +218,7 @@ fn set_interrupt(command: &mut process::Command, action: libc::sighandler_t) {
     unsafe { command.pre_exec(set) };
 }
 
-/// The exit code, none if it was killed; fails the test if the command does not end.
+/// The exit code; `None` if the command was killed. Fails the test if the command does not end.
 pub(crate) fn wait(child: &mut Child) -> Option<i32> {
     let start = Instant::now();
     loop {

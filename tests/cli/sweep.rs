@@ -1,4 +1,4 @@
-//! `flap sweep` when all is well.
+//! `flap sweep` without errors.
 
 use crate::support::{Folder, frequencies};
 
@@ -78,7 +78,7 @@ fn a_grid_without_axes_is_one_point() {
     ended.prints("\n0,periodic,");
 }
 
-/// `--force` overwrites; it does not destroy results that nothing then replaces.
+/// `--force` overwrites results only after the new results are written.
 #[test]
 fn old_rows_stay_if_new_ones_cannot_be_written() {
     let folder = Folder::with_grid("preset = \"ozaki2018-large\"\n");

@@ -1,4 +1,5 @@
-//! The system calls by which a command changes files: counted, recorded, refused, or the last thing before a kill.
+//! The system calls with which a command changes files. Tests count and record the calls, let them fail, or kill the
+//! command before them.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -20,20 +21,20 @@ use crate::support::Folder;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Call {
     pub(crate) name: &'static str,
-    /// The names of its files in the folder, `.` for the folder itself. Temporary names are `?`.
+    /// The names of the call's files in the folder; `.` is the folder itself, and `?` is a temporary name.
     pub(crate) files: Vec<String>,
 }
 
-/// The fate of a system call.
+/// The action of the test on a system call.
 pub(crate) enum Fate {
     Goes,
-    /// The command is killed before it.
+    /// The command is killed before the call.
     Killed,
-    /// The call does nothing but fail.
+    /// The call has no effect and returns this error.
     Fails(Errno),
 }
 
-/// The end of a traced command.
+/// The result of a traced command.
 pub(crate) struct Traced {
     /// The exit code; none if it was killed.
     pub(crate) code: Option<i32>,
@@ -41,7 +42,8 @@ pub(crate) struct Traced {
     pub(crate) calls: Vec<Call>,
 }
 
-/// Runs `flap` with the words of `arguments`. `fate` decides on each call, given its number.
+/// Runs `flap` with the words of `arguments`. `fate` returns the action for each call; its first argument is the number
+/// of the call.
 pub(crate) fn trace(folder: &Folder, arguments: &str, mut fate: impl FnMut(usize, &Call) -> Fate) -> Traced {
     let said = folder.path("../").canonicalize().unwrap().join(format!("{}.stderr", unique()));
     let mut command = Command::new(env!("CARGO_BIN_EXE_flap"));
@@ -121,7 +123,7 @@ fn int(register: u64) -> i32 {
     i32::from_le_bytes([a, b, c, d])
 }
 
-/// The call at whose beginning a thread has stopped; none if it changes nothing in the folder `place`.
+/// The call that a stopped thread begins; `None` if the call changes nothing in the folder `place`.
 fn call(pid: Pid, registers: &libc::user_regs_struct, place: &Path) -> Option<Call> {
     let of_descriptor = |descriptor: u64| {
         let descriptor = int(descriptor);

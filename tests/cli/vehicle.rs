@@ -58,7 +58,7 @@ fn rows_have_the_same_bytes_however_they_are_made() {
     folder.ends(0, "results verify all.csv merged.csv rows.parquet");
 }
 
-/// A sweep that was interrupted goes on to the same bytes.
+/// A resumed sweep has the same bytes as an uninterrupted sweep.
 #[test]
 #[cfg(unix)]
 fn an_interrupted_sweep_goes_on() {
@@ -73,7 +73,7 @@ fn an_interrupted_sweep_goes_on() {
     assert!(folder.read("grid.csv") == folder.read("whole.csv"));
 }
 
-/// A wing with a design of its own is one with the parameters in which that differs.
+/// A wing with its own design equals a wing whose parameters are set to the values of this design.
 #[test]
 fn a_wing_has_a_design_of_its_own() {
     let folder = Folder::new();
@@ -103,7 +103,7 @@ fn a_wing_has_a_design_of_its_own() {
     folder.ends(0, "results rerun device.toml.csv --status periodic --rtol 1e-7 --out again.csv");
 }
 
-/// The matrix is that of derivatives as columns.
+/// The control matrix equals the derivatives in the columns of `[gradient]`.
 #[test]
 fn the_matrix_of_inputs_is_that_of_derivatives() {
     let gradient = "[params]\ndrive_offset = \"5 V\"\n[gradient]\nof = [\"torque_pitch_unm\"]\nwith_respect_to = [\"drive_offset\"]\n";
@@ -151,7 +151,7 @@ fn trims_reach_their_targets() {
     );
 }
 
-/// Grid files with mistakes, each with what is said of it.
+/// Grid files with mistakes, each with its message.
 #[test]
 fn mistakes_in_vehicles_are_told_with_their_place() {
     let wing = "[[vehicle.wings]]\nname = \"left\"\n";
@@ -251,7 +251,7 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
     }
 }
 
-/// The wing that is one too many is the place of the mistake.
+/// The message points at the first wing that is too many.
 #[test]
 fn seventeen_wings_are_too_many() {
     let mut text = "preset = \"jafferis2016\"\n".to_owned();
@@ -266,7 +266,8 @@ fn seventeen_wings_are_too_many() {
         .says("help: remove this wing");
 }
 
-/// A wing with a preset or a device has all of its numbers but those of the drive, also those that the grid's design has too.
+/// A wing with its own preset or device takes all values except the drive from this design. The grid's `[params]` do
+/// not change these values.
 #[test]
 fn a_wing_keeps_its_design_when_the_grid_changes() {
     let with = |key: &str| VEHICLE.replacen("mirrored = true", &format!("mirrored = true\n{key}"), 1);

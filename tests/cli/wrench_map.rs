@@ -14,7 +14,7 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
-/// The JSON contains all that is needed to evaluate the map, and CSV the same coefficients.
+/// The JSON contains all numbers that are necessary to evaluate the map. The CSV contains the same coefficients.
 #[test]
 fn formats_contain_the_same_map() {
     let folder = folder();
@@ -114,7 +114,7 @@ fn derived_parameters_are_no_inputs() {
     assert!(ended.stderr.contains("remove it from [derived]"), "{}", ended.stderr);
 }
 
-/// Poor maps, steep responses and inputs without effect are named.
+/// flap prints warnings about poor maps, steep responses and inputs without effect.
 #[test]
 fn warnings_name_poor_maps() {
     let folder = folder();

@@ -1,4 +1,4 @@
-//! Error estimates of rows, on designs far from the published ones.
+//! Error estimates of rows, for designs that differ much from the published designs.
 
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Preset};
@@ -8,14 +8,15 @@ use crate::robustness::Random;
 use crate::rows;
 use crate::terms::is_left_out;
 
-/// Designs drawn of each preset, and how many of them are integrated again at the tolerance of [`exact`].
+/// Number of random designs of each preset, and number of these designs that are integrated again at the tolerance of
+/// [`exact`].
 const DRAWN: usize = 2000;
 const COMPARED: usize = 300;
 
 /// The measures whose errors `error_estimate` bounds.
 const PRINCIPAL: [&str; 4] = ["stroke_amplitude_deg", "pitch_amplitude_deg", "lift_mean_mn", "power_mean_mw"];
 
-/// Few points settle after a hundred periods of marching: the rest would only take time.
+/// At most 100 drive periods: few points settle after more periods, and the other points would take much time.
 fn solver() -> SolverSettings {
     SolverSettings { max_cycles: 100, ..SolverSettings::default() }
 }
@@ -24,7 +25,7 @@ fn exact() -> SolverSettings {
     SolverSettings { atol: 1e-17, settle_tol: 1e-9, max_steps: 200_000, ..solver().with_rtol(1e-11) }
 }
 
-/// The preset's numbers, each times a factor from 0.2 to 1.8; choices as they are.
+/// Random designs: each number of the preset times a factor from 0.2 to 1.8. Choices keep the value of the preset.
 pub(crate) fn designs(model: &dyn Simulator, preset: &Preset) -> Vec<Vec<f64>> {
     let mut random = Random(14);
     let mut design = || {
@@ -114,5 +115,5 @@ fn rows_of_random_designs_know_their_error() {
     );
 }
 
-/// Designs that settle on one orbit at the default tolerance, and on another at a finer one.
+/// Random designs that settle on different orbits at the default tolerance and at a finer tolerance.
 const OTHER_ORBITS: [(&str, usize); 1] = [("arabagi2013-30hz", 1749)];

@@ -156,7 +156,7 @@ impl Pair {
     }
 }
 
-/// Fails unless two wrenches agree, relative to the largest component of force and of torque.
+/// Fails unless two wrenches agree, relative to the largest component of force and to the largest component of torque.
 fn assert_wrench(found: [f64; 6], expected: [f64; 6], tolerance: f64, what: &str) {
     let mut worst = 0.0_f64;
     for part in [0..3, 3..6] {
@@ -239,8 +239,8 @@ fn the_damping_matrix_is_that_of_the_reference() {
     }
 }
 
-/// The mean change of force along the stroke axis and along a positive stroke (N) of one wing of the four-bar model with an
-/// upward velocity, as a plain sum over samples of the motion at rest.
+/// The mean change of the forces (N) along the stroke axis and along a positive stroke for a wing with an upward
+/// velocity. The function computes the change for the four-bar model as a plain sum over samples of the motion at rest.
 fn sampled_change(values: &[f64], samples: &Trajectory, up: f64) -> [f64; 2] {
     let parameters = by_name("four-bar").unwrap().parameters();
     let number = |name: &str| values[Parameter::index(parameters, name).unwrap()];
@@ -319,7 +319,7 @@ fn frozen_loads_are_means_over_samples() {
     }
 }
 
-/// The vehicles of `rest.csv` without four-bar, whose lift jumps.
+/// The vehicles of `rest.csv` without the model `four-bar`, whose lift jumps.
 fn smooth() -> Vec<(String, Pair)> {
     cases().into_iter().filter(|(name, _)| !name.starts_with("fourbar")).collect()
 }
@@ -355,7 +355,7 @@ fn mirrored_motions_have_mirrored_wrenches() {
     }
 }
 
-/// Longitudinal and lateral motion of a vehicle of mirrored wings are not coupled.
+/// The longitudinal and the lateral motion of a vehicle with mirrored wings are not coupled.
 #[test]
 fn mirrored_wings_have_no_coupling() {
     for (name, pair) in smooth() {
@@ -371,7 +371,7 @@ fn mirrored_wings_have_no_coupling() {
     }
 }
 
-/// The matrix about another point is the matrix of the same motion, whose torques act about that point.
+/// The damping matrix about another point is the matrix of the same motion with the torques about that point.
 #[test]
 fn the_damping_matrix_changes_with_the_reference_point() {
     for (name, pair) in smooth() {

@@ -6,7 +6,7 @@ use flap_core::parameter::Parameter;
 use flap_core::piezo::Layer;
 use proptest::prelude::*;
 
-/// The one of `things` that has the name `name` among `names`, which stand in the same order.
+/// Returns the element of `things` at the position of `name` in `names`.
 pub(crate) fn named<T: Clone>(name: &str, names: &[&str], things: &[T]) -> T {
     let position = names.iter().position(|&one| one == name);
     things[position.unwrap_or_else(|| panic!("no {name} among {names:?}"))].clone()
@@ -23,8 +23,8 @@ pub(crate) fn layer(table: &[Parameter], values: &[f64], name: &str) -> Layer {
     Layer { thickness: value("thickness"), modulus: value("modulus"), density: value("density") }
 }
 
-/// Any of `presets` with parameters multiplied by factors within `range`. `names` are those of the parameters, with
-/// spaces between.
+/// Random values: one of `presets`, with the parameters `names` multiplied by factors within `range`. Spaces separate
+/// the names in `names`.
 pub(crate) fn scaled(
     table: &'static [Parameter<'static>],
     presets: Vec<Vec<f64>>,

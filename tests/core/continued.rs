@@ -75,7 +75,7 @@ fn what_is_no_state_is_refused() {
     }
 }
 
-/// The state after some periods from `begin`, and the derivative by that.
+/// The state after some periods from `begin`, and the derivative of this state with respect to `begin`.
 fn follow(model: &dyn Simulator, values: &[f64], begin: &[f64], periods: u32) -> (Vec<f64>, DMatrix<f64>) {
     let (mut state, mut product) = (begin.to_vec(), DMatrix::identity(4, 4));
     for _ in 0..periods {
@@ -112,7 +112,7 @@ fn a_period_is_what_rows_are_made_of() {
     }
 }
 
-/// Differences of motions say what their derivative does.
+/// Responses agree with differences of motions.
 #[test]
 fn responses_are_derivatives() {
     for &model in all() {

@@ -40,7 +40,7 @@ pub(crate) fn table(path: &str) -> Vec<Record> {
     rows
 }
 
-/// Fails unless `actual` is within `tolerance` of `expected`, relative to it.
+/// Fails unless the relative difference between `actual` and `expected` is within `tolerance`.
 pub(crate) fn assert_close(actual: f64, expected: f64, tolerance: f64, what: &str) {
     let error = (actual - expected).abs() / expected.abs();
     assert!(

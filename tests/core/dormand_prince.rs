@@ -85,7 +85,7 @@ fn continuous_extension_has_order_4() {
     }
 }
 
-/// ẏ = y cos t, not autonomous: y = e^{sin t}.
+/// The equation ẏ = y cos t, which depends on time; its solution is y = e^{sin t}.
 struct Growth;
 
 impl Ode<1> for Growth {
@@ -101,7 +101,8 @@ impl Ode<1> for Growth {
     }
 }
 
-/// State at t = 2 after `n` equal steps, the sum of error estimates, and the largest error between steps.
+/// State at t = 2 after `n` equal steps, the sum of error estimates, and the largest error of the values between the
+/// steps.
 fn fixed_steps(n: u32) -> (f64, f64) {
     let h = 2.0 / f64::from(n);
     let mut y = [1.0];
@@ -183,8 +184,8 @@ fn arenstorf(rtol: f64) -> Span<4> {
     span::run(&Arenstorf, &Tolerances { rtol, atol: rtol, max_steps: 10_000 }, &start)
 }
 
-/// The code DOPRI5 takes 238 steps at this tolerance, 217 of them accepted, with 1 + 6 · 238 evaluations
-/// (as reproduced to the last step by russell_ode). Our start and last step are chosen differently.
+/// The code DOPRI5 takes 238 steps at this tolerance: 217 accepted steps, and 1 + 6 · 238 evaluations. russell_ode
+/// takes exactly the same steps. flap chooses the first and the last step differently.
 #[test]
 fn arenstorf_orbit_takes_as_many_steps_as_published() {
     let Span { end, outcome, accepted } = arenstorf(1e-7);
@@ -264,7 +265,7 @@ fn a_step_evaluates_the_right_hand_side_six_times() {
     assert_eq!(outcome.rhs_evals, 2 + 6 * outcome.attempts);
 }
 
-/// Spans end exactly on their end: every step ends where the next begins.
+/// Each step begins where the step before ends, and the last step of a span ends exactly at the end of the span.
 #[test]
 fn spans_are_tiled_without_gaps() {
     let start = Start::new((), [1.0], 0.7, [1.0]);
@@ -288,7 +289,7 @@ fn spans_are_tiled_without_gaps() {
     assert_eq!(spans, 5);
 }
 
-/// ẏ = y²: infinite at t = 1.
+/// The equation ẏ = y², whose solution is infinite at t = 1.
 struct BlowUp;
 
 impl Ode<1> for BlowUp {

@@ -1,4 +1,4 @@
-//! Motions at the edge of what is common: minute ones, none at all, large reactive power, drives with edges.
+//! Unusual motions: very small motions, no motion, large reactive power, and drives with edges.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
@@ -28,8 +28,8 @@ fn measure(design: &(&'static dyn Simulator, Vec<f64>), row: &Row, name: &str) -
     row.measures[design.0.columns().iter().position(|column| column.name == name).unwrap()]
 }
 
-/// Far above resonance, and at voltages that hardly move the wing, what flows back and forth is 10^3 to 10^6 times what is
-/// lost. Motions are down to 10^-5 degrees.
+/// Far above resonance, or at very small voltages, the reactive power is 10^3 to 10^6 times the lost power. The
+/// smallest motions have 10^-5 degrees.
 #[test]
 fn power_of_small_motions_is_as_exact_as_their_stroke() {
     let cases: [(&str, &[(&str, f64)]); 7] = [
@@ -60,7 +60,7 @@ fn power_of_small_motions_is_as_exact_as_their_stroke() {
     }
 }
 
-/// Without drive nothing moves, and every motion would die away.
+/// Without drive the wing does not move, and every motion would decay.
 #[test]
 fn a_wing_at_rest_is_stable() {
     for (name, still) in [
@@ -79,7 +79,7 @@ fn a_wing_at_rest_is_stable() {
     }
 }
 
-/// Plates without piezoelectric stress take no power. The audit of nothing costs nothing.
+/// Plates without piezoelectric stress consume no power. flap spends no work on the energy audit of zero power.
 #[test]
 fn a_point_without_power_is_not_refined() {
     let still = design("jafferis2016", &[("drive_voltage_pp", 0.0)]);
@@ -88,7 +88,7 @@ fn a_point_without_power_is_not_refined() {
     assert!(dead.rhs_evals < 2 * still.rhs_evals, "{} and {}", dead.rhs_evals, still.rhs_evals);
 }
 
-/// Peaks of signals that follow the drive, for every shape of it.
+/// Peaks of signals that follow the drive, for every drive shape.
 #[test]
 fn peaks_are_exact_for_every_drive() {
     let shapes: [&[(&str, f64)]; 3] = [
@@ -121,7 +121,7 @@ fn peaks_are_exact_for_every_drive() {
     }
 }
 
-/// The air of the uniform flow can give energy to the wing: there is no efficiency then.
+/// In a uniform flow the air can give energy to the wing. A wing that gains energy has no efficiency.
 #[test]
 fn efficiency_needs_power() {
     let (model, preset) = preset("ozaki2018-large").unwrap();
@@ -143,7 +143,8 @@ fn efficiency_needs_power() {
     }
 }
 
-/// The map of a period jumps where a step is accepted by a hair; points must not stay unsettled for it.
+/// The map of a period jumps where the error of a step is almost equal to the tolerance. These jumps must not keep
+/// points unsettled.
 #[test]
 fn no_point_of_a_preset_stays_unsettled_by_jumps_of_the_period_map() {
     for name in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {

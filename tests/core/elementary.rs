@@ -38,7 +38,7 @@ fn exponential_and_logarithm_are_accurate_to_a_few_roundings() {
     assert_eq!(Real::ln(1.0_f64), 0.0);
 }
 
-/// Relative to their own small values where the exponential is near 1.
+/// Near zero, the errors are relative to the small value of e^x − 1 or ln(1 + x).
 #[test]
 fn exponential_less_one_and_logarithm_of_one_more_are_accurate_near_zero() {
     let small = (0..280).map(|i| 10.0_f64.powi(-i));
@@ -58,7 +58,7 @@ fn exponential_less_one_and_logarithm_of_one_more_are_accurate_near_zero() {
     assert!(large.iter().all(|&x| (Real::ln_1p(x) / f64::ln_1p(x) - 1.0).abs() < 4e-16));
 }
 
-/// Largest of the values, which are numbers.
+/// Returns the largest value. All values must be finite.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.inspect(|value| assert!(value.is_finite())).fold(0.0, f64::max)
 }
@@ -67,7 +67,7 @@ fn linear_log2<R: Lanes>(x: R) -> R {
     x.linear_log2()
 }
 
-/// The step-size controller's errors have any magnitude.
+/// The errors of the step-size controller can have any magnitude.
 #[test]
 fn linear_logarithm_is_as_accurate_as_documented() {
     let mantissas = arguments(1.0, 2.0);
@@ -100,7 +100,7 @@ fn rough_power_of_two_is_as_accurate_as_documented() {
     }
 }
 
-/// The tolerances of the error norm have any magnitude.
+/// The tolerances of the error norm can have any magnitude.
 #[test]
 fn rough_reciprocal_is_as_accurate_as_documented() {
     let mantissas = arguments(1.0, 2.0);
@@ -194,7 +194,7 @@ impl Kernel for Exponentials<'_> {
     }
 }
 
-/// The values of the standard library, with subnormal numbers as zero. The logarithm of a negative one is no number.
+/// The values of the standard library, with subnormal numbers as zero. The logarithm of a negative number is NaN.
 fn std_exponentials(x: f64) -> [f64; 4] {
     let flushed = |number: f64| if number.is_subnormal() { 0.0 } else { number };
     let ln = if x.is_subnormal() && x > 0.0 { f64::NEG_INFINITY } else { x.ln() };
@@ -256,7 +256,7 @@ fn exponentials_and_logarithms_of_any_number_are_those_of_the_standard_library()
     }
 }
 
-/// Models use the unchecked functions where their arguments are known to be ordinary.
+/// Models call the unchecked functions with arguments that are always normal numbers.
 #[test]
 fn unchecked_exponentials_and_logarithms_have_the_same_bits() {
     for x in arguments(-700.0, 700.0).into_iter().chain(arguments(-1.0, 1.0)) {

@@ -1,4 +1,4 @@
-//! Lanes against scalars: same rows to the last bit, whatever runs beside a point.
+//! Lanes against scalars: the rows have the same bits, for any points in the other lanes.
 
 use flap_core::drive::{Shape, WaveformParameters};
 use flap_core::model::direct_drive::{FlowDirection, Params};
@@ -12,7 +12,8 @@ fn model() -> &'static dyn Simulator {
     by_name("direct-drive").unwrap()
 }
 
-/// Good points, slow points, points that never settle, blow up or are impossible, in a fixed odd order.
+/// Points that settle fast, slowly or never, points whose motion diverges, and impossible points, in a fixed irregular
+/// order.
 fn mixed_points() -> Vec<Vec<f64>> {
     let mut points = Vec::new();
     for i in 0..150 {
@@ -81,7 +82,7 @@ fn instruction_sets_of_a_class_give_the_same_bits() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// Neighbours, order and number of points do not matter.
+    /// Other points, their order and their number do not change a row.
     #[test]
     fn a_row_depends_on_its_point_alone(chosen in prop::collection::vec(0..150_usize, 1..70)) {
         let points = mixed_points();

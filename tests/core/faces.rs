@@ -1,4 +1,4 @@
-//! A model that has rows alone, lists of points, and the words of errors.
+//! A model that has only rows, lists of points, and the texts of errors.
 
 use flap_core::num::Backend;
 use flap_core::parameter::{Parameter, Preset};
@@ -7,7 +7,7 @@ use flap_core::simulate::{
     TrajectoryRequest, Unfinished, never, preset, run_list,
 };
 
-/// A model whose rows say nothing, in the order opposite to that of the points.
+/// A model whose rows are all invalid, in the reverse order of the points.
 struct Backwards;
 
 impl Rows for Backwards {

@@ -91,7 +91,7 @@ fn rows_around(name: &str, solver: &SolverSettings) -> Vec<Row> {
     rows::of(model, &designs, Backend::best(), solver)
 }
 
-/// The error of `floquet_max` with the default search: the largest that the documentation states.
+/// The largest error of `floquet_max` with the default search does not exceed the error in the documentation.
 #[test]
 fn multipliers_of_rows_are_as_accurate_as_documented() {
     let solver = |rtol: f64| SolverSettings { settle_tol: rtol, ..SolverSettings::DEFAULT }.with_rtol(rtol);

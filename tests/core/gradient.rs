@@ -1,4 +1,4 @@
-//! Derivatives of settled measures against differences of orbits that are converged far beyond.
+//! Derivatives of settled measures against differences of orbits with much smaller tolerances.
 
 use std::slice;
 
@@ -11,16 +11,16 @@ use flap_core::simulate::{
 use crate::robustness::{self, Random};
 use crate::rows;
 
-/// Designs drawn of each model.
+/// Number of random designs of each model.
 const DRAWN: usize = 20;
 
-/// Parameters of each design along which derivatives are taken.
+/// Number of parameters of each design along which flap computes derivatives.
 const PARAMETERS: usize = 8;
 
-/// The share by which a parameter is changed for derivatives on given steps.
+/// The relative change of a parameter for derivatives on given steps.
 const CHANGE: f64 = 1e-8;
 
-/// The largest share by which it is changed for differences of orbits.
+/// The largest relative change of a parameter for differences of orbits.
 const STEP: f64 = 8e-4;
 
 fn solver() -> SolverSettings {
@@ -38,7 +38,7 @@ fn moved(values: &[f64], index: usize, share: f64) -> Vec<f64> {
     values
 }
 
-/// Numbers of the model that are not zero: parameters whose shares can change.
+/// Indices of number parameters that are not zero, so that a relative change changes them.
 fn numbers(model: &dyn Simulator, values: &[f64]) -> Vec<usize> {
     let numbers = model.parameters().iter().zip(values).enumerate().filter(|(_, (parameter, value))| {
         matches!(parameter.kind, Kind::Number(_))
@@ -63,8 +63,8 @@ fn gradient(model: &dyn Simulator, values: &[f64], row: &Row, indices: &[usize])
     model.motions().unwrap().gradient(&run, &row.state, &changes).unwrap()
 }
 
-/// Richardson's extrapolation of two-sided differences of converged orbits: the derivative of each measure with respect to
-/// a share of the parameter.
+/// Derivatives of each measure with respect to the relative change of a parameter, by Richardson extrapolation. The
+/// extrapolation uses two-sided differences of converged orbits.
 fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usize) -> Option<Vec<f64>> {
     let designs = [1.0, -1.0, 0.5, -0.5, 0.25, -0.25].map(|share| moved(values, index, share * STEP));
     // From the orbit, lest motions from rest settle on another.
@@ -85,7 +85,7 @@ fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usiz
     Some((0..rows[0].measures.len()).map(column).collect())
 }
 
-/// Some of the numbers, at random; the first two of them always, which belong to the drive.
+/// Some of `numbers`: the first two numbers, which belong to the drive, and random others of `numbers`.
 fn some(numbers: &[usize], random: &mut Random) -> Vec<usize> {
     let mut shuffled: Vec<(f64, usize)> = numbers[2..].iter().map(|&index| (random.next(), index)).collect();
     shuffled.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -93,7 +93,8 @@ fn some(numbers: &[usize], random: &mut Random) -> Vec<usize> {
     numbers[..2].iter().copied().chain(others).collect()
 }
 
-/// Columns that are zero for a symmetric motion, and audits, have no derivatives to speak of.
+/// False for columns that are zero for a symmetric motion, and for audits: the test compares no derivatives of these
+/// columns.
 fn has_gradient(column: &str) -> bool {
     !column.ends_with("audit")
         && !column.ends_with("_mean_deg")
@@ -149,8 +150,9 @@ fn derivatives_are_those_of_converged_orbits() {
     }
 }
 
-/// Both half strokes of a symmetric motion have the same largest lift. What makes them differ has derivatives of the means,
-/// and none of the extrema; what changes both alike has all.
+/// In a symmetric motion both half strokes have the same largest lift. A parameter that changes the half strokes
+/// differently has derivatives of the means, but not of the extrema. A parameter that changes both half strokes equally
+/// has all derivatives.
 #[test]
 fn equal_extrema_of_both_half_strokes_have_a_kink() {
     let (model, preset) = preset("jafferis2016").unwrap();
@@ -187,7 +189,8 @@ fn a_term_that_is_zero_has_a_derivative() {
     assert_slope("arabagi2013-75hz", "pressure_term_0", [1e-9, 4e-4]);
 }
 
-/// Asserts that the derivatives at zero, for a change of the first size, agree with differences of the second size.
+/// Asserts that derivatives at a parameter value of zero agree with differences. `size` is the change for the
+/// derivatives, and `step` the change for the differences.
 fn assert_slope(name: &str, parameter: &str, [size, step]: [f64; 2]) {
     let (model, preset) = preset(name).unwrap();
     let index = Parameter::index(model.parameters(), parameter).unwrap();
@@ -227,7 +230,8 @@ fn assert_slope(name: &str, parameter: &str, [size, step]: [f64; 2]) {
     }
 }
 
-/// At the end of its range a parameter has no derivative, and says why; the others have theirs.
+/// A parameter at the end of its range has a reason instead of a derivative, and other parameters keep their
+/// derivatives.
 #[test]
 fn a_changed_point_that_is_impossible_is_told() {
     let (model, preset) = flap_core::simulate::preset("ozaki2018-large").unwrap();
@@ -287,8 +291,8 @@ fn derivatives_are_the_same_in_all_lanes_of_an_arithmetic() {
     }
 }
 
-/// Rows that are followed to a fold with the states of their neighbours have exact derivatives or the reason `fold`: the error of
-/// an orbit there changes (I − M)⁻¹.
+/// Near a fold, a row has exact derivatives or the reason `fold`, because the error of an orbit changes (I − M)⁻¹. The
+/// test follows rows to the fold from the states of their neighbours.
 #[test]
 fn derivatives_towards_a_fold_are_right_or_not_given() {
     let (model, preset) = flap_core::simulate::preset("jafferis2016").unwrap();

@@ -34,8 +34,9 @@ fn terms(attack: f64) -> [f64; 3] {
     ]
 }
 
-/// A strip: area (m^2), distance from the stroke axis, lever of its forces, distance behind the pitch axis at which its velocity
-/// is taken, and length to which its centre of pressure refers (m).
+/// A strip: area (m^2), distance from the stroke axis, and lever of its forces. The last two elements are the distance
+/// `behind` the pitch axis and the reference length of the centre of pressure (m). The velocity of a strip is the
+/// velocity at the distance `behind`.
 type Strip = [f64; 5];
 
 /// Returns the load of translational forces on strips, for a law of C_D, C_L and centre of pressure behind the pitch axis.
@@ -91,8 +92,8 @@ fn loads<M: Motions<4> + Default>(
     })
 }
 
-/// Asserts that the terms change the loads as they change the sums over strips, at these velocities of the body. `law` returns
-/// drag coefficient, lift coefficient and centre of pressure at an attack angle, with `share` times the terms.
+/// Asserts that the terms change the loads and the sums over strips equally, at these velocities of the body. `law`
+/// returns drag coefficient, lift coefficient and centre of pressure at an attack angle, with `share` times the terms.
 fn assert_terms<M: Motions<4> + Default>(
     values: &[f64],
     (strips, density): (&[Strip], f64),

@@ -11,7 +11,7 @@ use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name
 
 use crate::bimorph::plates_under;
 
-/// The values of a preset with some of them set.
+/// The values of a preset with the values of `set`.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
     let (model, preset) = preset(name).unwrap();
     let mut values = (preset.values)();
@@ -26,7 +26,7 @@ fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
     assert!((actual - expected).abs() <= distance, "{what}: {actual} is not {expected}");
 }
 
-/// The state after an impulse, and the derivative at rest with the drive held still.
+/// The state after an impulse, and the derivative at rest with a constant drive.
 fn released<M: Motions<4>>(model: &M, values: &[f64]) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
     let start = model.start(values).unwrap();
     let (still, c, y) = model.variant(values).released(&start.constants, 2.0);
@@ -35,8 +35,8 @@ fn released<M: Motions<4>>(model: &M, values: &[f64]) -> (M::Constants<f64>, [f6
     (c, y, rest)
 }
 
-/// An impulse is the limit of a short and strong torque, so it leaves rates in the ratio of the accelerations with which a
-/// drive sets the resting wing in motion. Where it leaves the wing, nothing but the impulse moves it.
+/// An impulse is the limit of a short and strong torque. The rates after the impulse therefore have the ratio of the
+/// accelerations with which a drive moves the resting wing. After the impulse no drive moves the wing.
 #[test]
 fn an_impulse_moves_the_pitch_as_a_drive_does() {
     for model in all() {
@@ -95,7 +95,7 @@ fn impulses_that_mean_nothing_are_refused() {
     }
 }
 
-/// The samples are where they were asked for, however the motion is cut into spans.
+/// The number of intervals does not change the states at the same times.
 #[test]
 fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
     let model = by_name("direct-drive").unwrap();

@@ -1,4 +1,4 @@
-//! Work that ends early: at once, without rows that nobody could trust.
+//! Interrupted runs: the runs end at once, and return no incomplete rows.
 
 use std::cell::Cell;
 
@@ -24,7 +24,8 @@ const ENDLESS: SolverSettings = SolverSettings {
     loads: false,
 };
 
-/// Points that are interrupted when `until` says so of how often that was asked, and of the rows so far.
+/// Points that are interrupted when `until` returns true. The arguments of `until` are the number of calls of
+/// `interrupted` and the number of rows.
 struct Interrupted<F> {
     points: Vec<Vec<f64>>,
     next: usize,
@@ -153,13 +154,13 @@ fn motions_of_one_point_end_when_interrupted() {
     assert!(motions.period(&PointRun::new(set, &ENDLESS, values), &[0.0; 4]).is_ok());
 }
 
-/// Points without end, until so many rows are there.
+/// An endless list of points, which ends when `wanted` rows are complete.
 struct Endless {
     values: Vec<f64>,
     given: u64,
     wanted: u64,
     rows: u64,
-    /// The most points that were on their way at once.
+    /// The largest number of points that were running at the same time.
     most: u64,
     /// The first points that have no row yet.
     first: Vec<u64>,
@@ -182,7 +183,7 @@ impl Jobs for Endless {
     }
 }
 
-/// Rows come while more points do: no point waits for the end of the sweep.
+/// Rows are complete while more points begin: no point waits for the end of the sweep.
 #[test]
 fn no_point_is_left_behind_while_others_come() {
     for name in ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"] {

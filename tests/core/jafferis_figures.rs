@@ -15,7 +15,7 @@ use response::{Response, peaks, response};
 
 use crate::data::assert_close;
 
-/// The wing on its hinge.
+/// Responses of the wing that rotates about its hinge.
 fn turning(force: f64) -> Vec<Response> {
     response(TABLE_I, force, DAMPING)
 }
@@ -33,8 +33,8 @@ fn width(curve: &[Response]) -> f64 {
     0.01 * curve.iter().filter(|point| point.stroke > top).count() as f64
 }
 
-/// (i): "the normalized frequency response is independent of the magnitude of the input force". It is
-/// 1 / √((1 − ω²)² + d²ω²).
+/// (i): "the normalized frequency response is independent of the magnitude of the input force". The response is 1 /
+/// √((1 − ω²)² + d²ω²).
 #[test]
 fn linear_oscillator_has_its_textbook_response() {
     for force in [0.1, 1.0] {
@@ -46,8 +46,8 @@ fn linear_oscillator_has_its_textbook_response() {
     }
 }
 
-/// (ii): quadratic damping acts nearly as the linear one that takes the same energy from a harmonic motion,
-/// d C_D 8ωA/(3π). That leaves out the third harmonic.
+/// (ii): quadratic damping has nearly the effect of linear damping d C_D 8ωA/(3π), which takes the same energy from a
+/// harmonic motion. The linear damping leaves out the third harmonic.
 #[test]
 fn held_wing_is_damped_as_by_its_equivalent_linear_damping() {
     for degrees in [0.0, 75.0] {

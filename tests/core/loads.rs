@@ -1,4 +1,4 @@
-//! Loads of the air on wings: against sums of strips that stand here a second time, and against energy and momentum.
+//! Loads of the air on wings: against independent sums over strips, and against energy and momentum.
 
 use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
@@ -53,8 +53,8 @@ fn values(name: &str, changes: &[(&str, f64)]) -> Vec<f64> {
     values
 }
 
-/// Sums over the span of what `strip` says of a strip: force along the stroke axis, force against the stroke, and moment
-/// about the span axis, each per width. By Simpson's rule.
+/// Integrals over the span by Simpson's rule. `strip` returns force along the stroke axis, force against the stroke,
+/// and moment about the span axis, each per width.
 fn over_span(offset: f64, length: f64, strip: impl Fn(f64, f64) -> [f64; 3]) -> [f64; 5] {
     const PARTS: u32 = 2000;
     let mut sums = [0.0; 5];
@@ -201,7 +201,7 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
     }
 }
 
-/// The drag's moment times the stroke rate is the power that the drag takes; the moment about the hinge is that of the
+/// The drag's moment times the stroke rate is the power of the drag. The moment about the hinge is the moment in the
 /// equation of motion (2).
 #[test]
 fn the_load_of_the_bimorph_does_its_work() {
@@ -223,7 +223,7 @@ fn the_load_of_the_bimorph_does_its_work() {
     }
 }
 
-/// The force at the shoulder and the moment there, in axes that do not move.
+/// The force and the moment at the shoulder, in axes that do not move.
 #[test]
 fn loads_turn_with_the_stroke() {
     let load = Load {
@@ -243,7 +243,7 @@ fn loads_turn_with_the_stroke() {
     assert_eq!(rest.at_shoulder(), [-3.0, 0.0, 2.0, 5.0, 11.0, 7.0]);
 }
 
-/// Rows have the mean load behind their measures if they are asked for it, and their other bits stay the same.
+/// With the setting `loads`, rows contain the mean load after their measures, and all other bits stay the same.
 #[test]
 fn rows_have_mean_loads() {
     for name in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
@@ -264,7 +264,7 @@ fn rows_have_mean_loads() {
     }
 }
 
-/// The lift of a wing on a moving body is its upward load, too.
+/// The lift of a wing on a moving body equals the upward component of its load.
 #[test]
 fn the_lift_of_a_moving_wing_is_its_load() {
     let solver = SolverSettings { loads: true, ..SolverSettings::DEFAULT.with_rtol(1e-8) };
@@ -292,7 +292,7 @@ fn the_lift_of_a_moving_wing_is_its_load() {
     }
 }
 
-/// The force on a blade does not depend on the side of the stroke axis on which the blade is.
+/// The force on a blade does not depend on the side of the stroke axis at which the blade is mounted.
 #[test]
 fn a_hardly_moving_wing_across_the_axis_has_the_lift_of_rest() {
     let (model, preset) = preset("ozaki2018-small").unwrap();

@@ -1,4 +1,4 @@
-//! Orbits found by Newton's iteration: their multipliers, and what marching would take hundreds of periods for.
+//! Orbits of Newton shooting: their multipliers, and points for which marching would need hundreds of periods.
 
 use flap_core::model::{bimorph, direct_drive};
 use flap_core::num::Backend;
@@ -44,7 +44,7 @@ fn multipliers_of_rows_equal_the_reference() {
     }
 }
 
-/// Weakly damped points, which need from a hundred to fifteen thousand periods of marching for 1e-6.
+/// Weakly damped points, for which marching needs from 100 to 15,000 periods to reach a tolerance of 1e-6.
 #[test]
 fn slow_points_are_found_in_few_periods() {
     let t1 = |drive_voltage_pp, drive_frequency| {

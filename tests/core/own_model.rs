@@ -96,7 +96,7 @@ impl Model<2> for Oscillator {
         Ok(Start::new(constants, [0.0; 2], drive.period(), [0.1, 0.1 * OMEGA]))
     }
 
-    /// Claims more than is true: a load breaks the symmetry. The search notices that.
+    /// Returns a symmetry that a load breaks. The search must detect the missing symmetry.
     fn symmetry(&self, _c: &Constants<f64>) -> Option<Symmetry<Signals, 2>> {
         let second_half = |first: &Signals<Totals<f64>>| Signals::map(first, |_, totals| totals.negated());
         Some(Symmetry { centre: [0.0; 2], second_half: Some(second_half) })
@@ -137,7 +137,7 @@ fn rows_of_an_oscillator_are_exact() {
     assert_eq!(row.stable(), Some(true));
 }
 
-/// The mean of the spring's torque is zero, and no finer integration makes its relative error smaller.
+/// The mean of the spring's torque is zero, so a finer integration does not reduce its relative error.
 #[test]
 fn a_measure_that_is_zero_by_symmetry_costs_nothing() {
     for rtol in [1e-5, 1e-6, 1e-8] {
@@ -165,7 +165,7 @@ fn a_derived_column_without_a_finite_value_is_empty_and_the_others_stay() {
     assert_eq!(row.period, 1);
 }
 
-/// At rest drag has no linear part: there is no multiplier. A motion however small has one.
+/// At rest the drag has no linear part, so the state has no multiplier. Every small motion has a multiplier.
 #[test]
 fn rest_is_a_state_that_does_not_change() {
     let solver = SolverSettings { settle_tol: 1e-9, ..SolverSettings::DEFAULT }.with_rtol(1e-9);

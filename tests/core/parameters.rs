@@ -4,7 +4,7 @@ use flap_core::parameter::Range::{Any, Between, NonNegative, Positive, Whole};
 use flap_core::parameter::{Invalid, Kind};
 use flap_core::simulate::all;
 
-/// Rows that models share stand where they stood when every model had its own.
+/// Parameters that several models share have fixed positions in the table of each model.
 #[test]
 fn shared_rows_stand_between_those_of_the_model() {
     let shape = [

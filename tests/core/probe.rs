@@ -1,4 +1,4 @@
-//! Signals, loads and modes of a model at one state, as every model has them.
+//! Signals, loads and modes of a model at one state, for all models.
 
 use flap_core::model::{Instant, Load, Model, Motions, SignalsOf};
 

@@ -1,4 +1,4 @@
-//! Progressive tolerances find the orbits on which motions from rest settle at full tolerance.
+//! With progressive tolerances, flap finds the same orbits as motions from rest at full tolerance.
 
 use flap_core::model::bimorph;
 use flap_core::num::Backend;
@@ -6,14 +6,14 @@ use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, by_name};
 
 use crate::{robustness, rows};
 
-/// Designs drawn of each model.
+/// Number of random designs of each model.
 const DRAWN: usize = 2000;
 
-/// Drive periods that designs are marched at most.
+/// Largest number of drive periods of a march.
 const PATIENCE: u32 = 400;
 
-/// Random designs of all models that docs/models/methods.md counts: possible, settled by search and march, by the search alone, and
-/// by marching alone.
+/// The counts of random designs of all models in `docs/models/methods.md`. The counts are possible designs, designs
+/// settled by search and march, by the search alone, and by marching alone.
 const DOCUMENTED: [usize; 4] = [4594, 3420, 929, 0];
 
 fn progressive() -> SolverSettings {
@@ -24,7 +24,7 @@ fn full() -> SolverSettings {
     SolverSettings { progressive: false, ..progressive() }
 }
 
-/// Marching alone, to a residual above the jitter of the period map.
+/// Settings for marching without Newton shooting, with a tolerance above the jitter of the period map.
 fn marching() -> SolverSettings {
     SolverSettings { newton: false, settle_tol: 1e-5, ..full() }
 }
@@ -40,13 +40,14 @@ fn agree(model: &dyn Simulator, one: &Row, other: &Row) -> bool {
 /// Numbers of designs.
 struct Counts {
     possible: usize,
-    /// That settle on the same motion by the search and by marching alone.
+    /// Designs that settle on the same motion by the search and by marching alone.
     by_both: usize,
     by_search_alone: usize,
     by_marching_alone: usize,
 }
 
-/// Compares the rows of `designs` with those at full tolerance and with those of marching alone, and prints the counts.
+/// Compares the rows of `designs` with the rows at full tolerance and with the rows of marching alone, and prints the
+/// counts.
 fn compare(model: &dyn Simulator, what: &str, designs: &[Vec<f64>]) -> Counts {
     let [found, full, marched] =
         [progressive(), full(), marching()].map(|solver| rows::of(model, designs, Backend::best(), &solver));
@@ -97,7 +98,7 @@ fn random_designs_settle_on_the_orbits_of_full_tolerance() {
     }
 }
 
-/// With half of its hinge stiffness the bimorph has two orbits between 124 and 128 Hz.
+/// With half of the hinge stiffness, the bimorph has two orbits between 124 and 128 Hz.
 #[test]
 fn a_bistable_bimorph_settles_on_the_orbits_of_full_tolerance() {
     let base = bimorph::Params::jafferis2016();

@@ -13,8 +13,8 @@ use flap_core::ode::{Ending, Start, Tolerances};
 
 use crate::own_model::{OMEGA, Oscillator, Params, Signals};
 
-/// Steps of a seventh of the period, as these tolerances have them, reach into two quarters. The stroke sin(ωt + φ) has one
-/// largest and one smallest value in a period.
+/// At these tolerances the steps are a seventh of the period, so some steps overlap two quarters. The stroke sin(ωt +
+/// φ) has one largest and one smallest value in a period.
 #[test]
 fn an_extremum_is_in_the_quarter_of_its_own_time() {
     let tolerances = Tolerances { rtol: 1e-2, atol: 1e-3, max_steps: 100 };

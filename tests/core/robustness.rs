@@ -1,4 +1,4 @@
-//! Designs drawn at random about the presets: whatever they do, each has a row that says so.
+//! Random designs around the presets: every design has a row with its status.
 
 use crate::terms::is_left_out;
 use flap_core::num::Backend;
@@ -7,7 +7,7 @@ use flap_core::simulate::{Simulator, SolverSettings, Status, all};
 
 use crate::rows;
 
-/// Designs drawn of each model.
+/// Number of random designs of each model.
 const DRAWN: usize = 2400;
 
 /// A generator of numbers in [0, 1) (SplitMix64).
@@ -23,7 +23,8 @@ impl Random {
     }
 }
 
-/// Every number of the presets times a factor from 0.5 to 1.5, log-uniform; counts stay whole, choices as they are.
+/// Random designs: every number of the presets times a log-uniform factor from 0.5 to 1.5. Counts stay whole numbers,
+/// and choices keep their values.
 pub(crate) fn designs(model: &dyn Simulator, count: usize) -> Vec<Vec<f64>> {
     let mut random = Random(2016);
     let presets = model.presets();

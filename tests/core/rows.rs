@@ -3,7 +3,7 @@
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, Status};
 
-/// Settings for many points: coarse, and with little patience for motions that do not settle.
+/// Settings for many points: large tolerances, and few periods for motions that do not settle.
 pub(crate) const QUICK: SolverSettings = SolverSettings {
     rtol: 1e-5,
     atol: 1e-7,
@@ -17,7 +17,7 @@ pub(crate) const QUICK: SolverSettings = SolverSettings {
     loads: false,
 };
 
-/// Points given in order; rows kept by index.
+/// Points in a given order, with their rows by index.
 struct Listed<'a> {
     points: &'a [Point],
     next: usize,
@@ -53,7 +53,7 @@ pub(crate) fn of(
     of_points(model, &at_rest(points), backend, solver)
 }
 
-/// The rows of `points` on the lanes of `backend`, in their order, which is that of their indices.
+/// The rows of `points` on the lanes of `backend`, in the order of the indices of `points`.
 pub(crate) fn of_points(
     model: &dyn Simulator,
     points: &[Point],
@@ -73,8 +73,8 @@ pub(crate) fn bits(row: &Row) -> (Status, Vec<u64>, u32, u32, u64, &Option<Strin
     (row.status, numbers, row.cycles, row.period, row.rhs_evals, &row.reason)
 }
 
-/// Fails unless rows from the lanes of every backend equal those of the scalar path to the last bit; gives
-/// those of the best backend.
+/// Fails unless rows from the lanes of every backend equal the rows of the scalar path to the last bit. Returns the
+/// rows of the best backend.
 pub(crate) fn assert_lanes_equal_scalars(
     model: &dyn Simulator,
     points: &[Vec<f64>],
@@ -83,7 +83,7 @@ pub(crate) fn assert_lanes_equal_scalars(
     assert_lanes_equal_scalars_at(model, &at_rest(points), solver)
 }
 
-/// [`assert_lanes_equal_scalars`] for points that begin anywhere.
+/// [`assert_lanes_equal_scalars`] for points with any initial state.
 pub(crate) fn assert_lanes_equal_scalars_at(
     model: &dyn Simulator,
     points: &[Point],

@@ -1,4 +1,4 @@
-//! Records of samples, and what they drive.
+//! Records of samples, and motions that records drive.
 
 use std::f64::consts::TAU;
 
@@ -24,7 +24,7 @@ fn record(count: u32, repeat: Repeat, f: impl Fn(f64) -> f64) -> Samples {
     Samples::new(&times, &values, repeat).unwrap()
 }
 
-/// Largest errors of value, rate and second derivative of sin ωt + ½ cos 3ωt, relative to ω's powers.
+/// Largest errors of value, rate and second derivative of sin ωt + ½ cos 3ωt, relative to the powers of ω.
 fn errors(count: u32, repeat: Repeat) -> [f64; 3] {
     let w = TAU / 0.02;
     let samples = record(count, repeat, |t| (w * t).sin() + 0.5 * (3.0 * w * t).cos());
@@ -45,7 +45,7 @@ fn errors(count: u32, repeat: Repeat) -> [f64; 3] {
     worst
 }
 
-/// Twice the samples: errors of value, rate, second derivative fall by 2⁴, 2³, 2².
+/// With twice as many samples, the errors of value, rate and second derivative fall by factors of 2⁴, 2³ and 2².
 #[test]
 fn a_spline_converges_with_its_order() {
     for repeat in [Repeat::Periodic, Repeat::Once] {
@@ -58,7 +58,7 @@ fn a_spline_converges_with_its_order() {
     }
 }
 
-/// Through a cubic, the spline of a record that ends is that cubic.
+/// Through samples of a cubic polynomial, the spline of a record without repetition is the cubic polynomial.
 #[test]
 fn a_cubic_is_reproduced() {
     let samples = record(7, Repeat::Once, |t| 2.0 - 30.0 * t + 4e3 * t * t - 1e5 * t * t * t);
@@ -90,7 +90,7 @@ fn impossible_records_are_refused() {
     assert!(reason(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, 0.5, 0.3], Repeat::Periodic).contains("must be equal"));
 }
 
-/// Few samples: the spline leaves their range, and the smallest and the largest value include this.
+/// With few samples the spline exceeds the range of the samples. The smallest and the largest value include the excess.
 #[test]
 fn the_range_contains_values_between_samples() {
     let times = [0.0, 1.0, 1.1, 4.0, 5.0];

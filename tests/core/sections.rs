@@ -71,7 +71,7 @@ pub(crate) fn components(load: &Load<f64>) -> [f64; 5] {
     [load.lift, load.drag, load.lift_moment, load.drag_moment, load.span_moment]
 }
 
-/// Asserts that two loads differ by a third, relative to the third.
+/// Asserts that two loads differ by the load `expected`. The error is relative to `expected`.
 pub(crate) fn assert_difference(with: &Load<f64>, without: &Load<f64>, expected: &Load<f64>, subject: &str) {
     for ((with, without), expected) in
         components(with).into_iter().zip(components(without)).zip(components(expected))
@@ -150,7 +150,7 @@ fn the_load_of_the_bimorph_is_the_sum_over_sections() {
     }
 }
 
-/// The other models already have added mass.
+/// The models `direct-drive` and `four-bar` already contain added mass.
 #[test]
 fn the_circulation_of_strips_is_the_sum_over_sections() {
     let direct = direct_drive::Params {
@@ -252,7 +252,7 @@ fn the_load_is_in_the_equations_of_motion_of_the_bimorph() {
     }
 }
 
-/// A hinge with half of its stiffness, and a stop of the other half that acts from zero pitch, equals the linear hinge.
+/// A hinge with half of its stiffness and a stop with the other half from zero pitch equals the linear hinge.
 #[test]
 fn stiffening_adds_moments_to_stroke_and_hinge() {
     for (name, stroke, hinge) in [("ozaki2018-large", 1e-2, 2e-5), ("arabagi2013-75hz", 1e-4, 1e-5)] {
@@ -292,7 +292,8 @@ fn stiffening_adds_moments_to_stroke_and_hinge() {
     }
 }
 
-/// A field that softens the plates is a smaller modulus: the mean field of both plates is half of V_pp over the thickness.
+/// A field that softens the plates acts as a smaller modulus. The mean field of both plates is half of V_pp divided by
+/// the thickness.
 #[test]
 fn a_field_softens_the_plates() {
     let (model, _) = preset("jafferis2016").unwrap();
@@ -321,7 +322,7 @@ fn a_field_softens_the_plates() {
     assert!(bimorph::Constants::derive(&none).unwrap_err().to_string().contains("no stiffness"));
 }
 
-/// All terms together: the energy is balanced, on lanes and on scalars.
+/// With all terms together the energy is balanced, on lanes and on scalars.
 #[test]
 fn energy_is_balanced_with_all_terms() {
     for name in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {

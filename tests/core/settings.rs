@@ -14,7 +14,7 @@ const NAMES: [&str; 9] = [
     "symmetry",
 ];
 
-/// Settings of which none is the default, and none follows another.
+/// Settings that all differ from their defaults and do not follow from each other.
 const OTHERS: SolverSettings = SolverSettings {
     rtol: 1e-4,
     atol: 2e-5,

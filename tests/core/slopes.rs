@@ -1,4 +1,4 @@
-//! Right-hand sides of models at the states of a reference table: in every lane as on scalars.
+//! Right-hand sides of models at the states of a reference table: every lane has the same results as scalars.
 
 use flap_core::drive::Wave;
 use flap_core::num::{Arithmetic, Backend, Kernel, Lanes, PerLane, Real, Scalar, Simd, Unfused, Vector};
@@ -32,7 +32,7 @@ impl<M: Driven<W>, const W: usize> Case<M, W> {
     }
 }
 
-/// Derivatives of all cases, a different one in every lane.
+/// Derivatives of all cases, with a different case in every lane.
 struct OnLanes<'a, M: Driven<W>, const W: usize>(&'a [Case<M, W>]);
 
 impl<M: Driven<W>, const W: usize> Kernel for OnLanes<'_, M, W> {
@@ -63,7 +63,7 @@ impl<M: Driven<W>, const W: usize> Kernel for OnLanes<'_, M, W> {
     }
 }
 
-/// Fails unless the derivatives from the lanes of every backend equal those of scalars to the last bit.
+/// Fails unless the derivatives from the lanes of every backend equal the derivatives of scalars to the last bit.
 pub(crate) fn assert_lanes_equal_scalars<M: Driven<W>, const W: usize>(cases: &[Case<M, W>]) {
     for backend in Backend::available() {
         assert!(backend.lanes() >= 4, "{backend} has {} lanes", backend.lanes());
@@ -79,7 +79,8 @@ pub(crate) fn assert_lanes_equal_scalars<M: Driven<W>, const W: usize>(cases: &[
     }
 }
 
-/// Fails unless derivatives of both arithmetic classes agree to rounding, relative to what is at least `floor`.
+/// Fails unless derivatives of both arithmetic classes agree to rounding, relative to the derivative or to `floor`, if
+/// `floor` is larger.
 pub(crate) fn assert_classes_agree<M: Driven<W>, const W: usize>(cases: &[Case<M, W>], floor: f64) {
     for case in cases {
         let (fused, unfused) = (case.slope::<f64>(), case.slope::<Unfused>());

@@ -7,14 +7,14 @@ use flap_core::ode::{Ending, Ode, Outcome, Start, Tolerances};
 
 use crate::data::assert_close;
 
-/// Tolerances with which a span may take 100,000 steps.
+/// Tolerances that allow 100,000 steps in a span.
 pub(crate) fn tolerances(rtol: f64) -> Tolerances {
     Tolerances { rtol, atol: 1e-2 * rtol, max_steps: 100_000 }
 }
 
 /// The first span of a run.
 pub(crate) struct Span<const N: usize> {
-    /// The state at its end; that at its beginning if the run has failed.
+    /// The state at the end of the span; the state at its beginning if the run has failed.
     pub(crate) end: [f64; N],
     pub(crate) outcome: Outcome,
     /// Steps accepted.
@@ -53,8 +53,8 @@ pub(crate) fn end<O: Ode<N>, const N: usize>(
     end
 }
 
-/// Fails unless `energy` at the end of a span is that at its beginning, within `bound` relative to it, and the state
-/// is not.
+/// Fails unless `energy` has the same value at both ends of a span, within the relative tolerance `bound`. Also fails
+/// if the state does not change.
 pub(crate) fn assert_conserved<O: Ode<N>, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,

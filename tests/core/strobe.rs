@@ -4,7 +4,7 @@ use flap_core::measure::strobe::Strobe;
 
 const TOLERANCE: f64 = 1e-6;
 
-/// Feeds states to a strobe until it settles; the orbit's length and the number of periods it took.
+/// Passes states to a strobe until the motion settles; returns the orbit's length and the number of periods.
 fn settle(mut state: impl FnMut(u32) -> f64) -> Option<(u32, u32)> {
     let mut strobe = Strobe::new(&[state(0)], &[1.0], TOLERANCE);
     (1..200).find_map(|n| strobe.period_end(&[state(n)]).map(|period| (period, n)))
@@ -16,7 +16,7 @@ fn a_decaying_transient_settles_when_it_changes_less_than_the_tolerance() {
     assert_eq!(settle(|n| 1.0 + 0.5_f64.powi(n as i32)), Some((1, 21)));
 }
 
-/// A small motion is judged by its change relative to itself.
+/// The tolerance for a small motion is relative to the size of the motion.
 #[test]
 fn a_small_motion_takes_as_long_to_settle_as_a_large_one() {
     let settled = settle(|n| 1e-6 * (1.0 + 0.5_f64.powi(n as i32)));
@@ -43,7 +43,7 @@ fn nine_periods_and_quasi_periodic_motion_are_not_settled() {
     assert_eq!(settle(|n| f64::from(n).sin()), None);
 }
 
-/// A multiplier near −1: every second state almost repeats long before the motion has settled.
+/// With a multiplier near −1, every second state almost repeats long before the motion has settled.
 #[test]
 fn a_slow_alternation_is_not_taken_for_a_subharmonic() {
     let settled = settle(|n| 1.0 + 5e-3 * (-0.9999_f64).powi(n as i32));

@@ -1,4 +1,4 @@
-//! Landings on a switching surface: accuracy, motions that touch it, two crossings within one step.
+//! Crossings of a switching surface: accuracy, motions that touch the surface, and two crossings within one step.
 
 use std::ops::ControlFlow;
 
@@ -6,10 +6,11 @@ use flap_core::num::Real;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ending, Ode, Outcome, Start, Tolerances};
 
-/// x = cos t, and a clock that runs where x is below a threshold: where the switching function is negative.
+/// x = cos t, with a clock that runs while x is below a threshold, so that the switching function is negative.
 struct Clocked {
     threshold: f64,
-    /// The switching function is 1 − e^(−k (x − threshold)) with this k, or x − threshold itself.
+    /// The factor k of the switching function 1 − e^(−k (x − threshold)); without k, the switching function is x −
+    /// threshold.
     bend: Option<f64>,
 }
 
@@ -37,14 +38,14 @@ impl Ode<3> for Clocked {
     }
 }
 
-/// A landing: its time (s), and the size of the largest step (s).
+/// A crossing of the switching surface: its time (s), and the size of the largest step (s).
 #[derive(Clone, Copy, Debug)]
 struct Landing {
     t: f64,
     step: f64,
 }
 
-/// Time on the clock, landings and outcome of so many turns from x = 1.
+/// Time on the clock, crossings and outcome after `turns` turns from x = 1.
 fn turns(ode: &Clocked, rtol: f64, turns: f64) -> (f64, Vec<Landing>, Outcome) {
     let tolerances = Tolerances { rtol, atol: rtol, max_steps: 10_000 };
     let start = Start::new((), [1.0, 0.0, 0.0], turns * std::f64::consts::TAU, [1.0; 3]);
@@ -81,7 +82,8 @@ fn crossings(threshold: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| turn(i) + if i % 2 == 0 { first } else { std::f64::consts::TAU - first }).collect()
 }
 
-/// Within a thousandth of a step, also where the cubic through the ends of the step is far from the function.
+/// Crossings are located within a thousandth of a step, even if the cubic interpolation of the step is far from the
+/// function.
 #[test]
 fn crossings_are_located_within_a_thousandth_of_a_step() {
     for (bend, rtol) in
@@ -107,7 +109,7 @@ fn crossings_are_located_within_a_thousandth_of_a_step() {
     }
 }
 
-/// Below the threshold for 0.2 s in each turn, in steps of 0.27 s.
+/// In each turn, x is below the threshold for 0.2 s, in steps of 0.27 s.
 #[test]
 fn two_crossings_within_a_step_are_found() {
     let threshold = -0.995;
@@ -123,7 +125,7 @@ fn two_crossings_within_a_step_are_found() {
     assert!((clock / exact - 1.0).abs() < 0.02, "{clock} s, not {exact} s");
 }
 
-/// A motion that comes near, or touches: the surface costs next to nothing.
+/// A motion that comes near the switching surface or touches it needs almost no additional work.
 #[test]
 fn motions_that_touch_the_surface_go_on() {
     let attempts = |threshold: f64, rtol: f64| {

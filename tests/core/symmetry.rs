@@ -7,14 +7,14 @@ use flap_core::simulate::{Row, Simulator, SolverSettings, Status, preset};
 use crate::robustness;
 use crate::rows;
 
-/// Designs drawn of each model.
+/// Number of random designs of each model.
 const DRAWN: usize = 1000;
 
 fn solver(symmetry: bool) -> SolverSettings {
     SolverSettings { symmetry, loads: true, max_cycles: 200, ..SolverSettings::default() }
 }
 
-/// Rows with half periods, and with whole ones.
+/// Rows with half periods, and rows with whole periods.
 fn both(model: &dyn Simulator, designs: &[Vec<f64>], rtol: f64) -> [Vec<Row>; 2] {
     [true, false].map(|symmetry| {
         let solver = SolverSettings { settle_tol: rtol, ..solver(symmetry).with_rtol(rtol) };
@@ -32,7 +32,8 @@ fn changed(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<
     (model, values)
 }
 
-/// The size of each measure of a row: the largest magnitude among the measures that have its unit. The loads come after the columns.
+/// The size of each measure of a row: the largest magnitude among the measures with the same unit. In a row, the loads
+/// follow the columns.
 fn sizes(model: &dyn Simulator, row: &Row) -> Vec<f64> {
     let columns = model.columns();
     let loads = columns.len();
@@ -121,8 +122,8 @@ fn other_points_have_the_same_rows() {
     }
 }
 
-/// Random designs, many of them with strokes and pitches far beyond those of robots, and bimorphs with soft hinges, near orbits
-/// that have lost their symmetry.
+/// Random designs, many with much larger strokes and pitches than robots. The designs include bimorphs with soft hinges
+/// near orbits without symmetry.
 #[test]
 fn random_designs_settle_on_the_orbits_of_whole_periods() {
     for name in ["jafferis2016", "ozaki2018-small"] {

@@ -12,8 +12,9 @@ use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, pres
 
 use crate::data::assert_close;
 
-/// True if a parameter with this value in a preset is one of these terms, or belongs to a table of chords, which no preset
-/// has, or to the motion of the body. Random designs leave them out, because they describe the models of the papers.
+/// True if a parameter with this value in a preset belongs to a term of [`TERMS`] that is absent. Also true for
+/// parameters of a table of chords, which no preset has, and for parameters of the body motion. Random designs leave
+/// out these parameters, because random designs describe the models of the papers.
 pub(crate) fn is_left_out(parameter: &Parameter, value: f64) -> bool {
     let is_absent =
         value == 0.0 || value.is_nan() || ["plate_ratio", "hinge_stop_angle"].contains(&parameter.name);
@@ -120,7 +121,7 @@ fn assert_loss_factor(size: impl Fn(f64) -> f64, mode: f64, loss_factor: f64, su
     assert_close(band / peak, loss_factor, 0.05, subject);
 }
 
-/// A linear wing in vacuum: the half-power bandwidth over the natural frequency is the loss factor.
+/// In vacuum, the half-power bandwidth of a linear wing divided by its natural frequency is the loss factor.
 #[test]
 fn the_half_power_band_of_a_stroke_in_vacuum_is_its_loss_factor() {
     // Small strokes of springs without strain dependence, and hinges too stiff to matter.
@@ -156,7 +157,7 @@ fn the_half_power_band_of_a_stroke_in_vacuum_is_its_loss_factor() {
     }
 }
 
-/// A hinge in vacuum that a small stroke shakes.
+/// In vacuum, a small stroke shakes the hinge.
 #[test]
 fn the_half_power_band_of_a_hinge_in_vacuum_is_its_loss_factor() {
     for name in PRESETS {
@@ -187,7 +188,7 @@ fn the_half_power_band_of_a_hinge_in_vacuum_is_its_loss_factor() {
     }
 }
 
-/// Natural frequency (Hz) of the hinge under a stroke that is held, in vacuum.
+/// Natural frequency (Hz) of the hinge in vacuum while the stroke is fixed.
 fn hinge_mode(design: &Design) -> f64 {
     let inertia = match design.model.name() {
         "bimorph" => design.value("wing_inertia_hinge"),
@@ -203,7 +204,7 @@ fn hinge_mode(design: &Design) -> f64 {
     (design.value("hinge_stiffness") / inertia).sqrt() / (2.0 * PI)
 }
 
-/// All losses at once are in the mean power, and the quadrature of current times voltage agrees.
+/// The mean power contains all losses, and agrees with the quadrature of current times voltage.
 #[test]
 fn losses_are_in_the_balance_of_energy() {
     for (name, stroke_damping) in PRESETS.into_iter().zip([1e-9, 5e-8, 5e-7]) {
@@ -236,7 +237,7 @@ fn losses_are_in_the_balance_of_energy() {
     }
 }
 
-/// Structural damping takes k γ/ω ⟨q̇²⟩; a prescribed sine has ⟨q̇²⟩ = ½ω²A².
+/// Structural damping takes the power k γ/ω ⟨q̇²⟩; a prescribed sine has ⟨q̇²⟩ = ½ω²A².
 #[test]
 fn a_loss_factor_takes_its_power() {
     let amplitude = 0.4;
@@ -256,7 +257,7 @@ fn a_loss_factor_takes_its_power() {
     assert_close(power * 1e-3, damping * 0.5 * (omega * amplitude).powi(2), 1e-6, "power");
 }
 
-/// A sine takes ½ω C tan δ V² from each capacitance; harmonics add the squares of their amplitudes.
+/// A sine takes the power ½ω C tan δ V² from each capacitance; for harmonics the squares of the amplitudes add up.
 #[test]
 fn dielectric_loss_takes_its_power() {
     for name in PRESETS {
@@ -273,7 +274,7 @@ fn dielectric_loss_takes_its_power() {
     }
 }
 
-/// Recovery 0 is the mean of the positive part, recovery 1 the mean power.
+/// With charge recovery 0 the power is the mean of the positive part, and with charge recovery 1 the mean power.
 #[test]
 fn recovery_goes_from_the_positive_part_to_the_mean() {
     for name in PRESETS {
@@ -294,7 +295,7 @@ fn recovery_goes_from_the_positive_part_to_the_mean() {
     }
 }
 
-/// Bias between the plates moves the mean stroke, as static tests of such actuators show: ±20 V by some degrees.
+/// Bias between the plates moves the mean stroke, as in static tests of bimorph actuators: ±20 V by some degrees.
 #[test]
 fn bias_between_the_plates_moves_the_mean_stroke() {
     let mean = |offset| {
@@ -308,7 +309,7 @@ fn bias_between_the_plates_moves_the_mean_stroke() {
     assert!(weak > 0.5, "plate 1 pulls more: {weak}");
 }
 
-/// The equations of a transmission whose ratio grows have the paper's as their limit.
+/// As the growth of the transmission ratio tends to zero, the equations tend to the equations of the paper.
 #[test]
 fn a_constant_transmission_is_the_limit() {
     let c = Constants::derive(&Params::jafferis2016()).unwrap();
@@ -339,7 +340,7 @@ fn with_growth(transmission_growth: f64) -> Params {
     Params { transmission_growth, ..Params::jafferis2016() }
 }
 
-/// φ = T x + T₃ x³/3, for strokes and for the displacement that strains the plates; robobee3d's numbers.
+/// φ = T x + T₃ x³/3, for strokes and for the displacement that strains the plates. The numbers are from robobee3d.
 #[test]
 fn stroke_and_tip_follow_the_transmission() {
     let (ratio, growth) = (1.8e3, 4.4e9);
@@ -356,7 +357,7 @@ fn stroke_and_tip_follow_the_transmission() {
     assert!((stroke - linear).abs() > 0.02 * linear, "{stroke} against {linear}");
 }
 
-/// ε = t ψ_max / (2 l), and empty without a size.
+/// The hinge strain is ε = t ψ_max / (2 l), and is empty if the size of the hinge is missing.
 #[test]
 fn hinge_strain_is_that_of_an_arc() {
     for name in PRESETS {

@@ -14,7 +14,7 @@ fn mounts(wings: &[(&str, bool)]) -> Vec<Mount> {
     wings.iter().map(|(name, mirrored)| Mount { name: (*name).to_owned(), mirrored: *mirrored }).collect()
 }
 
-/// A vehicle with wings like those of a preset.
+/// A vehicle whose wings have the parameters of a preset.
 struct Flier {
     vehicle: Arc<Vehicle>,
     values: Vec<f64>,
@@ -134,7 +134,7 @@ fn swapped_wings_turn_roll_yaw_and_side_force_about() {
     }
 }
 
-/// A vehicle that is turned as a whole has its wrench turned.
+/// The wrench of a turned vehicle is the turned wrench of the vehicle.
 #[test]
 fn a_turned_vehicle_has_its_wrench_turned() {
     let wings = [("one", false), ("two", false)];
@@ -153,7 +153,7 @@ fn a_turned_vehicle_has_its_wrench_turned() {
     assert_near(turned, expected, 1e-12, "yaw");
 }
 
-/// The torque about another point is that of the force there.
+/// The torque about another point follows from the force and the torque about the first point.
 #[test]
 fn torques_are_taken_about_a_point() {
     let [force, torque] = Flier::pair("jafferis2016").with(&[("left_drive_voltage_pp", 180.0)]).wrench();
@@ -167,7 +167,7 @@ fn torques_are_taken_about_a_point() {
     assert_near(moved, [force, expected], 1e-12, "about");
 }
 
-/// Rows of lanes are those of scalars, whatever the order of the wings' points.
+/// Rows of lanes equal rows of scalars, for any order of the wings' points.
 #[test]
 fn lanes_and_scalars_have_the_same_bits() {
     let flier = Flier::pair("ozaki2018-large").with(&[("left_drive_voltage_pp", 90.0)]);
@@ -189,7 +189,7 @@ fn lanes_and_scalars_have_the_same_bits() {
     }
 }
 
-/// Derivatives of forces and torques by drives of one wing, by differences, and by places.
+/// Derivatives of forces and torques with respect to drives of one wing, to differences, and to positions.
 #[test]
 fn derivatives_are_those_of_differences() {
     let solver = SolverSettings::DEFAULT.with_rtol(1e-9);
@@ -268,7 +268,8 @@ fn impossible_vehicles_are_told() {
     assert_eq!(error(&seventeen), Some(VehicleError::ManyWings(17)));
 }
 
-/// Names of wings that begin like others, or like parameters, lead to names of parameters and columns of their own.
+/// If the name of a wing begins like another wing or like a parameter, the names of its parameters and columns are
+/// still unique.
 #[test]
 fn parameters_and_columns_have_names_of_their_own() {
     for wings in [[("a", false), ("a_drive", true)], [("about", false), ("wing", true)]] {
@@ -284,8 +285,8 @@ fn parameters_and_columns_have_names_of_their_own() {
     }
 }
 
-/// Each column of the wings is a sum, a column of each wing, or left out, as the model says. Mean powers are sums; currents and
-/// motions are those of each wing.
+/// For each column of a wing, the model determines whether the vehicle has a sum, a column of each wing, or no column.
+/// Mean powers are sums, and each wing has its own currents and motions.
 #[test]
 fn columns_of_wings_are_combined_as_the_model_says() {
     for (name, _) in PRESETS {
@@ -326,7 +327,7 @@ fn columns_of_wings_are_combined_as_the_model_says() {
     }
 }
 
-/// Layouts differ in the names of their wings alone, and each vehicle has its own.
+/// Vehicles with other names of wings have the same parameters, except for the names of the wings.
 #[test]
 fn vehicles_own_their_names() {
     let names = |wing: &str| {
@@ -345,7 +346,7 @@ fn vehicles_own_their_names() {
     }
 }
 
-/// A wing that is impossible makes the row invalid, with its name.
+/// If a wing is impossible, the row is invalid and its reason contains the name of the wing.
 #[test]
 fn an_impossible_wing_is_named() {
     let row = Flier::pair("jafferis2016").with(&[("difference_drive_voltage_pp", 1000.0)]).row();

@@ -87,7 +87,7 @@ fn a_square_wave_is_flat_between_its_edges_and_odd() {
     }
 }
 
-/// Current and power jump with the edges of a square wave: steps end there, or the audit would not close.
+/// Current and power jump at the edges of a square wave. Steps end at the edges, so that the energy audit is small.
 #[test]
 fn power_balances_for_every_shape() {
     let model = by_name("direct-drive").unwrap();
@@ -131,7 +131,7 @@ fn harmonics_count_in_field_and_capacitive_power() {
     assert!((measure(&p, "power_capacitive_mw") / sine - 1.125_f64.powi(2)).abs() < 1e-5);
 }
 
-/// A square wave's first harmonic is larger than that of a sine of the same amplitude, so the wing strokes wider.
+/// A square wave has a larger first harmonic than a sine with the same amplitude, so the stroke is larger.
 #[test]
 fn the_shape_of_the_drive_reaches_the_wing() {
     let model = by_name("direct-drive").unwrap();
@@ -192,7 +192,7 @@ fn a_chirp_is_a_chain_of_cycles() {
     assert!(motion.windows(2).all(|pair| pair[0][0] < pair[1][0]));
 }
 
-/// Slowly swept, the stroke peaks where the steady response does: at 196 Hz for 30 V.
+/// In a slow chirp, the stroke is largest at the resonance of the steady response: at 196 Hz for 30 V.
 #[test]
 fn a_slow_chirp_finds_the_resonance() {
     let response = chirp(170.0, 230.0, 15.0).unwrap();

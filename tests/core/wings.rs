@@ -1,4 +1,4 @@
-//! Wings of one's own: tables of chords.
+//! Wings with the user's own tables of chords.
 
 use flap_core::aero::ChordTable;
 use flap_core::num::Backend;
@@ -40,7 +40,7 @@ fn assert_same(one: &[(String, f64)], other: &[(String, f64)], tolerance: f64) {
     }
 }
 
-/// A straight chord is the same as a table, as a polynomial, and as Legendre polynomials.
+/// A straight chord has the same measures as a table, as a polynomial, and as Legendre polynomials.
 #[test]
 fn a_straight_chord_is_the_same_in_a_table() {
     let tapered = [("chord_term_0", 1.2), ("chord_term_1", -0.5), ("chord_term_4", 0.0)];

@@ -7,7 +7,8 @@ use flap_experiments::damped_sine::{DampedSine, fit};
 
 use crate::data::{Record, assert_close, table};
 
-/// The parameters of a reference row: the table's, or those with the hinge stiffnesses of both types swapped.
+/// The parameters of a reference row: the preset's parameters, or the parameters with the hinge stiffnesses of both
+/// types swapped.
 fn type_of(record: &Record) -> Params {
     let p = match record.text("type") {
         "small" => Params::ozaki2018_small(),
@@ -41,7 +42,8 @@ fn released(record: &Record) -> (Vec<Vec<f64>>, DampedSine) {
     (motion.rows, fit.unwrap_or_else(|| panic!("no fit for {}", record.name)))
 }
 
-/// All rows, well fitted or not: two modes and a decay that changes leave up to a quarter over.
+/// Compares all rows, including poor fits. In poor fits, two modes and a changing decay leave a residual of up to a
+/// quarter.
 #[test]
 fn damped_sines_equal_the_reference() {
     let mut largest = [0.0_f64; 3];

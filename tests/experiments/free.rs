@@ -51,8 +51,8 @@ fn free(name: &str, degrees: f64, spectrum_window: f64) -> FreeMotion {
     examine(model.experiments().unwrap(), &run, &request).unwrap()
 }
 
-/// Arabagi et al., Fig. 12: 78 and 129 Hz. The reference, with bins of 0.125 Hz: 77.75 and 129.62 Hz in the stroke,
-/// 78.25 and 128.25 Hz in the pitch, with a stroke of at most 1.3 deg peak to peak.
+/// Arabagi et al., Fig. 12: 78 and 129 Hz. The reference has bins of 0.125 Hz, and finds 77.75 and 129.62 Hz in the
+/// stroke. In the pitch, the reference finds 78.25 and 128.25 Hz, with a stroke of at most 1.3 deg peak to peak.
 #[test]
 fn the_spectrum_of_the_four_bar_after_an_impulse() {
     let FreeMotion { spectra, .. } = free("arabagi2013-75hz", 0.5, 1.0);

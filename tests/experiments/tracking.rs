@@ -2,7 +2,7 @@
 
 use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
 
-/// A wing that turns about `centre`, its root 5 mm and its tip 22 mm away.
+/// A wing that rotates about `centre`, with its root 5 mm and its tip 22 mm away from `centre`.
 fn edge(centre: [f64; 2], stroke: f64) -> LeadingEdge {
     let at = |radius: f64| [centre[0] + radius * stroke.cos(), centre[1] + radius * stroke.sin()];
     LeadingEdge { root: at(5.0), tip: at(22.0) }
@@ -19,7 +19,7 @@ fn a_wing_that_turns_about_a_point_has_its_centre_there() {
     }
 }
 
-/// It is the least squares' minimum: any other point is farther from the lines.
+/// The centre minimises the sum of squares: any other point is farther from the lines.
 #[test]
 fn the_centre_is_nearest_to_all_lines() {
     let edges: Vec<_> =

@@ -1,5 +1,5 @@
-//! Hostile input: every target on its corpus, and on thousands of changes of that. `fuzz` has the same targets for a fuzzer
-//! that looks for new paths by itself.
+//! Hostile input: every target runs on its corpus, and on thousands of changed inputs. The folder `fuzz` has the same
+//! targets for a fuzzer, which searches for new paths automatically.
 
 mod mutate;
 mod targets;
@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use mutate::Mutator;
 use targets::TARGETS;
 
-/// Changed inputs per target.
+/// Number of changed inputs per target.
 const CHANGES: usize = 8000;
 
-/// The inputs of a target's corpus; grid files have the examples too.
+/// The inputs of a target's corpus; the corpus of grid files also contains the examples.
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let listed = |folder: PathBuf| {
@@ -45,7 +45,7 @@ fn no_input_is_too_odd() {
     }
 }
 
-/// Seeds are what they are meant to be, or changing them would not get far.
+/// Every input of the corpus must be valid. Changes of invalid inputs would test little.
 #[test]
 fn seeds_are_good() {
     for input in corpus("grid") {

@@ -1,6 +1,6 @@
-//! Changes of inputs, the same in every run.
+//! Changes of inputs, which are the same in every run.
 
-/// Pieces that the languages under test give a meaning to.
+/// Pieces of text with a meaning in the languages under test.
 const PIECES: [&str; 40] = [
     "\n",
     "\"",
@@ -44,7 +44,7 @@ const PIECES: [&str; 40] = [
     "µN·m/rad",
 ];
 
-/// Makes changed inputs of a corpus.
+/// Makes inputs by changing inputs of a corpus.
 pub(crate) struct Mutator<'a> {
     corpus: &'a [Vec<u8>],
     state: u64,
@@ -63,7 +63,7 @@ impl<'a> Mutator<'a> {
         usize::try_from(self.state >> 33).unwrap_or(0) % limit.max(1)
     }
 
-    /// Another input, a few changes away from one of the corpus.
+    /// Returns an input of the corpus with a few changes.
     pub(crate) fn next(&mut self) -> Vec<u8> {
         let mut input = self.corpus[self.below(self.corpus.len())].clone();
         for _ in 0..=self.below(4) {

@@ -1,4 +1,4 @@
-//! Properties that hold for any input: the bodies of the fuzz targets in `fuzz`, run by an ordinary test too.
+//! Properties that hold for any input: the bodies of the fuzz targets in `fuzz`, which an ordinary test runs too.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use flap_sweep::notation::expression::{Expression, Meaning, Scope};
 use flap_sweep::notation::units;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// A target by its name, which is that of its corpus.
+/// The name of a target, which is also the name of its corpus, and its function.
 pub(crate) type Target = (&'static str, fn(&[u8]));
 
 /// All targets.
@@ -26,7 +26,7 @@ pub(crate) const TARGETS: [Target; 7] = [
     ("sidecar", sidecar),
 ];
 
-/// Any text is a plan, whose first and last point can be computed, or a list of mistakes that can be shown.
+/// For any text, the parser returns a plan whose points can be computed, or a list of mistakes with valid places.
 pub(crate) fn grid(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     match grid::parse("grid.toml", text, all()) {
@@ -48,7 +48,7 @@ pub(crate) fn grid(bytes: &[u8]) {
     }
 }
 
-/// Any text is a quantity, or an error with a message.
+/// For any text, the parser returns a quantity, or an error with a message.
 pub(crate) fn units(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     for unit in ["", "m", "Hz", "N*m/rad", "kg*m^2"] {
@@ -80,7 +80,8 @@ impl Scope for Names {
     }
 }
 
-/// Any text is an expression with a value, the same each time, or a list of mistakes within it.
+/// For any text, the parser returns an expression that always has the same value, or a list of mistakes within the
+/// text.
 pub(crate) fn expression(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     match Expression::parse(text, &Names) {
@@ -99,7 +100,7 @@ pub(crate) fn expression(bytes: &[u8]) {
     }
 }
 
-/// Any text is an outline of finite size and area, or an error with a message.
+/// For any text, the parser returns an outline of finite size and area, or an error with a message.
 pub(crate) fn outline(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     match outline::parse(Path::new("wing.csv"), text) {
@@ -108,7 +109,7 @@ pub(crate) fn outline(bytes: &[u8]) {
     }
 }
 
-/// Any text is a record whose quantities have limited size, or an error with a message.
+/// For any text, the parser returns a record whose quantities have limited size, or an error with a message.
 pub(crate) fn record(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     let record = match Record::parse("motion.csv".to_owned(), text) {
@@ -129,7 +130,8 @@ pub(crate) fn record(bytes: &[u8]) {
     let _ = record.points("tip");
 }
 
-/// Any bytes are a journal as far as their lines are whole. Lines are given their checksums, or few would be.
+/// The parser of journals reads any bytes up to the first line that is not whole. The target adds a checksum to each
+/// line, because few random lines have a valid checksum.
 pub(crate) fn journal(bytes: &[u8]) {
     let _ = journal::parse(bytes);
     let line =
@@ -145,8 +147,8 @@ pub(crate) fn journal(bytes: &[u8]) {
     }
 }
 
-/// Any bytes are a sidecar that can be written again, or an error. Its plan has only points of its grid. They are given their
-/// checksum, or few would be.
+/// For any bytes, the parser returns a sidecar that can be written again, or an error. The plan of the sidecar has only
+/// points of its grid. The target adds the checksum, because random bytes have no valid checksum.
 pub(crate) fn sidecar(bytes: &[u8]) {
     let _ = Sidecar::parse(Path::new("rows.csv.meta.toml"), bytes);
     let Ok(sidecar) = Sidecar::parse(Path::new("rows.csv.meta.toml"), &with_checksum(bytes)) else { return };
@@ -160,7 +162,7 @@ pub(crate) fn sidecar(bytes: &[u8]) {
     }
 }
 
-/// The contents of a sidecar behind the line with their checksum.
+/// The contents of a sidecar after a line with their checksum.
 pub(crate) fn with_checksum(contents: &[u8]) -> Vec<u8> {
     [format!("checksum = \"{:016x}\"\n", xxh3_64(contents)).as_bytes(), contents].concat()
 }

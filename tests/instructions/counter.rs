@@ -1,9 +1,10 @@
 //! Counts the instructions that a piece of work executes, by single steps.
 //!
-//! The program starts itself again with the work's name in its environment. That child asks to be traced and
-//! stops at the beginning and at the end of the work; its parent lets it go from the one stop to the other
-//! instruction by instruction. This needs no hardware counters, counts the instructions of every backend, and gives the
-//! same number every time (but for a handful in the allocator), however busy the machine is.
+//! The program starts itself again as a child process, with the name of the work in its environment. The child is
+//! traced and stops at the beginning and at the end of the work. Between the two stops, the parent lets the child
+//! execute one instruction at a time. This method needs no hardware counters, and counts the instructions of every
+//! backend. The number is the same in every run, except for a few instructions of the allocator, even on a busy
+//! machine.
 
 use std::io;
 use std::process::{Child, Command, Stdio};
@@ -17,8 +18,8 @@ use nix::unistd::Pid;
 /// The environment variable that names the work to a child.
 const WORK: &str = "FLAP_COUNTED_WORK";
 
-/// A repeated string instruction counts once per repetition. These settings keep glibc from copying with
-/// them, which it would do a byte at a time.
+/// A repeated string instruction counts once per repetition. With these settings, glibc does not use string
+/// instructions for copying, which would copy a byte at a time.
 const NO_STRING_INSTRUCTIONS: (&str, &str) = (
     "GLIBC_TUNABLES",
     "glibc.cpu.x86_rep_movsb_threshold=0x7fffffff:glibc.cpu.x86_rep_stosb_threshold=0x7fffffff",
@@ -26,13 +27,13 @@ const NO_STRING_INSTRUCTIONS: (&str, &str) = (
 
 const THIS_THREAD: Pid = Pid::from_raw(0);
 
-/// The name of the work that this process has been started for, if it is a child.
+/// The name of the work for which this process was started; `None` if the process is not a child.
 pub(crate) fn work_of_child() -> Option<String> {
     std::env::var(WORK).ok()
 }
 
-/// In the child, on its main thread: does `work`, which calls its argument where the count begins and where it
-/// ends.
+/// Runs `work` in the child, on its main thread. `work` calls its argument at the beginning and at the end of the
+/// count.
 pub(crate) fn be_counted(work: impl FnOnce(&mut dyn FnMut())) -> nix::Result<()> {
     ptrace::traceme()?;
     let mut stopped = Ok(());
@@ -40,7 +41,7 @@ pub(crate) fn be_counted(work: impl FnOnce(&mut dyn FnMut())) -> nix::Result<()>
     stopped
 }
 
-/// In the parent: the number of instructions that a child executes in `work`. `each` is called before each of them.
+/// In the parent: the number of instructions that a child executes in `work`. `each` is called before each instruction.
 pub(crate) fn count(work: &str, each: &mut dyn FnMut(Pid) -> io::Result<()>) -> io::Result<u64> {
     // On one processor, switching between child and parent is several times faster.
     let affinity = sched_getaffinity(THIS_THREAD)?;
@@ -69,7 +70,7 @@ fn start(work: &str) -> io::Result<Child> {
         .spawn()
 }
 
-/// Steps through a child from its first stop to its second.
+/// Executes a child step by step from the first stop of the child to its second stop.
 fn follow(child: &Child, each: &mut dyn FnMut(Pid) -> io::Result<()>) -> io::Result<u64> {
     let pid = Pid::from_raw(child.id().cast_signed());
     match waitpid(pid, None)? {

@@ -1,4 +1,4 @@
-//! The limits on instructions.
+//! The limits on numbers of instructions.
 
 use flap_core::num::Backend;
 use flap_core::simulate;
@@ -6,18 +6,18 @@ use flap_core::simulate;
 use crate::counter::count;
 use crate::workload::{PRESETS, Task, Work};
 
-/// A vector is two registers, so that lanes take at best 2/LANES of the scalars' instructions. They come within
-/// a quarter of that; the rest is mostly values that do not fit into the registers. One function that is not
-/// inlined costs several times that much with AVX2 and AVX-512.
+/// A vector occupies two registers, so that lanes take at best 2/LANES of the instructions of scalars. flap needs up to
+/// a quarter more instructions, mostly for values that do not fit into the registers. With AVX2 and AVX-512, one
+/// function that is not inlined costs several times this quarter.
 const ALLOWANCE: f64 = 1.5;
 
-/// Measuring evaluates the signals at nine states per step besides marching: four to five times the
-/// instructions. A period with responses takes five right-hand sides for each one of marching, and a little more for
-/// combining twenty states instead of four. Both together, per right-hand side, most with the four-bar, whose signals
-/// are many:
+/// Besides marching, a measurement evaluates the signals at nine states per step, which takes four to five times as
+/// many instructions. A period with responses takes five right-hand sides for each right-hand side of marching.
+/// Combining twenty states instead of four takes a few more instructions. The limit is for both together, per
+/// right-hand side; the four-bar model has the most signals and the largest number:
 const MEASURING: f64 = 3.0;
 
-/// Counts and compares. Says what is wrong if something is.
+/// Counts the instructions and compares the numbers with the limits. Returns an error with the failed limits.
 pub(crate) fn judge() -> Result<(), String> {
     for model in simulate::all() {
         if !model.presets().iter().any(|preset| PRESETS.contains(&preset.name)) {

@@ -1,7 +1,8 @@
-//! Lanes must take several times fewer instructions per right-hand side than scalars.
+//! In lanes, a right-hand side must take several times fewer instructions than on scalars.
 //!
-//! A lane function that is not inlined into the function with the target feature still gives the right
-//! numbers, only tens of times slower. Time would show it, but not on a busy machine; instructions do.
+//! A lane function that is not inlined into the function with the target feature computes the correct numbers, but tens
+//! of times more slowly. Run times would show the difference only on an idle machine. Numbers of instructions show the
+//! difference on every machine.
 #![expect(clippy::print_stdout, reason = "a test with its own harness")]
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -44,7 +45,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The work of the process that the test has started again.
+/// Runs the work in the child process.
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 #[expect(clippy::print_stderr, reason = "it tells the test's user")]
 fn be_counted(name: &str) -> ExitCode {
@@ -61,7 +62,7 @@ fn be_counted(name: &str) -> ExitCode {
     }
 }
 
-/// True if the test is to run, judged by the usual arguments of test programs.
+/// True if the arguments of the test program select this test.
 fn is_wanted() -> bool {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let has = |flag: &str| arguments.iter().any(|argument| argument == flag);

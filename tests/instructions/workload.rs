@@ -1,32 +1,33 @@
-//! The work that is counted: one point on scalars, or the same point in every lane, for about one drive period.
+//! The work whose instructions are counted: one point on scalars, or the same point in every lane, for about one drive
+//! period.
 
 use std::fmt;
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, preset};
 
-/// A point of each model, whether or not it is compiled in.
+/// A preset of each model, also if the model is not compiled in.
 pub(crate) const PRESETS: [&str; 3] = ["ozaki2018-large", "jafferis2016", "arabagi2013-75hz"];
 
-/// Some work with a name, so that another process can be asked for it.
+/// A piece of work; its name can be passed to another process.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
-    /// The point, one of [`PRESETS`].
+    /// The preset, one of [`PRESETS`].
     pub(crate) preset: &'static str,
-    /// The instructions it is done with.
+    /// The SIMD instructions that the work uses.
     pub(crate) backend: Backend,
     /// The task.
     pub(crate) task: Task,
 }
 
-/// A task for the instructions.
+/// The kinds of computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Task {
     /// Marching a point for a period on scalars of the backend's arithmetic class.
     ScalarMarch,
     /// Marching a point per lane for a period.
     March,
-    /// Going on with a point per lane that has settled: a period with responses to changes, and one that is measured.
+    /// Continuing a settled point in each lane: a period with responses to changes, and a period with a measurement.
     Measure,
 }
 
@@ -47,7 +48,7 @@ impl fmt::Display for Work {
 }
 
 impl Work {
-    /// The work that is displayed like this.
+    /// The work with this name, in the format of [`Display`](fmt::Display).
     pub(crate) fn by_name(name: &str) -> Option<Work> {
         let mut words = name.split(' ');
         let preset = words.next()?;
@@ -59,7 +60,7 @@ impl Work {
         Some(Work { preset, backend, task })
     }
 
-    /// Does the work, calling `mark` where the count is to begin and where it is to end.
+    /// Runs the work, and calls `mark` at the beginning and at the end of the count.
     pub(crate) fn run(self, mark: &mut dyn FnMut()) {
         match self.task {
             Task::ScalarMarch => {
@@ -77,7 +78,7 @@ impl Work {
         }
     }
 
-    /// The right-hand sides evaluated in what is counted, for all lanes together.
+    /// The number of right-hand sides within the count, for all lanes together.
     pub(crate) fn rhs_evals(self) -> u64 {
         let evals = |settings| self.run_lanes(settings, Begin::WithTheLastPoint, &mut || ());
         match self.task {
@@ -103,7 +104,8 @@ impl Work {
     }
 }
 
-/// One period. The tolerance is loose to make it short: what a step costs does not depend on its length.
+/// One period. With the large tolerance the period has few steps; the length of a step does not change its number of
+/// instructions.
 const MARCH: SolverSettings = SolverSettings {
     rtol: 1e-2,
     atol: 1e-4,
@@ -118,24 +120,24 @@ const MARCH: SolverSettings = SolverSettings {
     loads: false,
 };
 
-/// Any change counts as none, so that the motion has settled after two periods; a third is integrated with responses to
-/// changes, a fourth is measured.
+/// Every change is within the tolerance, so that the motion settles after two periods. The third period is integrated
+/// with responses to changes, and the fourth period is measured.
 const SETTLE_AND_MEASURE: SolverSettings =
     SolverSettings { settle_tol: f64::INFINITY, max_cycles: 10, ..MARCH };
 
-/// The same two periods and no more.
+/// Only the first two periods of [`SETTLE_AND_MEASURE`].
 const SETTLE: SolverSettings = SolverSettings { max_cycles: 2, ..MARCH };
 
 /// The beginning of a count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Begin {
-    /// All lanes have their points and marching begins.
+    /// The count begins when all lanes have their points and marching begins.
     WithTheLastPoint,
-    /// There is no further point and what has settled goes on.
+    /// The count begins when no further point follows and the settled points continue.
     AfterTheLastPoint,
 }
 
-/// The same point for every lane. The lanes then do the same and end together: the count ends with the first.
+/// The same point for every lane. All lanes do the same work and end together, so the count ends with the first lane.
 struct Alike<'a> {
     values: Vec<f64>,
     left: usize,
@@ -146,7 +148,7 @@ struct Alike<'a> {
 }
 
 impl Alike<'_> {
-    /// Marks, unless there has been a mark of this number.
+    /// Calls `mark`, unless the mark `number` was already made.
     fn mark(&mut self, number: u32) {
         if self.marks < number {
             self.marks = number;

@@ -1,4 +1,4 @@
-//! The uses of files by each other within a crate.
+//! The uses of files by other files of the same crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,7 +8,7 @@ use petgraph::graphmap::DiGraphMap;
 use crate::names::{Names, Path};
 use crate::source::SourceFile;
 
-/// The files of a crate with what each uses.
+/// The files of a crate, each with the files that it uses.
 pub(crate) struct House {
     /// The path of each file, by its module.
     files: BTreeMap<Path, String>,
@@ -31,7 +31,8 @@ impl House {
         }
     }
 
-    /// The module of the file that defines a path: the deepest on its way, or where a name on it is handed on from.
+    /// The module of the file that defines a path. The path contains the module, or a module of the path re-exports the
+    /// name.
     fn definer(&self, path: &Path) -> Path {
         let mut path = path.clone();
         // As often as a name can be handed on.
@@ -54,7 +55,7 @@ impl House {
         panic!("{} is handed on in a circle", path.join("::"));
     }
 
-    /// Each pair of a file and another that it uses, as paths below `src`.
+    /// Each pair of two files, as paths below `src`: the first file uses the second file.
     pub(crate) fn arrows(&self) -> BTreeSet<(&str, &str)> {
         let mut arrows = BTreeSet::new();
         for (module, names) in &self.names {
@@ -69,7 +70,7 @@ impl House {
         arrows
     }
 
-    /// The circles: files each of which uses all others, through others or not.
+    /// The cycles: groups of files in which each file uses all other files, directly or through other files.
     pub(crate) fn circles(&self) -> Vec<Vec<&str>> {
         let graph: DiGraphMap<&str, ()> = self.arrows().into_iter().collect();
         let mut circles: Vec<Vec<&str>> =

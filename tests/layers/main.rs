@@ -1,4 +1,5 @@
-//! The structure of the crates: their rooms, the world outside of flap-core, their thresholds, and the hash of their sources.
+//! The structure of the crates: their rooms, the use of the outside world by flap-core, the thresholds of flap-core,
+//! and the hash of the sources.
 
 mod house;
 mod manifests;

@@ -5,13 +5,13 @@ use std::path::Path;
 
 use crate::source::source_files;
 
-/// True if cargo runs no tests that stand in the sources of the library.
+/// True if cargo runs no tests in the sources of the library.
 fn runs_no_unit_tests(manifest: &str) -> bool {
     let manifest: toml::Table = manifest.parse().expect("the manifest is TOML");
     manifest.get("lib").and_then(|lib| lib.get("test")).and_then(toml::Value::as_bool) == Some(false)
 }
 
-/// The lines with tests in the sources of crates whose manifest says that there are none.
+/// The lines with tests in the sources of crates whose manifest disables unit tests.
 fn tests_that_never_run() -> Vec<String> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! The paths that a source file uses, and the names that it hands on.
+//! The paths that a source file uses, and the names that the file re-exports.
 
 use std::collections::BTreeMap;
 
@@ -12,16 +12,16 @@ pub(crate) type Path = Vec<String>;
 
 /// The names of a file.
 pub(crate) struct Names {
-    /// The paths that its code uses. One that is none of the crate's leads to the file itself.
+    /// The paths that the file's code uses. A path to another crate is replaced by the path of the file itself.
     pub(crate) used: Vec<Path>,
-    /// The names that it hands on with `pub use`, with their paths.
+    /// The names that the file re-exports with `pub use`, with their paths.
     pub(crate) handed_on: BTreeMap<String, Path>,
-    /// The macros that it defines for the root of the crate.
+    /// The macros that the file defines for the root of the crate.
     pub(crate) macros: Vec<String>,
 }
 
 impl Names {
-    /// The names of a file, but for those in modules of tests.
+    /// The names of a file, except names in modules of tests.
     pub(crate) fn of(file: &SourceFile) -> Names {
         let parsed = syn::parse_file(&file.text).unwrap_or_else(|error| panic!("{}: {error}", file.path));
         let mut reader = Reader { module: file.module(), ..Reader::default() };
@@ -37,7 +37,7 @@ impl Names {
     }
 }
 
-/// The path from the root of the crate of one that is written in a module.
+/// The path from the root of the crate for a path `written` in `module`.
 fn absolute(module: &[String], written: &[String]) -> Path {
     let up = written.iter().take_while(|name| *name == "super").count();
     let (above, below) = match written[0].as_str() {
@@ -48,16 +48,16 @@ fn absolute(module: &[String], written: &[String]) -> Path {
     [above, below].concat()
 }
 
-/// Reads the syntax of a file.
+/// Visits the syntax tree of a file.
 #[derive(Default)]
 struct Reader {
     /// The file's module.
     module: Path,
-    /// The names that `use` brings in, with their paths from the root.
+    /// The names that `use` imports, with their paths from the root.
     imported: BTreeMap<String, Path>,
-    /// The names that `pub use` hands on, with their paths from the root.
+    /// The names that `pub use` re-exports, with their paths from the root.
     handed_on: BTreeMap<String, Path>,
-    /// All other paths, as they are written.
+    /// All other paths, as the file writes them.
     written: Vec<Path>,
     macros: Vec<String>,
 }
@@ -109,7 +109,7 @@ impl<'ast> Visit<'ast> for Reader {
         self.read_use(!matches!(item.vis, Visibility::Inherited), &[], &item.tree);
     }
 
-    /// The path in `pub(in path)` uses nothing.
+    /// The path in `pub(in path)` is not a use of a file.
     fn visit_visibility(&mut self, _: &'ast Visibility) {}
 
     fn visit_item_macro(&mut self, item: &'ast ItemMacro) {
@@ -118,7 +118,7 @@ impl<'ast> Visit<'ast> for Reader {
         visit::visit_item_macro(self, item);
     }
 
-    /// In a macro's brackets there is no syntax yet: paths are found by their colons, outside of texts in quotes.
+    /// The brackets of a macro contain no syntax tree, so paths are found by their colons, outside of string literals.
     fn visit_macro(&mut self, called: &'ast Macro) {
         visit::visit_macro(self, called);
         let text = called.tokens.to_string();

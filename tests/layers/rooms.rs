@@ -1,9 +1,11 @@
-//! The rooms of each crate: a room uses only those before it, and no files use each other in a circle.
+//! The rooms of each crate: folders and files in `src`. A room uses only the rooms before it, and no files use each
+//! other in a cycle.
+//! each other in a cycle.
 
 use crate::house::House;
 use crate::source::{SourceFile, source_files};
 
-/// Each crate with its rooms, the lowest first. A room is a folder or a file in `src`.
+/// Each crate with its rooms, the lowest room first. A room is a folder or a file in `src`.
 const CRATES: &[(&str, &[&str])] = &[
     (
         "flap-core",
@@ -107,7 +109,7 @@ fn file(path: &str, text: &str) -> SourceFile {
     SourceFile { path: path.to_owned(), text: text.to_owned() }
 }
 
-/// Two rooms with two files each, and what they use.
+/// Two rooms with two files each, and the uses of the files.
 fn small_house(low: &str, high: &str) -> House {
     House::new(&[
         file("lib.rs", "pub mod high;\npub mod low;\n"),

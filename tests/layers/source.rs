@@ -11,8 +11,8 @@ pub(crate) struct SourceFile {
 }
 
 impl SourceFile {
-    /// The modules that lead to it from the root of its crate: `["run", "queue"]` for `run/queue.rs`, `["run"]` for
-    /// `run/mod.rs`, none for `lib.rs`.
+    /// The modules on the path from the root of the crate to the file: `["run", "queue"]` for `run/queue.rs`, `["run"]`
+    /// for `run/mod.rs`, and an empty list for `lib.rs`.
     pub(crate) fn module(&self) -> Vec<String> {
         let stem = self.path.trim_end_matches(".rs");
         let mut modules: Vec<String> = stem.split('/').map(str::to_owned).collect();

@@ -1,4 +1,4 @@
-//! The hash of the sources that the build scripts make.
+//! The hash of the sources that the build scripts compute.
 
 use std::fs;
 use std::path::Path;

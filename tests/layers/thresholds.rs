@@ -1,4 +1,4 @@
-//! The thresholds of flap-core, against their table in the documentation.
+//! The thresholds of flap-core, compared with the table in the documentation.
 
 use std::collections::BTreeSet;
 
@@ -35,7 +35,7 @@ fn in_sources() -> BTreeSet<[String; 3]> {
     found
 }
 
-/// The same, in the table of the documentation.
+/// File, name and value of each threshold in the table of the documentation.
 fn in_documentation() -> BTreeSet<[String; 3]> {
     let section = METHODS.split("## Thresholds").nth(1).expect("a section on thresholds");
     let section = section.split("\n## ").next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Changes of plans: what is refused leaves no plan that is untrue.
+//! Changes of plans: a rejected change leaves the plan unchanged.
 
 use flap_core::simulate::{SolverSettings, all};
 use flap_sweep::grid;

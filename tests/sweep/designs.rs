@@ -14,7 +14,7 @@ fn points(plan: &Plan) -> Vec<Vec<u64>> {
     (0..plan.len()).map(|index| bits(&plan.point(index).values)).collect()
 }
 
-/// The points of a grid of two presets, which must be the points of two grids of one preset.
+/// The points of a grid with two presets. The points must equal the points of two grids with one preset each.
 #[track_caller]
 fn same(rest: &str) -> Plan {
     let both = plan(&format!("preset = [\"fly\", \"moth\"]\n{rest}"));

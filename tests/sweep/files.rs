@@ -1,4 +1,4 @@
-//! Files that cannot be read, and one that can.
+//! Files that cannot be read, and a file that can be read.
 
 use std::fs;
 use std::path::Path;
@@ -61,7 +61,7 @@ fn presets_of_all_models_are_found() {
     }
 }
 
-/// One of the SI unit is 1: otherwise bare numbers and numbers with units would disagree.
+/// One SI unit of a parameter is the number 1, so that numbers with and without units agree.
 #[test]
 fn units_of_all_parameters_are_si() {
     for model in simulate::all() {
@@ -72,7 +72,7 @@ fn units_of_all_parameters_are_si() {
     }
 }
 
-/// A reader that tries every line of them would take minutes and gigabytes.
+/// A parser that tried every line of results as a grid file would take minutes and gigabytes.
 #[test]
 fn results_are_not_grid_files() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -100,7 +100,7 @@ fn grid_files_have_a_largest_size() {
     assert!(error.to_string().ends_with("the file is too large: at most 16 MiB are allowed"), "{error}");
 }
 
-/// Twenty times as many lines take twenty times as long, not four hundred times.
+/// Parsing time grows in proportion to the number of lines: twenty times as many lines take twenty times as long.
 #[test]
 fn mistakes_without_number_are_counted_in_linear_time() {
     let count = 300_000_u32;

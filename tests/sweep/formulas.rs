@@ -1,4 +1,4 @@
-//! Derived parameters, conditions and measures of one's own.
+//! Derived parameters, conditions and measures that the user defines.
 
 use flap_core::parameter::Invalid;
 use flap_sweep::plan::Admission;

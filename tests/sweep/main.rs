@@ -1,4 +1,4 @@
-//! Grid files and plans: what a grid file means, and what is said about one that means nothing.
+//! Grid files and plans: the plans of valid grid files, and the messages about invalid grid files.
 
 mod change;
 mod designs;

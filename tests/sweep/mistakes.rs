@@ -1,4 +1,4 @@
-//! Grid files with mistakes, and what is said about them.
+//! Grid files with mistakes, and the messages about the mistakes.
 
 mod any;
 mod sample;
@@ -6,14 +6,14 @@ mod syntax;
 
 use crate::fake::{problems, report};
 
-/// Compares all that is said about a grid file with `expected`, see [`report`].
+/// Compares all messages about a grid file with `expected`, see [`report`].
 fn check(text: &str, expected: &str) {
     let text = text.strip_prefix('\n').unwrap_or(text);
     let report = report(&problems(text));
     assert_eq!(report, expected.trim_matches('\n'), "\n{text}\n{report}\n");
 }
 
-/// Files of cases: under a heading a grid file, and all that is said about it.
+/// Files of cases: below each heading, a grid file and all messages about it.
 const CASES: [(&str, &str); 4] = [
     ("axes", include_str!("mistakes/axes.md")),
     ("formulas", include_str!("mistakes/formulas.md")),

@@ -1,17 +1,17 @@
-//! A plan indexes its points; a plan written out as nested loops must agree.
+//! A plan computes a point from its index. Its points must equal the points of nested loops over the axes.
 
 use proptest::prelude::*;
 
 use crate::fake::{index, plan};
 
-/// One axis as text, and its values computed here.
+/// One axis as text, and its expected values.
 #[derive(Clone, Debug)]
 struct Case {
     text: String,
     values: Vec<f64>,
 }
 
-/// A list, or a range of any kind, for a parameter that takes any positive number.
+/// A list or a range of any kind, for a parameter that can have any positive number.
 fn values() -> impl Strategy<Value = Case> {
     let list = prop::collection::vec(0.1..100.0_f64, 1..5)
         .prop_map(|values| Case { text: format!("{values:?}"), values });
@@ -38,7 +38,7 @@ fn values() -> impl Strategy<Value = Case> {
     prop_oneof![list, linear, log, step]
 }
 
-/// An axis of options, with its indices.
+/// An axis of options, with the indices of the options.
 fn options() -> impl Strategy<Value = Case> {
     prop::collection::vec(prop_oneof![Just(0.0), Just(1.0)], 1..4).prop_map(|values| Case {
         text: format!(
@@ -85,7 +85,8 @@ proptest! {
         prop_assert_eq!(plan.len(), number);
     }
 
-    /// A sample is one more axis: its points are those that it has alone, and what is derived follows each.
+    /// A sample acts as an additional axis: the points of the sample are the same with and without other axes. Derived
+    /// values are computed at each point.
     #[test]
     fn samples_cross_with_axes_and_derived_values_follow(
         method in prop_oneof![Just("sobol"), Just("latin-hypercube"), Just("random")],

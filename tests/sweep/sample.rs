@@ -146,7 +146,7 @@ fn points_come_from_a_file_beside_the_grid() {
     assert_eq!(file.path, folder.path().join("points.csv"));
 }
 
-/// Messages about a file of points: places are in that file.
+/// Messages about a file of points; the places in the messages are places in the file of points.
 fn mistakes_of(points: &str) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("points.csv"), points).expect("a file");

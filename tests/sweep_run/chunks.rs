@@ -1,4 +1,4 @@
-//! Rows that other processes compute, put together to what one process writes.
+//! Rows that other processes compute. Together, the rows have the bytes of a run in one process.
 
 use flap_core::num::Backend;
 use flap_sweep::files::csv_sink::CsvSink;
@@ -10,12 +10,12 @@ use crate::fake::{Fake, Fault};
 use crate::formulas::FORMULAS;
 use crate::support::{csv, options, plan, plan_with};
 
-/// The chunk of a worker for these points.
+/// The chunk that a worker computes for these points.
 fn bytes(plan: &Plan, from: u64, to: u64) -> Vec<u8> {
     chunk(plan, &options(2, 10), from..to, |_| false).unwrap().to_bytes().unwrap()
 }
 
-/// The text that comes of chunks, with their summary.
+/// The text that is assembled from chunks, with the summary.
 fn put_together(plan: &Plan, chunks: Vec<Vec<u8>>) -> (String, Result<Summary, RunError>) {
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).unwrap();
@@ -57,7 +57,7 @@ fn chunks_that_end_early_are_an_interrupted_run() {
     assert_eq!(text.lines().count(), 51);
 }
 
-/// The chunk of a worker with other sources of the same version.
+/// A chunk from a worker with another build of the same version.
 fn of_another_build(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes[0] ^= 1;
     bytes

@@ -1,4 +1,5 @@
-//! Responses on the same runner as sweeps: a model that fails is an error, and interrupted runs go on to the same bytes.
+//! Responses on the same runner as sweeps: a model that fails is an error, and continued runs have the same bytes as
+//! uninterrupted runs.
 
 use std::fs;
 use std::path::Path;
@@ -25,7 +26,8 @@ const FILES: &[&str] = &[
     "rows.parquet",
 ];
 
-/// So many designs, each followed from size 0 to 2 and back. No step is longer than the tolerance, so none is halved.
+/// A number of designs, each followed from size 0 to 2 and back. No step is longer than the tolerance, so no step is
+/// halved.
 fn curves(model: &'static Fake, designs: u32) -> Plan {
     let plan = plan_of(
         model,
@@ -62,7 +64,7 @@ fn write(
     output.finish(ended)
 }
 
-/// The text of all rows with the summary.
+/// The CSV text of all rows, and the summary.
 fn csv(plan: &Plan, threads: usize, window: usize) -> (String, Result<Summary, RunError>) {
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     let summary = write(plan, &options(threads, window), Summary::default(), &mut sink, u64::MAX);
@@ -102,7 +104,7 @@ fn a_model_that_breaks_its_contract_is_an_error() {
     }
 }
 
-/// Runs a job that stops with the curve of index `stop_at`. `None` if it is complete already.
+/// Runs a job that stops with the curve of index `stop_at`. `None` if the job is already complete.
 fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Option<Done>, JobError> {
     let options = SessionOptions { run: options(2, 100), checkpoint: Duration::from_millis(5) };
     let job = Job { plan, out: out.to_owned(), begin, options, origin: None };

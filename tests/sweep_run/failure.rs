@@ -1,4 +1,5 @@
-//! Sweeps in which the sink or the model fails: an error, never a hang, never a row out of place.
+//! Sweeps in which the sink or the model fails. The sweep returns an error, does not hang, and writes all rows in
+//! order.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,7 +10,7 @@ use flap_sweep::run::{RunError, Summary};
 use crate::fake::{Fake, Fault};
 use crate::support::{Watch, flag, must_end, options, plan, run};
 
-/// Threads and window of every test: roomy, narrow, and one at a time.
+/// Threads and window of every test: large windows, a small window, and a window of one point.
 const SHAPES: [(usize, usize); 4] = [(1, 1000), (2, 1000), (4, 10), (3, 1)];
 
 /// Sweeps a million points.
@@ -18,7 +19,7 @@ fn sweep(sink: &mut Watch, threads: usize, window: usize) -> Result<Summary, Run
     run(&plan, &options(threads, window), sink, flag(false), &mut |_| {})
 }
 
-/// The error of a sweep with the number of rows written.
+/// Returns the error of a sweep and the number of rows that were written.
 fn fails(fault: Fault, threads: usize, window: usize) -> (RunError, u64) {
     must_end(move || {
         let mut sink = Watch::new(Fake::leak(fault, 8));

@@ -18,21 +18,21 @@ pub(crate) enum Fault {
     Endless(f64),
     /// The row is never returned.
     Lose(f64),
-    /// A row for a point that was never handed out comes along.
+    /// The model also returns a row for a point that does not exist.
     Invent(f64),
-    /// The row has a measure too few.
+    /// The row has too few measures.
     Narrow(f64),
 }
 
-/// The model. `size` 3, 4, 5 and so on of every ten is not periodic.
+/// The model. If `size` modulo 10 is at least 3, the point is not periodic.
 pub(crate) struct Fake {
     pub(crate) fault: Fault,
     pub(crate) lanes: usize,
-    /// Rows the sink has written, kept up to date by the test's sink.
+    /// Number of rows that the sink has written; the test's sink updates the number.
     pub(crate) written: AtomicU64,
-    /// The largest distance seen between a point begun and the rows written.
+    /// The largest difference between the index of a started point and the number of written rows.
     pub(crate) widest: AtomicU64,
-    /// Points begun.
+    /// Number of started points.
     pub(crate) begun: AtomicU64,
     columns: Vec<Column>,
 }
@@ -171,7 +171,7 @@ impl Simulator for Fake {
     }
 }
 
-/// Another sequence for every worker, so that the order of rows differs from run to run.
+/// Random numbers with a different sequence for every worker, so that the order of rows differs from run to run.
 struct Random(u64);
 
 impl Random {

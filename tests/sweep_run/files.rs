@@ -1,4 +1,4 @@
-//! Result files and the file beside them.
+//! Result files and their sidecars.
 
 use std::fs;
 

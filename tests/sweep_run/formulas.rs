@@ -1,4 +1,4 @@
-//! Sweeps with excluded points, derived parameters and measures of one's own.
+//! Sweeps with excluded points, derived parameters and measures that the user defines.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,7 +9,7 @@ use flap_sweep::run::{InvalidPoint, Progress, Unsatisfied};
 use crate::fake::{Fake, Fault};
 use crate::support::{Watch, csv, flag, must_end, options, plan_with, run};
 
-/// Excluded points, derived parameters and measures of one's own, of twelve sizes.
+/// Excluded points, derived parameters and measures of the user, with twelve sizes.
 pub(crate) const FORMULAS: &str = r#"
 [derived]
 drive_frequency = "100 - 10 * size"
@@ -49,7 +49,7 @@ fn rows_of_a_grid_with_formulas_read_like_this() {
     assert_eq!(summary.invalid[1].point, 7);
 }
 
-/// Most points are excluded, in long stretches.
+/// A grid that excludes most points, in long series of points.
 const SPARSE: &str = r#"
 [where]
 few = "size / 100 == floor(size / 100) or size < 50"

@@ -1,4 +1,4 @@
-//! Journals, and sessions that go on from them.
+//! Journals, and sessions that continue from a journal.
 
 use std::fs;
 use std::path::Path;
@@ -20,7 +20,7 @@ use flap_sweep::table::layout::Cell;
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan, plan_with, resume};
 
-/// Checkpoints wherever there may be one.
+/// Session options with a checkpoint at every opportunity.
 pub(crate) fn often() -> SessionOptions {
     SessionOptions { run: options(2, 100), checkpoint: Duration::ZERO }
 }
@@ -31,7 +31,7 @@ pub(crate) fn start(path: &Path, plan: &Plan) -> Session {
         .unwrap()
 }
 
-/// Runs until `stop_at` rows are written, as if the machine lost its power then.
+/// Runs until `stop_at` rows are written, and ends as if the machine lost its power.
 pub(crate) fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_at: u64) -> Option<Summary> {
     let mut sink = Crash { session, stop_at };
     match resume(plan, &often().run, before, &mut sink, &AtomicBool::new(false), &mut |_| {}) {
@@ -44,7 +44,7 @@ pub(crate) fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_a
     }
 }
 
-/// Fails when so many points are done.
+/// A sink that fails when `stop_at` points are done.
 struct Crash<'a> {
     session: &'a mut Session,
     stop_at: u64,
@@ -77,7 +77,7 @@ impl Sink for Crash<'_> {
     }
 }
 
-/// Wherever a run ends, it goes on to the same bytes and the same summary.
+/// Wherever a run ends, the continued run has the same bytes and the same summary as one run.
 #[test]
 fn a_session_goes_on_where_the_last_one_ended() {
     let listed = plan(Fake::leak(Fault::None, 8), 5000);
@@ -115,7 +115,7 @@ fn a_session_goes_on_where_the_last_one_ended() {
     }
 }
 
-/// Excluded points, derived parameters, measures of one's own and a sample, of thirteen sizes.
+/// Excluded points, derived parameters, measures of the user and a sample, with thirteen sizes.
 const FORMULAS: &str = r#"
 [sample]
 method = "latin-hypercube"
@@ -187,7 +187,7 @@ fn a_changed_file_of_points_is_not_resumed() {
     assert_eq!(run_to(&mut session, &first, before, u64::MAX).unwrap().rows, 3);
 }
 
-/// Text that a crash may leave behind the last whole line does no harm.
+/// After a crash, incomplete text after the last whole line is ignored.
 #[test]
 fn a_torn_last_line_is_dropped() {
     let folder = tempfile::tempdir().unwrap();
@@ -259,7 +259,7 @@ fn other_versions_and_machines_do_not_go_on() {
     }
 }
 
-/// A file shorter than its journal says is gone on with from the last checkpoint that it holds.
+/// If a file is shorter than its journal records, the run continues from the last checkpoint within the file.
 #[test]
 fn lost_rows_are_computed_again() {
     let folder = tempfile::tempdir().unwrap();

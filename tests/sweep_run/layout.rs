@@ -1,4 +1,4 @@
-//! Columns and what they mean.
+//! Columns and their meanings.
 
 use flap_core::simulate;
 use flap_sweep::table::layout::split_unit;

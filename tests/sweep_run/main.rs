@@ -1,4 +1,4 @@
-//! From a plan to rows: order, bounded memory, interruption and failure, with a model made for the purpose.
+//! From a plan to rows: order, bounded memory, interruption and failure, with a model that is made for these tests.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 

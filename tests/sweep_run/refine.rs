@@ -1,4 +1,4 @@
-//! Refined grids: points in rounds, and the same bytes wherever a run ends.
+//! Refined grids: points are added in rounds, and a continued run has the same bytes as one run.
 
 use std::fs;
 use std::io;
@@ -16,7 +16,8 @@ use crate::fake::{Fake, Fault};
 use crate::journal::{often, run_to, start};
 use crate::support::{csv, options, plan_of, run};
 
-/// A peak and a jump, one map for each reading. Points with a size of 3 to 7 have no measures, and some are excluded.
+/// A peak and a jump, with one map for each reading. Points with a size of 3 to 7 have no measures, and some points are
+/// excluded.
 const GRID: &str = r#"
 preset = "fake2020"
 
@@ -85,7 +86,7 @@ fn points_are_added_on_the_scale_of_their_axes() {
     assert!(replay(&plan, 200, records("point\n0\n2\n")).is_err(), "rows of another grid");
 }
 
-/// Wherever a run ends, it goes on to the same bytes and the same summary.
+/// Wherever a run ends, the continued run has the same bytes and the same summary as one run.
 #[test]
 fn a_refinement_goes_on_where_the_last_run_ended() {
     let plan = refined("");

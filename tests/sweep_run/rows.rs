@@ -1,4 +1,4 @@
-//! Rows of sweeps in which nothing goes wrong.
+//! Rows of sweeps without failures.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;

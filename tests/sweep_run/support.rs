@@ -37,7 +37,7 @@ pub(crate) fn options(threads: usize, window: usize) -> RunOptions {
     RunOptions { threads: NonZeroUsize::new(threads).unwrap(), window, ..RunOptions::default() }
 }
 
-/// Fails the test if `work` takes longer than any machine needs: it hangs.
+/// Fails the test if `work` takes too long, because it hangs.
 pub(crate) fn must_end<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
     let (send, receive) = mpsc::channel();
     let worker = thread::spawn(move || send.send(work()));
@@ -50,7 +50,7 @@ pub(crate) fn must_end<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'sta
     }
 }
 
-/// Runs all points into `sink`, until `stop` is raised.
+/// Runs all points into `sink`, until `stop` is set.
 pub(crate) fn run(
     plan: &Plan,
     options: &RunOptions,
@@ -61,7 +61,7 @@ pub(crate) fn run(
     resume(plan, options, Summary::default(), sink, stop, progress)
 }
 
-/// Goes on as [`run`] does behind the rows that `before` counts.
+/// Continues a run after the rows that `before` counts, see [`run`].
 pub(crate) fn resume(
     plan: &Plan,
     options: &RunOptions,
@@ -94,23 +94,23 @@ pub(crate) fn resume(
     output.finish(ended)
 }
 
-/// Runs to the end, and gives the CSV text with the summary.
+/// Runs all points, and returns the CSV text and the summary.
 pub(crate) fn csv(plan: &Plan, options: &RunOptions) -> (String, Result<Summary, RunError>) {
     let mut sink = CsvSink::new(Layout::of(plan).names(), Vec::new());
     let summary = run(plan, options, &mut sink, &AtomicBool::new(false), &mut |_| {});
     (String::from_utf8(sink.target().clone()).unwrap(), summary)
 }
 
-/// Keeps the indices of the rows, tells the model how far it is, and can go wrong.
+/// A sink that stores the indices of the rows, reports its progress to the model, and can fail.
 pub(crate) struct Watch {
     pub(crate) model: &'static Fake,
     pub(crate) indices: Vec<u64>,
     pub(crate) finished: bool,
-    /// Fails at this row.
+    /// Index of the row at which the sink fails.
     pub(crate) full_at: Option<u64>,
-    /// Panics at this row.
+    /// Index of the row at which the sink panics.
     pub(crate) panic_at: Option<u64>,
-    /// Raises the flag at this row.
+    /// Index of the row at which the sink sets the flag.
     pub(crate) stop_at: Option<(u64, &'static AtomicBool)>,
 }
 

@@ -1,4 +1,4 @@
-//! Shares of initial states that go to each branch of a bistable band.
+//! Shares of initial states whose motions settle on each branch of a bistable band.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, SolverSettings, TrajectoryRequest, never};
@@ -25,7 +25,7 @@ fn basins(plan: &Plan, starts: Starts) -> (Curve, Vec<Basin>) {
     (curve, basins)
 }
 
-/// Shares from other initial states, each marched alone and distinguished by its final state.
+/// Shares from other initial states. Each motion is marched alone, and its final state shows its branch.
 #[test]
 fn shares_agree_with_single_motions() {
     let plan = soft(HINGE);

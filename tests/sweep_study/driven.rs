@@ -5,7 +5,7 @@ use flap_core::simulate::{PointRun, SolverSettings, Status, Unfinished, preset};
 use flap_sweep::resonance::driven::{DrivenPeaks, search};
 use flap_sweep::resonance::{Range, SearchError};
 
-/// The values of a preset with some of them set.
+/// The values of a preset with the values of `set`.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
     let (model, preset) = preset(name).expect("a preset");
     let mut values = (preset.values)();
@@ -91,7 +91,7 @@ fn searches_that_mean_nothing_are_refused() {
     }
 }
 
-/// Lanes and scalars give the same peaks, and a peak is the motion from rest at its frequency.
+/// Lanes and scalars have the same peaks, and a peak equals the motion from rest at its frequency.
 #[test]
 fn a_peak_is_a_motion_from_rest() {
     let (model, _) = preset("arabagi2013-75hz").unwrap();

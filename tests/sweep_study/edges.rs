@@ -239,7 +239,8 @@ fn bimorph(range: [f64; 2], step: Option<f64>) -> (Plan, EdgeRange) {
 
 /// Ends of the bands that `flap respond` finds at single voltages, with their largest error (Hz).
 ///
-/// The first three are followed in steps of 0.02 Hz, the others in steps of 1 Hz with a tolerance of 1/16 Hz.
+/// The first three bands are followed in steps of 0.02 Hz, the other bands in steps of 1 Hz with a tolerance of 1/16
+/// Hz.
 const BANDS: [(f64, [f64; 2], f64); 8] = [
     (85.0, [118.439, 118.543], 0.002),
     (90.0, [119.154, 119.436], 0.002),

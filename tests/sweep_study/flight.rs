@@ -33,7 +33,7 @@ drive_voltage_pp = \"140 V\"
 drive_frequency = \"120 Hz\"
 ";
 
-/// Its mass (kg).
+/// The mass of the robot (kg).
 const MASS: f64 = 6.915_643_907_926_958e-5;
 
 const REST: FlightRequest = FlightRequest {
@@ -56,7 +56,7 @@ fn flown(plan: &Plan, request: &FlightRequest) -> FlightRecord {
     record
 }
 
-/// The request with one state of the disturbance.
+/// A flight request with a disturbance of one state.
 fn disturbed(state: usize, by: f64) -> FlightRequest {
     let mut disturbance = [0.0; FED_BACK];
     disturbance[state] = by;
@@ -152,7 +152,8 @@ fn small_disturbances_are_those_of_the_linear_model() {
     }
 }
 
-/// Without a disturbance, a trimmed vehicle stays. The vibration of the body adds 0.3 % of the weight to the lift.
+/// Without a disturbance, a trimmed vehicle stays at its position. The vibration of the body adds 0.3 % of the weight
+/// to the lift.
 #[test]
 fn a_vehicle_at_hover_stays() {
     for (factor, share) in [(1.0, 1.0), (30.0, 0.05)] {
@@ -192,7 +193,7 @@ fn a_mirrored_disturbance_gives_a_mirrored_flight() {
     }
 }
 
-/// Impossible requests have reasons, and a flight ends when a feedback leaves the range of its input.
+/// Impossible requests return a reason, and a flight ends when a feedback leaves the range of its input.
 #[test]
 fn impossible_flights_are_refused() {
     let plan = plan(ROBOT);
@@ -217,7 +218,8 @@ fn impossible_flights_are_refused() {
     assert!(end.starts_with("drive_voltage_pp is -"), "{end}");
 }
 
-/// Wings on a heavy body, which moves steadily, settle on the wrench of a row with this motion, in each model.
+/// A heavy body moves steadily. In each model, its wings settle on the force and torque of a row with the same body
+/// motion.
 #[test]
 fn wings_on_a_heavy_body_have_the_wrench_of_rows() {
     for (design, limit) in [

@@ -6,7 +6,7 @@ use flap_core::vehicle::MassProperties;
 use flap_sweep::vehicle::hover::HoverModel;
 use nalgebra::{Complex, DMatrix, Matrix6};
 
-/// The rows of a table in `tests/data/body`: numbers by column, below case and mode.
+/// The rows of a table in `tests/data/body`, by case and mode: each row contains numbers by column.
 fn rows(name: &str) -> HashMap<(String, String), HashMap<String, f64>> {
     let path = format!("{}/../../tests/data/body/{name}", env!("CARGO_MANIFEST_DIR"));
     let mut reader = csv::Reader::from_path(path).expect("a table");

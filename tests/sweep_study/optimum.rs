@@ -106,7 +106,7 @@ fn an_optimum_and_its_multiplier_are_those_of_a_formula() {
     assert_eq!(bound.name, "drive_frequency");
 }
 
-/// The goal is zero at the best design, so changes of the goal have no size of their own there.
+/// The goal is zero at the best design, so the goal has no typical size for its changes near the best design.
 #[test]
 fn a_goal_may_be_zero_at_the_optimum() {
     let text = r#"
@@ -142,7 +142,7 @@ fn multipliers_are_those_of_problems_with_other_limits() {
     assert!(words.ends_with(" % more lift_mean_mn"), "{words}");
 }
 
-/// The same limit as a condition of the grid, and as a lower limit of the other side.
+/// The same limit as an option and as a condition of the grid.
 #[test]
 fn conditions_of_the_grid_are_limits() {
     let option = best(ROBOT, "lift_mean_mn", &["drive_frequency < 140 Hz"]);
@@ -222,7 +222,7 @@ fn choices_and_parameters_that_move_together_are_tried_one_by_one() {
     assert!(best.optima.iter().all(|other| other.goal <= best.goal || !other.is_feasible));
 }
 
-/// The exact optimum over the drive frequency is that at the resonance of the lift.
+/// Over the drive frequency, the exact optimum equals the optimum of designs at the resonance of the lift.
 #[test]
 fn designs_at_their_resonance_have_optima_without_derivatives() {
     let text = ROBOT.replace("drive_frequency = {", "# ").replace(

@@ -11,8 +11,8 @@ fn at_resonance(plan: &Plan) -> Vec<Row> {
     rows(plan.rows(), plan.solver(), (0..plan.len()).map(|i| plan.point(i).values).collect())
 }
 
-/// A grid of designs at the resonance of something. Peaks are flat: at looser tolerances the errors of integration move them
-/// by more than the search does.
+/// A grid of designs at the resonance of the measure `of`. Peaks are flat: with a larger `rtol`, the integration errors
+/// would move the peaks by more than the tolerance of the search.
 fn grid(preset: &str, of: &str, range: [u32; 2], axes: &str) -> Plan {
     let [from, to] = range;
     plan(&format!(
@@ -22,8 +22,9 @@ fn grid(preset: &str, of: &str, range: [u32; 2], axes: &str) -> Plan {
     ))
 }
 
-/// The largest value in a fine sweep of the drive frequency, where it is, and the right-hand sides of all of the sweep: 0.5
-/// Hz apart, 0.05 Hz within 1 Hz of the highest. What 0.05 Hz would take everywhere is nearly ten times as many.
+/// The largest value in a fine sweep of the drive frequency, its frequency, and the number of right-hand sides. The
+/// sweep has steps of 0.5 Hz, and of 0.05 Hz within 1 Hz of the largest value. The number of right-hand sides is an
+/// estimate for steps of 0.05 Hz everywhere: ten times the number of the coarse sweep.
 fn fine_sweep(plan: &Plan, values: &[f64], objective: usize, range: [u32; 2]) -> (f64, f64, f64) {
     let frequency = parameter(plan, "drive_frequency");
     let at = |f: f64| {

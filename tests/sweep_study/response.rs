@@ -1,4 +1,4 @@
-//! Responses up and down: hysteresis where there is some, none where there is none.
+//! Responses up and down: bistable designs have hysteresis, and other designs have no hysteresis.
 
 use std::num::NonZeroUsize;
 
@@ -12,7 +12,7 @@ use flap_sweep::table::layout::Layout;
 
 use crate::support::{bits, column, parameter, plan};
 
-/// The bimorph with half its hinge stiffness, or its own, at some voltages.
+/// The bimorph with half its hinge stiffness or its full hinge stiffness, at some voltages.
 fn bimorph(soft: bool, volts: &[u32]) -> Plan {
     let hinge = if soft { "hinge_stiffness = \"0.7486 uN*m/rad\"" } else { "" };
     let volts: Vec<String> = volts.iter().map(|volts| format!("\"{volts} V\"")).collect();
@@ -55,7 +55,7 @@ fn verdict(plan: &Plan, along: &Along, curve: &Curve) -> Verdict {
     Verdict::new(curve, along, along.parameter(plan), column(plan.rows(), "stroke_amplitude_deg"))
 }
 
-/// The bands that an independent solver found, stepping 1 Hz: physics of the bimorph with a soft hinge.
+/// The bistable bands that an independent solver found in steps of 1 Hz, for the bimorph with a soft hinge.
 const BISTABLE: [(u32, Option<[f64; 2]>); 9] = [
     (80, None),
     (100, Some([121.0, 121.0])),
@@ -99,7 +99,7 @@ const BRANCHES: [(u32, f64, &str, f64, f64); 3] = [
     (240, 130.0, "up", 126.724_628, 11.066_892),
 ];
 
-/// Bands of the bimorph with a soft hinge, followed in steps of 0.02 Hz: each fits between two steps of 0.5 Hz.
+/// Bands of the bimorph with a soft hinge, followed in steps of 0.02 Hz. Each band lies between two steps of 0.5 Hz.
 const NARROW: [(u32, [f64; 2]); 3] =
     [(85, [118.439, 118.543]), (90, [119.154, 119.436]), (95, [119.771, 120.259])];
 
@@ -123,7 +123,8 @@ fn narrow_bands_between_two_steps_are_found() {
     }
 }
 
-/// The widest step without hysteresis is the step of the grid; where the response is steep, it is the tolerance.
+/// The resolution without hysteresis: the widest step is the step of the grid, or the tolerance where the response is
+/// steep.
 #[test]
 fn a_response_without_hysteresis_tells_its_resolution() {
     let plan = bimorph(true, &[80]);
@@ -148,8 +149,8 @@ fn a_response_without_hysteresis_tells_its_resolution() {
     }
 }
 
-/// At 80 V the branches almost turn round at 117.58 Hz, and motions take hundreds of periods to settle. One that does not
-/// settle within `max_cycles` is no second motion.
+/// At 80 V the branches are almost vertical at 117.58 Hz, and motions take hundreds of periods to settle. A motion that
+/// does not settle within `max_cycles` is not a second motion.
 #[test]
 fn slow_motions_are_no_hysteresis() {
     let plan = bimorph(true, &[80]);
@@ -256,7 +257,8 @@ fn what_is_impossible_has_a_verdict_too() {
     assert!(verdict(&plan, &along, curve).to_string().starts_with("no response: "), "{:?}", curve.up[0].row);
 }
 
-/// The branches turn round at the ends of the band, and what joins them is unstable: a motion near it goes to one or the other.
+/// The branches end in folds at the ends of the band, and unstable orbits join the branches. A motion near an unstable
+/// orbit approaches one of the two branches.
 #[test]
 fn unstable_orbits_join_the_branches() {
     let plan = bimorph(true, &[100, 160, 280]);

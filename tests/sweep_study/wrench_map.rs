@@ -30,7 +30,7 @@ drive_shape = \"harmonics\"
 drive_second_phase = \"90 deg\"
 ";
 
-/// Inputs around 200 V, 0 V, 0 V and 0. A share of 1 is 20 V, 10 V, 20 V and 0.1 to both sides.
+/// Inputs around 200 V, 0 V, 0 V and 0. With a share of 1, the ranges are 20 V, 10 V, 20 V and 0.1 to both sides.
 fn inputs(plan: &Plan, share: f64) -> Vec<MapInput> {
     let half = [
         ("amplitude", 200.0, 20.0),
@@ -51,7 +51,7 @@ fn map(plan: &Plan, share: f64, threads: usize) -> WrenchMap {
     WrenchMap::of(plan, &values, inputs(plan, share), 400, &options, |_| false).unwrap().unwrap()
 }
 
-/// A map has the vehicle's force and torque at points that were not used.
+/// A map agrees with the vehicle's force and torque at points that were not used for the fit.
 #[test]
 fn a_map_agrees_with_other_rows() {
     let plan = plan(VEHICLE);

@@ -150,7 +150,7 @@ fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<Completi
     candidates
 }
 
-/// Returns the candidates; of candidates with the same name, only the first.
+/// Returns the candidates without repeated names. The first candidate with a name is kept.
 fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
     let mut kept: Vec<CompletionCandidate> = Vec::new();
     for candidate in candidates {
@@ -167,7 +167,8 @@ fn words() -> impl Iterator<Item = String> {
     words.skip_while(|word| word != "--").skip(2)
 }
 
-/// Returns the model of the preset, model or grid on the command line; if there is none, all models.
+/// Returns the model of the preset, model or grid on the command line. If the command line contains no preset, model or
+/// grid, returns all models.
 fn mentioned_models() -> Vec<Robot> {
     let mentioned = words().find_map(|word| {
         let named = models::preset(&word).map(|(model, _)| model).or_else(|| models::by_name(&word));
@@ -182,7 +183,8 @@ fn robot_of_grid(word: &str) -> Option<Robot> {
     is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.robot().clone())).flatten()
 }
 
-/// Returns the columns of results, if the word is the name of such a file. Only the header is read, because the shell waits.
+/// Returns the columns of results, if the word is the name of a results file. Only the header is read, because the
+/// shell waits.
 fn columns_of(word: &str) -> Option<Vec<String>> {
     let path = Path::new(word);
     let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");

@@ -95,7 +95,7 @@ struct Problem {
 }
 
 impl Problem {
-    /// Returns the problem with the best a and b for its ω and λ.
+    /// Returns the problem in which a and b have their best values for the current ω and λ.
     fn with_best_factors(mut self) -> Problem {
         // Normal equations of the two linear parameters.
         let (mut ss, mut sc, mut cc, mut sx, mut cx) = (0.0, 0.0, 0.0, 0.0, 0.0);

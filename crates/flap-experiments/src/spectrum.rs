@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
-/// Length of the motion padded with zeros, in lengths of the motion. Bins are closer than the resolution of the
-/// spectrum by this factor.
+/// Length of the motion with added zeros, divided by the length of the motion. The distance between bins is smaller
+/// than the resolution of the spectrum by this factor.
 const PADDING: usize = 8;
 
 /// Height of the smallest peak that is returned, relative to the largest peak.
@@ -87,7 +87,7 @@ impl Spectrum {
         peaks.into_iter().map(|(_, peak)| peak).collect()
     }
 
-    /// Returns the height of a local maximum above the lowest amplitude on the way to a higher peak.
+    /// Returns the height of a local maximum above the lowest amplitude between the local maximum and a higher peak.
     ///
     /// The search for the minimum ends at the next amplitude that exceeds the local maximum.
     fn height_towards(&self, top: usize, higher: usize) -> f64 {

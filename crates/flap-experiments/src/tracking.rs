@@ -1,7 +1,7 @@
 //! Stroke and pitch from points tracked in images of a flapping wing.
 //!
-//! Ozaki and Hamaguchi 2018, section 3.2 and (42), (43). Points are in the image plane, which is perpendicular to the
-//! stroke axis. Any unit of length is allowed.
+//! The equations are (42) and (43) of Ozaki and Hamaguchi (2018), section 3.2. Points are in the image plane, which is
+//! perpendicular to the stroke axis. Any unit of length is allowed.
 
 use flap_core::parameter::Invalid;
 
@@ -36,7 +36,7 @@ impl LeadingEdge {
     }
 }
 
-/// Returns the pitch (rad) of a wing with its lower edge at a projected `distance` from its leading edge, (42).
+/// Returns the pitch (rad) of a wing with its lower edge at a projected `distance` from its leading edge, Eq. (42).
 ///
 /// `chord` is the length of the chord at this position.
 ///
@@ -60,14 +60,14 @@ pub fn pitch_from_projection(distance: f64, chord: f64) -> Result<f64, Invalid> 
     Ok(libm::asin(distance / chord))
 }
 
-/// Returns the centre of the stroke's rotation, (43): the point closest to the lines of all leading edges.
+/// Returns the centre of the stroke's rotation, Eq. (43): the point closest to the lines of all leading edges.
 ///
 /// ```text
 /// minimise over p: Σ |e_i × (p − p_tip,i)|²     e_i = (p_root,i − p_tip,i)/|p_root,i − p_tip,i|
 /// ```
 ///
 /// # Errors
-/// If there are fewer than two leading edges, an edge has no direction, or all edges are parallel.
+/// An error if fewer than two leading edges are given, an edge has no direction, or all edges are parallel.
 pub fn rotation_centre(edges: &[LeadingEdge]) -> Result<[f64; 2], Invalid> {
     // With the normals n_i of the lines: Σ n_i n_iᵀ p = Σ n_i n_iᵀ p_tip,i.
     let [mut xx, mut xy, mut yy, mut right_x, mut right_y] = [0.0; 5];

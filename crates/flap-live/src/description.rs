@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::opened::Opened;
 
-/// The parameter along x in the first view, if the model has it.
+/// The parameter along x in the first view, if the model has this parameter.
 const DRIVE_FREQUENCY: &str = "drive_frequency";
 const DRIVE_VOLTAGE: &str = "drive_voltage_pp";
 

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Largest number of stored pairs of page and request kind. Closed pages send no message, so the oldest pairs are
-/// dropped.
+/// Largest number of stored requests: one request per page and kind of request. Closed pages send no message, so the
+/// oldest stored requests are dropped.
 const MOST: usize = 256;
 
 /// The newest request of each kind of each page.
@@ -53,7 +53,7 @@ impl Latest {
         }
     }
 
-    /// No code panics while holding the lock, so a poisoned lock is still usable.
+    /// Locks the list of requests. No code panics while holding the lock, so a poisoned lock is still usable.
     fn lock(&self) -> MutexGuard<'_, VecDeque<Newest>> {
         self.newest.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -87,7 +87,7 @@ impl Opened {
         })
     }
 
-    /// Returns a grid file for the design, or for lines of the design.
+    /// Returns a grid file for the design. `x` and `by` become axes of the grid.
     ///
     /// # Errors
     /// [`Refused::Impossible`] if the plan would have too many rows.
@@ -126,7 +126,8 @@ impl Opened {
         Ok(page)
     }
 
-    /// Returns true if a parameter has the opened value: the design, the axes and the formulas do not change it.
+    /// Returns true if a parameter has the value from the opened file: the design, the axes and the formulas do not
+    /// change it.
     fn is_as_opened(&self, index: usize, design: &Design, axes: &[Option<&str>]) -> bool {
         let name = self.plan.parameters()[index].name;
         !axes.contains(&Some(name))
@@ -252,7 +253,7 @@ fn number(value: &Number) -> String {
     }
 }
 
-/// Returns a mistake in a grid of the page, with the parameter of its line.
+/// Returns a mistake in a grid of the page as a refusal, with the parameter in the line of the mistake.
 fn refused(mistake: &Diagnostic, parameters: &[Parameter]) -> Refused {
     let line = mistake.source.text.lines().nth(mistake.line().saturating_sub(1)).unwrap_or_default();
     let name = line.split('=').next().unwrap_or_default().trim();

@@ -29,7 +29,7 @@ pub(crate) struct Along {
     pub(crate) n: u32,
 }
 
-/// The parameter with a line for each of its values.
+/// The parameter that distinguishes the lines: the page has one line for each value.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct By {
@@ -37,7 +37,7 @@ pub(crate) struct By {
     pub(crate) values: Vec<Number>,
 }
 
-/// The order of a request among the requests of its page: a newer request cancels it.
+/// The order of a request among the requests of its page: a newer request cancels an older request.
 #[derive(Debug, Deserialize)]
 pub(crate) struct RequestOrder {
     /// A text that identifies an open page.
@@ -45,7 +45,7 @@ pub(crate) struct RequestOrder {
     pub(crate) number: u64,
 }
 
-/// Lines of rows.
+/// A request for a family of lines, whose points are rows.
 #[derive(Debug, Deserialize)]
 pub(crate) struct FamilyRequest {
     #[serde(default)]
@@ -54,7 +54,7 @@ pub(crate) struct FamilyRequest {
     pub(crate) by: Option<By>,
 }
 
-/// The numbers of a design, and the derivatives of the measure `gradient`.
+/// A request for the numbers of a design, and for the derivatives of the measure `gradient`.
 #[derive(Debug, Deserialize)]
 pub(crate) struct PointRequest {
     #[serde(default)]
@@ -62,7 +62,7 @@ pub(crate) struct PointRequest {
     pub(crate) gradient: Option<String>,
 }
 
-/// One period of a design's settled motion.
+/// A request for one period of a design's settled motion.
 #[derive(Debug, Deserialize)]
 pub(crate) struct MotionRequest {
     #[serde(default)]
@@ -70,7 +70,7 @@ pub(crate) struct MotionRequest {
     pub(crate) samples: u32,
 }
 
-/// The response of a design to a parameter that rises and falls.
+/// A request for the response of a design to a parameter that rises and falls.
 #[derive(Debug, Deserialize)]
 pub(crate) struct HysteresisRequest {
     #[serde(default)]
@@ -78,7 +78,7 @@ pub(crate) struct HysteresisRequest {
     pub(crate) x: Along,
 }
 
-/// A text that the user can save.
+/// A request for a text that the user can save.
 #[derive(Debug, Deserialize)]
 pub(crate) struct SaveRequest {
     pub(crate) kind: SaveKind,

@@ -17,7 +17,7 @@ pub(crate) struct Columns {
 enum Data {
     Whole(Vec<u64>),
     Number(Vec<f64>),
-    /// 1 for true, 0 for false, -1 for unknown.
+    /// Flags: 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
     /// For each row, the index of the row's word, and the list of words.
     Text(Vec<u32>, Vec<String>),
@@ -135,7 +135,7 @@ pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound
     Ok(dict)
 }
 
-/// Returns a dictionary of the conditions of a plan, each with the number of points that do not satisfy it.
+/// Returns a dictionary of the conditions of a plan, each with the number of points that do not satisfy the condition.
 pub(crate) fn unsatisfied<'py>(py: Python<'py>, unsatisfied: &[Unsatisfied]) -> PyResult<Bound<'py, PyDict>> {
     unsatisfied.iter().map(|known| (&known.condition, known.points)).into_py_dict(py)
 }

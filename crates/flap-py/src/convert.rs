@@ -9,9 +9,8 @@ use pyo3::types::{PyBool, PyString};
 
 /// Returns a finite number from any type that Python's `float` accepts, except text and truth values.
 ///
-/// `TypeError` if `value` has another type, or if reading `value` raises an exception. The message requires `wanted`
-/// for `name`.
-/// `ValueError` if the number is infinite, not a number, or too large.
+/// `TypeError` if `value` has another type, or if reading `value` raises an exception. The message contains the name
+/// `name` and the required type `wanted`. `ValueError` if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_type(name, wanted, value));
@@ -33,8 +32,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
     }
 }
 
-/// Returns the size of an impulse (rad) from a number in rad or text with a unit. The errors are the errors of
-/// [`quantity`], and `ValueError` for more than half a turn.
+/// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than half a turn
+/// is a `ValueError`; other errors are the errors of [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude).map_err(|error| {
@@ -42,8 +41,8 @@ pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     })
 }
 
-/// Returns a number in `unit` from a number or text with a unit. If `takes_text` is false, text is an error, because the name
-/// has another unit.
+/// Returns a number in `unit` from a number or text with a unit. If `takes_text` is false, text is an error, because
+/// `name` contains the unit.
 ///
 /// `TypeError` or `ValueError` as for [`number`]; `ValueError` for text that is not such a quantity.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {

@@ -59,7 +59,7 @@ pub(crate) fn optimise<'py>(
     into_python(py, &problem, &best)
 }
 
-/// `ValueError` for a problem with a mistake.
+/// Returns the `ValueError` for a problem with a mistake.
 fn refused(error: &ProblemError, goal: &str, is_largest: bool, conditions: &[String]) -> PyErr {
     let place = match error.which {
         Which::Plan => String::new(),

@@ -82,7 +82,7 @@ fn refused(parameter: &Parameter, error: &ValueError) -> PyErr {
     })
 }
 
-/// Returns the options in quotes.
+/// Returns the list of options as text, with each option in quotes.
 fn listed(options: &[&str]) -> String {
     options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ")
 }

@@ -61,7 +61,7 @@ pub(crate) fn usual_measure(
     Ok(usual(role, &columns, &taken).map(|place| columns[place].to_owned()))
 }
 
-/// The bands in which two branches differ, and the rows of each branch after which it jumps, as a dictionary.
+/// The bands in which two branches differ, and the rows after which each branch jumps, as a dictionary.
 #[derive(IntoPyObject)]
 pub(crate) struct Ways {
     bands: Vec<(f64, f64)>,

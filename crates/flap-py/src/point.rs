@@ -83,7 +83,8 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the point, or an error if it cannot be run. If rows are computed at hover, searches the inputs of hover.
+    /// Returns the point, or an error if the point cannot be run. If rows are computed at hover, searches for the
+    /// inputs at hover.
     pub(crate) fn at_hover(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;
         let found = interruptible(py, |interrupted| {

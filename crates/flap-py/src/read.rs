@@ -102,8 +102,8 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// Returns the origin in the sidecar, or in the file without a sidecar. The columns of the origin must equal the
-/// columns of the file.
+/// Returns the origin from the sidecar, or from the results file if the sidecar is missing. The columns of the origin
+/// must equal the columns of the file.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
@@ -123,7 +123,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     Some(Origin { plan, flap, build, arithmetic })
 }
 
-/// Returns the columns of a file without an origin; the kind of each is inferred from its cells.
+/// Returns the columns of a file without an origin; the kind of each column is inferred from its cells.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     let mut kinds: Vec<Option<CellKind>> = vec![None; reader.names().len()];
     let mut row = StringRecord::new();

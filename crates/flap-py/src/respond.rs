@@ -23,8 +23,8 @@ struct Judged {
     bands: Vec<Band>,
 }
 
-/// A bistable band: its ends in SI units, and the largest difference of the stroke between the two motions (deg, peak to peak).
-/// The difference is NaN if at no value of the band both motions are periodic.
+/// A bistable band: its ends in SI units, and the largest difference of the stroke between the two motions (deg, peak
+/// to peak). The difference is NaN if the band has no value at which both motions are periodic.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,

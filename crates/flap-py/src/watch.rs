@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 /// The interval between checks. The interval is short for a user, and long compared with the time of a check.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// A watch on the interpreter while work runs without the interpreter lock.
+/// Checks for signals and reports progress while work runs without the interpreter lock.
 pub(crate) struct Watch {
     /// A callback, called with the number of points done and the total number of points.
     progress: Option<Py<PyAny>>,

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use flap_core::simulate::{self, Runner, Simulator};
 
-/// The wing with its three states and their 3 + 9 responses to changes.
+/// The model of the wing: three states, and their 3 + 9 derivatives with respect to the initial state.
 static MOTOR_WING: Runner<motor_wing::MotorWing, 3> = Runner::new(motor_wing::MotorWing);
 
 fn main() -> ExitCode {

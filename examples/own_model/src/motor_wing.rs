@@ -1,4 +1,4 @@
-//! A wing on the shaft of a motor, against a spring. The states are the flap angle, its rate, and the current of the
+//! A wing on the shaft of a motor, with a spring. The states are the flap angle, its rate, and the current of the
 //! motor. The pitch follows the flap rate.
 //!
 //! Park and Abolfathi, "Direct Drive Design and Operational Performance Analysis of an Insect-Sized Flapping-Wing Micro
@@ -29,7 +29,7 @@ pub(crate) use params::Params;
 pub(crate) struct MotorWing;
 
 flap_core::per_lane! {
-    /// Constants of a point: one set per lane.
+    /// Constants of a point; each lane has its own constants.
     pub struct Constants<R> {
         /// Drive voltage.
         pub drive: DriveConstants<R>,
@@ -53,7 +53,7 @@ flap_core::per_lane! {
         pub drag_moment: R,
         /// I₄ (kg·m²): torque on the rotating chord per squared rate.
         pub rotation_moment: R,
-        /// C_α (s): loss of attack angle per rate.
+        /// C_α (s): decrease of the attack angle per flap rate.
         pub attack_slope: R,
     }
 }
@@ -107,7 +107,7 @@ impl Constants<f64> {
 }
 
 impl<R: Real> Constants<R> {
-    /// The attack angle (rad) at a flap rate: a right angle at rest, and no less than half of one.
+    /// The attack angle (rad) at a flap rate: 90° at rest, and at least 45°.
     #[inline(always)]
     fn attack(&self, rate: R) -> R {
         let falling = self.attack_slope.mul_add(-rate.abs(), rate.lit(FRAC_PI_2));
@@ -122,7 +122,7 @@ impl<R: Real> Constants<R> {
         self.lift_moment * coefficient * rate * rate
     }
 
-    /// The torque of the air (N·m), against the motion.
+    /// The torque of the air (N·m), which opposes the motion.
     #[inline(always)]
     fn air_torque(&self, rate: R) -> R {
         let angle = self.attack(rate) * 2.04 + (-0.1714);
@@ -194,7 +194,7 @@ impl Model<3> for MotorWing {
         }
     }
 
-    /// Spring, inertia and inductance give back all that they take.
+    /// Spring, inertia and inductance return all energy that they store.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let &mut Signals { power_air, power_resistive, power_bearing, power_magnetic, .. } = cycle;
         cycle.power.balance(&[power_air, power_resistive, power_bearing, power_magnetic]);

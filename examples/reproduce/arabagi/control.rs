@@ -102,7 +102,8 @@ fn surface() -> Claim {
     )
 }
 
-/// Coefficient of determination of a plane fitted to values on a rectangular grid, where the two directions separate.
+/// Coefficient of determination of a plane fitted to values on a rectangular grid; the two directions are fitted
+/// separately.
 fn planeness(points: &[[f64; 2]], values: &[f64]) -> f64 {
     let along = |axis: usize| {
         straightness(
@@ -112,7 +113,7 @@ fn planeness(points: &[[f64; 2]], values: &[f64]) -> f64 {
     along(0) + along(1)
 }
 
-/// The series stiffness at its critical values.
+/// The claim about critical values of the series stiffness.
 fn series(system: fn() -> System) -> Claim {
     let [soft, base, stiff] = [300.0, 1400.0, 1650.0].map(|series_stiffness| {
         let system = system();
@@ -141,7 +142,8 @@ fn series(system: fn() -> System) -> Claim {
 }
 
 impl System {
-    /// The response to frequencies from half of the lowest on, as far as the largest lift is.
+    /// The response from half of the lowest frequency to 0.75 of the highest frequency; the range contains the largest
+    /// lift.
     fn response_from_low(self) -> Response {
         let [from, to, step] = self.range;
         System { range: [0.5 * from, 0.75 * to, step], ..self }.response()

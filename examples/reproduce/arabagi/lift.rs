@@ -1,4 +1,4 @@
-//! Lift against frequency, and its parts.
+//! Lift against frequency, and the parts of the lift.
 
 use super::{System, straightness, system_30, system_75};
 use crate::claim::{Claim, about, between, said};

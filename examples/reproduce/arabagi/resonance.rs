@@ -102,7 +102,7 @@ pub(super) fn small_motions() -> Vec<Claim> {
     ]
 }
 
-/// The frequency of a peak, or NaN if there are not as many.
+/// The frequency of the peak `index`, or NaN if the response has fewer peaks.
 fn peak(humps: &[f64], index: usize) -> f64 {
     humps.get(index).copied().unwrap_or(f64::NAN)
 }
@@ -120,7 +120,8 @@ fn frequency(
     )
 }
 
-/// Frequencies about the largest stroke between which it is at least 1/√2 of that, interpolated.
+/// The frequencies around the largest stroke between which the stroke is at least 1/√2 of the largest stroke,
+/// interpolated.
 fn half_power_band(response: &Response) -> [f64; 2] {
     let strokes = response.column(STROKE);
     let (peak, point) = response.peak(STROKE);

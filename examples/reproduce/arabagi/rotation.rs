@@ -1,4 +1,4 @@
-//! Rotation alone: the stroke is prescribed, Figs. 8 and 10.
+//! Rotation alone: with a prescribed stroke, Figs. 8 and 10.
 
 use flap_core::drive::StrokeParameters;
 use flap_core::model::four_bar::{Arms, Params};
@@ -15,7 +15,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// A sinusoidal stroke of `amplitude` (deg) prescribed.
+/// The settled motion with a prescribed sinusoidal stroke of `amplitude` (deg).
 fn alone(system: &System, drive_frequency: f64, amplitude: f64, arms: Arms) -> Settled {
     let params = Params {
         stroke: StrokeParameters::prescribed(amplitude.to_radians()),
@@ -26,7 +26,7 @@ fn alone(system: &System, drive_frequency: f64, amplitude: f64, arms: Arms) -> S
     bench().point(params.to_values())
 }
 
-/// Mean lift of the translation and of the added mass (mN).
+/// Mean lift from translation, and mean lift from added mass (mN).
 fn split(point: &Settled) -> [f64; 2] {
     ["lift_translational_mean_mn", "lift_added_mass_mean_mn"].map(|part| point.get(part))
 }
@@ -105,7 +105,7 @@ fn parts() -> Vec<Claim> {
     largest
 }
 
-/// Translational lift in the full simulation over translational lift with a prescribed stroke.
+/// Translational lift in the full simulation divided by translational lift with a prescribed stroke.
 fn growth() -> Claim {
     let system = system_75();
     let full = bench().point(system.params.to_values());

@@ -123,7 +123,7 @@ fn lift_and_drag() -> Vec<Claim> {
     ]
 }
 
-/// Lift over drag at a pitch in degrees.
+/// Lift-to-drag ratio at a pitch in degrees.
 fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
     let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
     c.b_l * sin / (c.b_1 + c.b_2 * cos)
@@ -190,7 +190,7 @@ fn strains() -> Vec<Claim> {
     ]
 }
 
-/// Strain of the plates' outer faces per degree of stroke, peak to peak.
+/// Strain of the plates' outer faces per degree of stroke, both peak to peak.
 fn surface_strain_per_degree(p: &Params) -> f64 {
     let c = constants(p);
     0.5_f64.to_radians() / c.ratio * c.strain_per_tip * c.surface_strain_ratio

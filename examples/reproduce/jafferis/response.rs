@@ -19,14 +19,14 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// T₁, T₂, T₃, each at 160, 180, 200 and 240 V.
+/// The responses of T₁, T₂ and T₃, each at 160, 180, 200 and 240 V.
 type Families = [[Response; 4]; 3];
 
-/// Position of 160 V and of 200 V in a family.
+/// Positions of the responses at 160 V and at 200 V in a family.
 const V_160: usize = 0;
 const V_200: usize = 2;
 
-/// The three regimes of II-A, in volts of T₁.
+/// The three regimes of section II-A, at voltages of T₁.
 fn regimes() -> Vec<Claim> {
     let at = |voltage: f64| response(&transmission(1.0), voltage, [80.0, 160.0]);
     let [low, middle, sharp, high] = [80.0, 140.0, 160.0, 200.0].map(at);
@@ -133,7 +133,7 @@ fn small_peaks() -> Vec<Claim> {
         .into()
 }
 
-/// The effect of a lower transmission ratio, III-A.
+/// The effect of a lower transmission ratio, section III-A.
 fn scaling(families: &Families) -> Vec<Claim> {
     let [t_1, t_2, t_3] = families;
     let mut claims = Vec::new();

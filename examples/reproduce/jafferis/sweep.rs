@@ -1,4 +1,5 @@
-//! Sweeps of the frequency, as the paper measures (7), and the two motions that they find with a soft hinge.
+//! Sweeps of the frequency as in the measurements of the paper, Eq. (7), and the two motions of the sweeps with a soft
+//! hinge.
 
 use flap_core::model::Motions;
 use flap_core::model::bimorph::{Bimorph, Params};
@@ -59,7 +60,8 @@ fn as_settled() -> Claim {
     )
 }
 
-/// With half of the hinge stiffness, the natural frequencies of pitch and stroke are close: there are two motions.
+/// With half of the hinge stiffness, the natural frequencies of pitch and stroke are close, and the wing has two
+/// motions.
 fn soft_hinge() -> Claim {
     let table_1 = table_1();
     let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };

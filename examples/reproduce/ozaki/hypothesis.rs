@@ -10,12 +10,12 @@ use crate::claim::{Claim, measured, said};
 /// Inertia of the leading edge of the small type (kg·m²), with one digit of Table A1 changed.
 const LIGHTER: f64 = 3.39e-9;
 
-/// The hypotheses as ends of statements.
+/// The names of the hypotheses, as last words of statements.
 const SWAPPED: &str = ", with swapped hinge stiffnesses k_w";
 const SMALLER: &str = ", with J_B = 3.39e-9 kg·m² (small type)";
 const BOTH: &str = ", with swapped hinge stiffnesses k_w and J_B = 3.39e-9 kg·m² (small type)";
 
-/// Table A1 with one or both changes.
+/// Table A1 with one change or with both changes.
 struct Variants {
     swapped_small: Type,
     swapped_large: Type,
@@ -47,7 +47,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// Measured resonances.
+/// Claims about measured resonances.
 pub(super) fn driven() -> Vec<Claim> {
     let Variants { swapped_small, swapped_large, lighter_small, both } = variants();
     vec![
@@ -62,7 +62,7 @@ fn lighter(p: &Params) -> Params {
     Params { leading_edge_inertia: LIGHTER, ..p.clone() }
 }
 
-/// Efficiencies at the largest voltages.
+/// Claims about efficiencies at the largest voltages.
 fn efficiencies(hypothesis: &str, small: &Type, large: &Type) -> Vec<Claim> {
     let [s, l] = [small, large].map(|actuator| efficiency(&actuator.performance()[1]));
     vec![

@@ -3,16 +3,16 @@
 use super::{Type, bench, large, small};
 use crate::claim::{Claim, about, closely, said};
 
-/// Impulses (rad), as the amplitude of small undamped motions.
+/// Impulses (rad): each number is the amplitude of the small undamped motion after the impulse.
 const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
-/// Of them, the one whose first stroke peak is nearest to 20 deg for the large type.
+/// Index of the impulse after which the first stroke peak of the large type is nearest to 20 deg.
 const MIDDLE: usize = 1;
-/// Periods of the first mode that the damped sine is fitted to.
+/// Number of periods of the first mode to which the damped sine is fitted.
 const WINDOW: u32 = 4;
 /// Other windows, to show how the frequency depends on the window.
 const LONGER: [u32; 2] = [5, 10];
 
-/// A published frequency (Hz), and how it is shown.
+/// A published frequency (Hz), and its text on the page.
 pub(super) struct Published {
     shown: &'static str,
     frequency: f64,
@@ -23,7 +23,7 @@ pub(super) const LARGE: Published = Published { shown: "109 Hz (109.0 Hz)", freq
 const SMALL_MEASURED: Published = Published { shown: "210 Hz", frequency: 210.0 };
 const LARGE_MEASURED: Published = Published { shown: "105 Hz", frequency: 105.0 };
 
-/// Calculated from an impulse.
+/// Claims about frequencies that the paper calculates from an impulse.
 pub(super) fn calculated() -> Vec<Claim> {
     let [small, large] = [small(), large()];
     let mut claims = by_size(&small, &SMALL);
@@ -77,7 +77,7 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
     IMPULSES.map(claim).into()
 }
 
-/// A claim for the impulse in the middle, with the frequencies after the others.
+/// A claim for the impulse in the middle, followed by the frequencies of the other impulses.
 pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Published) -> Claim {
     let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
     said(
@@ -112,7 +112,7 @@ fn mode(actuator: &Type) -> f64 {
     modes.expect("published parameters are possible")[0].frequency
 }
 
-/// Measured as the frequency of the largest stroke.
+/// Claims about measured resonances, at which the stroke is largest.
 pub(super) fn driven() -> Vec<Claim> {
     vec![
         largest_stroke_of_small("", &small(), [190.0, 202.0]),
@@ -128,8 +128,8 @@ pub(super) fn largest_stroke_of_large(hypothesis: &str, actuator: &Type, range: 
     largest_stroke(hypothesis, actuator, range, &LARGE_MEASURED)
 }
 
-/// At an unknown one of the voltages, so compared with the frequencies between those at the lowest and the highest.
-/// Peaks are looked for within `range`.
+/// The voltage of the measurement is unknown, so the claim compares with the frequencies between the lowest and the
+/// highest voltage. The function searches for peaks within `range`.
 fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
     let [low, high] = actuator.voltages.map(|v_0| {
         let (peak, _) = actuator.response(v_0, range).peak("stroke_amplitude_deg");

@@ -1,4 +1,4 @@
-//! Roll and pitch commanded together.
+//! Simultaneous commands for roll and pitch.
 
 use super::flier::{Flier, torques};
 use crate::claim::{Claim, assumed, between, said};
@@ -7,7 +7,7 @@ use crate::claim::{Claim, assumed, between, said};
 const DIFFERENCES: [f64; 5] = [-40.0, -20.0, 0.0, 20.0, 40.0];
 const BIASES: [f64; 5] = [-20.0, -10.0, 0.0, 10.0, 20.0];
 
-/// A pair of commands (V), and the torques and the lift that they make.
+/// A pair of commands (V), and the resulting torques and lift.
 struct Commanded {
     difference: f64,
     bias: f64,
@@ -147,7 +147,7 @@ fn correlation(xs: &[f64], ys: &[f64]) -> f64 {
     sum(&|a, b| a * b) / (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt()
 }
 
-/// The largest less the smallest.
+/// The largest number minus the smallest number.
 fn range(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
 }

@@ -1,4 +1,4 @@
-//! Damping of the motion of the body.
+//! Damping of the body's motion.
 
 use flap_core::vehicle::{FORCES, TORQUES};
 
@@ -11,7 +11,7 @@ const VELOCITY: f64 = 0.02;
 /// Change of a rate of the body (rad/s) in differences.
 const RATE: f64 = 2.0;
 
-/// Minus the change of a column per unit of a motion of the body, in SI units.
+/// The damping: minus the change of a column per change of a motion of the body, in SI units.
 fn damping(flier: &Flier, column: &str, motion: &'static str, step: f64) -> f64 {
     let sides = flier.settle(&[vec![(motion, step)], vec![(motion, -step)]]);
     let unit = if FORCES.contains(&column) { 1e-3 } else { 1e-6 };

@@ -1,4 +1,4 @@
-//! A torque for each drive.
+//! The drive inputs of a vehicle, and the torque of each input.
 
 use flap_core::drive::Shape;
 
@@ -80,7 +80,7 @@ pub(super) fn claims() -> Vec<Claim> {
     ]
 }
 
-/// The claim about the size of a torque.
+/// A claim about the magnitude of a torque.
 fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     said(SENSOR, format!("predicted {name} {TORQUE}"), "1 to 10 µN·m").is(
         &between(1.0, 10.0),
@@ -89,17 +89,17 @@ fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     )
 }
 
-/// Shares of a difference that are computed beside it.
+/// Fractions of a difference for which the torque is also computed.
 const PARTS: [f64; 3] = [0.5, 0.625, 0.75];
 
-/// Points with a difference of the drives, and with parts of it.
+/// Points with a difference of the drives, and with fractions of the difference.
 fn rolls(pair: &Flier, difference: f64) -> Vec<Settled> {
     let points =
         [1.0].iter().chain(&PARTS).map(|part| vec![("difference_drive_voltage_pp", part * difference)]);
     pair.settle(&points.collect::<Vec<_>>())
 }
 
-/// The roll torques of smaller differences in words, and the lift of the wing with less drive.
+/// The text with the roll torques of smaller differences, and with the lift of the wing with the smaller drive.
 fn with_less(points: &[Settled], difference: f64) -> String {
     let parts = PARTS.iter().zip(&points[1..]);
     let torques = parts
@@ -115,7 +115,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
     )
 }
 
-/// The phase (degrees, in steps of 15) at which a second harmonic makes the largest yaw, and the torques there.
+/// The phase (degrees, in steps of 15) at which a second harmonic makes the largest yaw torque, and the torques at this
+/// phase.
 fn split_cycle() -> (f64, [f64; 3]) {
     let pair = Flier::pair().choose("drive_shape", Shape::Harmonics as usize);
     let phases: Vec<f64> = (0..24).map(|i| 15.0 * f64::from(i)).collect();

@@ -6,7 +6,7 @@ use flap_core::vehicle::{Mount, TORQUES, Vehicle};
 
 use crate::points::{Bench, Settled};
 
-/// Parameters that differ from the vehicle's own, by name.
+/// Values that replace the vehicle's parameters, by name.
 pub(super) type Changes = Vec<(&'static str, f64)>;
 
 /// A vehicle, and the values of its parameters.
@@ -16,7 +16,7 @@ pub(super) struct Flier {
 }
 
 impl Flier {
-    /// A vehicle with these wings of a preset, mirrored or not.
+    /// A vehicle with the wings `wings` of a preset; each wing has a name and is mirrored if `true`.
     pub(super) fn new(name: &str, wings: &[(&str, bool)]) -> Flier {
         let (model, preset) = preset(name).expect("flap has this preset");
         let mounts: Vec<Mount> =
@@ -39,13 +39,13 @@ impl Flier {
         ])
     }
 
-    /// The same with other values.
+    /// The same vehicle with other parameter values.
     pub(super) fn with(mut self, changes: &[(&str, f64)]) -> Flier {
         self.values = self.changed(changes);
         self
     }
 
-    /// The same with an option of a choice.
+    /// The same vehicle with another option of a choice.
     pub(super) fn choose(self, name: &'static str, option: usize) -> Flier {
         self.with(&[(name, f64::from(u32::try_from(option).expect("options are few")))])
     }
@@ -55,12 +55,12 @@ impl Flier {
         self.values[self.place(name)]
     }
 
-    /// A point for each list of changes, settled.
+    /// Returns the settled motion for each list of changes.
     pub(super) fn settle(&self, points: &[Changes]) -> Vec<Settled> {
         self.bench.settle(points.iter().map(|changes| self.changed(changes)).collect())
     }
 
-    /// One point.
+    /// Returns the settled motion for a list of changes.
     pub(super) fn point(&self, changes: &[(&'static str, f64)]) -> Settled {
         self.settle(&[changes.to_vec()]).remove(0)
     }
@@ -78,12 +78,12 @@ impl Flier {
     }
 }
 
-/// Roll, pitch and yaw (µN·m).
+/// Roll, pitch and yaw torque (µN·m).
 pub(super) fn torques(point: &Settled) -> [f64; 3] {
     TORQUES.map(|column| point.get(column))
 }
 
-/// Three torques in words.
+/// Returns three torques as text.
 pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
     format!(
         "roll torque {}, pitch torque {}, yaw torque {} µN·m",

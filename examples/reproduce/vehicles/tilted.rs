@@ -1,14 +1,14 @@
-//! Vehicles of four wings.
+//! Vehicles with four wings.
 
 use nalgebra::{Matrix4, Vector4};
 
 use super::flier::{Flier, rounded, shown, torques};
 use crate::claim::{Claim, said};
 
-/// The wings of four, and which of them are mirrored.
+/// The names of the four wings, each with `true` if the wing is mirrored.
 const WINGS: [(&str, bool); 4] =
     [("front_left", false), ("front_right", true), ("back_left", false), ("back_right", true)];
-/// Their voltages.
+/// The parameters with the voltages of the four wings.
 const VOLTAGES: [&str; 4] = [
     "front_left_drive_voltage_pp",
     "front_right_drive_voltage_pp",
@@ -63,7 +63,7 @@ pub(super) fn claims() -> Vec<Claim> {
     ]
 }
 
-/// Four direct drives around the middle, tilted towards it along x (rad).
+/// Four direct-drive wings around the middle, which are tilted towards the middle along x by `tilt` (rad).
 fn direct_drive(tilt: f64) -> Flier {
     Flier::new("ozaki2018-large", &WINGS).with(&[
         ("front_left_position_x", 10e-3),

@@ -1,4 +1,5 @@
-//! Requests of strangers, and requests that are broken: each gets a proper status, and the server goes on.
+//! Requests from other programs, and broken requests: each request gets a suitable status, and the server keeps
+//! running.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -25,7 +26,7 @@ impl Dice {
     }
 }
 
-/// A text that stands in a file beside the grid, and that no answer may have.
+/// A text in a file beside the grid, which no answer may contain.
 const SECRET: &str = "kept to ourselves";
 
 #[test]
@@ -67,7 +68,7 @@ fn a_thousand_broken_and_foreign_requests() {
     assert_eq!(folder.names(), ["secret.toml"], "nothing is written");
 }
 
-/// The bytes of a request, and the statuses that it may get; none if it may be hung up on.
+/// The bytes of a request, and the allowed statuses; no status if the server may close the connection.
 fn broken(live: &Live, good: &str, dice: &mut Dice, round: usize) -> (Vec<u8>, Vec<u16>) {
     let kind = dice.pick(&["family", "point", "motion", "hysteresis", "save"]);
     let whole = live.request(kind, good);
@@ -190,7 +191,7 @@ fn connections_that_send_half_a_head_do_not_block_others() {
     }
 }
 
-/// Answers that nobody reads fill the buffers of the connection, and the server gives it up.
+/// If nobody reads the answers, the buffers of the connection become full, and the server closes the connection.
 #[test]
 fn connections_that_read_no_answers_do_not_block_others() {
     let folder = Folder::new();

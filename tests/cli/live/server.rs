@@ -43,7 +43,7 @@ impl Live {
         self.exchange(bytes, false)
     }
 
-    /// The answer to bytes behind which the connection is cut off.
+    /// The answer to a request whose connection is closed after `bytes`.
     pub(super) fn cut_off(&self, bytes: &[u8]) -> Option<Answer> {
         self.exchange(bytes, true)
     }
@@ -93,7 +93,7 @@ impl Live {
         serde_json::from_str(data).expect("JSON")
     }
 
-    /// The answer to a request that has one.
+    /// The answer to a request that must have an answer.
     #[track_caller]
     pub(super) fn answer(&self, kind: &str, body: Value) -> Value {
         let (status, answer) = self.ask(kind, body);

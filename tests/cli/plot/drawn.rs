@@ -1,4 +1,4 @@
-//! Drawn pictures, and what they show.
+//! Drawn pictures, and their contents.
 
 use super::count;
 use crate::support::Folder;
@@ -9,7 +9,7 @@ pub(super) struct Drawn {
     pub(super) said: String,
 }
 
-/// Draws into an SVG.
+/// Draws an SVG picture.
 pub(super) fn drawn(folder: &Folder, arguments: &str) -> Drawn {
     let ended = folder.flap(&format!("plot {arguments} --force --out out.svg"));
     assert_eq!((ended.code, ended.stdout.as_str()), (0, ""), "{arguments}\n{}", ended.stderr);
@@ -33,14 +33,14 @@ impl Drawn {
         self
     }
 
-    /// Fails the test unless this was said.
+    /// Fails the test unless the messages contain `text`.
     #[track_caller]
     pub(super) fn says(&self, text: &str) -> &Drawn {
         assert!(self.said.contains(text), "{text} is not in {}", self.said);
         self
     }
 
-    /// Fails the test unless `part` stands in the SVG so many times.
+    /// Fails the test unless the SVG contains `part` exactly `times` times.
     #[track_caller]
     pub(super) fn counts(&self, part: &str, times: usize) -> &Drawn {
         assert_eq!(count(&self.svg, part), times, "{part} in {}", self.svg);

@@ -1,4 +1,4 @@
-//! Pictures of what inputs do to the force and torque of a vehicle.
+//! Pictures of the effects of inputs on the force and torque of a vehicle.
 
 use std::fs;
 

@@ -26,7 +26,7 @@ fn nothing_is_overwritten_unasked() {
     }
 }
 
-/// XML has no place for control characters, and neither has a page.
+/// XML and HTML pages must not contain control characters.
 #[test]
 fn control_characters_in_a_title_are_written_out() {
     let folder = folder();

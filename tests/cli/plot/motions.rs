@@ -83,7 +83,7 @@ fn impossible_designs_are_refused() {
     }
 }
 
-/// A column with the numbers of camera frames does not divide a motion.
+/// A column with the numbers of camera frames does not divide a file into several motions.
 #[test]
 fn numbers_of_frames_name_no_designs() {
     let folder = Folder::new();

@@ -33,7 +33,7 @@ fn bytes(column: &Value) -> Vec<u8> {
     STANDARD.decode(column["data"].as_str().unwrap()).unwrap()
 }
 
-/// The numbers of a column in a page; NaN for none.
+/// The numbers of a column in a page; NaN for empty cells.
 fn numbers(page: &str, name: &str) -> Vec<f64> {
     let column = column(page, name);
     let bytes = bytes(&column);
@@ -136,7 +136,7 @@ fn a_page_of_any_table() {
     assert!(folder.path("both.html").exists() && folder.path("both.png").exists());
 }
 
-/// A page of more rows than it takes says so, and has every second one.
+/// If results have too many rows for a page, the page contains every second row and a note.
 #[test]
 fn pages_of_many_rows_are_thinned() {
     let folder = Folder::new();

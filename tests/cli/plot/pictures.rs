@@ -87,7 +87,7 @@ fn a_front_of_two_measures() {
     ]);
 }
 
-/// Many rings would merge and hide the colours of the points.
+/// The outlines of many points would merge and hide the colours of the points.
 #[test]
 fn a_front_of_many_designs_is_a_line_alone() {
     let folder = Folder::new();
@@ -127,7 +127,8 @@ fn a_hysteresis_loop() {
         .counts("<path", 1);
 }
 
-/// Of several designs, dashed lines are unstable orbits. Without unstable orbits no line is dashed, and no note says so.
+/// In a picture of several designs, dashed lines show unstable orbits. Without unstable orbits, no line is dashed and
+/// the picture has no note.
 #[test]
 fn several_loops_without_unstable_orbits_name_none() {
     let folder = folder();
@@ -143,7 +144,7 @@ fn several_loops_without_unstable_orbits_name_none() {
     assert_eq!((told("stable.csv"), told("both.csv")), (false, true));
 }
 
-/// The choices of a parameter that is an option are on the axis, each with its points.
+/// If the parameter of an axis is a choice, the axis shows the options, each with its points.
 #[test]
 fn an_axis_of_words() {
     let folder = Folder::new();
@@ -168,7 +169,7 @@ fn an_axis_of_words() {
     ]);
 }
 
-/// Curves with frequencies of their own: each fills its stripe, without gaps that nobody left.
+/// Each curve has its own frequencies and fills its stripe of the map without gaps.
 #[test]
 fn a_map_of_refined_responses_has_no_holes() {
     let folder = Folder::new();
@@ -236,7 +237,7 @@ fn slices_are_told() {
     picture.has(&["Drive frequency 120 Hz"]);
 }
 
-/// Each cell has the largest number of the axis that is left out, and stderr names the best cell.
+/// Each cell shows the largest number along the axis that the picture leaves out. stderr names the best cell.
 #[test]
 fn the_best_row_over_an_axis_is_drawn() {
     let folder = folder();
@@ -262,7 +263,7 @@ fn the_best_row_over_an_axis_is_drawn() {
     refuses("--kind map --best-over c --html page.html", "without the choice of --best-over c");
 }
 
-/// Comparisons leave rows out before anything is drawn.
+/// Comparisons select rows before flap draws the picture.
 #[test]
 fn comparisons_choose_rows() {
     let folder = folder();

@@ -5,7 +5,7 @@ use std::fs;
 use super::{folder, refused};
 use crate::support::Folder;
 
-/// Width and height of a PNG, and its pixels per metre, 0 without.
+/// Width and height of a PNG, and its pixels per metre, or 0 if the PNG has no resolution.
 fn pixels(folder: &Folder, name: &str) -> [u32; 3] {
     let bytes = fs::read(folder.path(name)).unwrap();
     let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -51,7 +51,7 @@ fn an_svg_has_its_size_in_millimetres() {
     assert!(sizes.iter().all(|size| ["12", "14"].contains(size)), "{sizes:?}");
 }
 
-/// Numbers along the horizontal axis keep their distance in a narrow picture.
+/// In a narrow picture, the numbers along the horizontal axis do not overlap.
 #[test]
 fn numbers_of_a_narrow_picture_do_not_overlap() {
     let folder = Folder::new();

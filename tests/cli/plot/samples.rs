@@ -57,7 +57,7 @@ fn a_sample_is_a_scatter_of_three_measures() {
     ended.says("draw a sample with --kind scatter");
 }
 
-/// Lines and cells need axes.
+/// Lines and cells need axes, and a sample has none.
 #[test]
 fn a_sample_has_no_lines_and_no_cells() {
     let folder = folder();
@@ -117,7 +117,7 @@ fn a_tornado_has_the_rank_correlations_of_a_sample() {
     assert!(sizes.len() == 3 && sizes[2] > 0.7 && sizes[1] < -0.3 && sizes[0].abs() < 0.14, "{sizes:?}");
 }
 
-/// The sidecar tells which parameters are of the sample; other axes are fixed at their middle value.
+/// The sidecar lists the parameters of the sample; other axes are fixed at their middle value.
 #[test]
 fn a_sample_may_be_crossed_with_an_axis() {
     let folder = Folder::with_grid(
@@ -156,7 +156,7 @@ fn a_scatter_has_colours_for_designs() {
     assert!(!picture.svg.contains(">ozaki2018-large<"));
 }
 
-/// Designs along one axis are a curve, of which a front says nothing.
+/// Designs along one axis are a curve, so a Pareto front would contain no information.
 #[test]
 fn two_measures_along_one_axis_are_no_front() {
     let folder = Folder::new();

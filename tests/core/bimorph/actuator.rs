@@ -9,7 +9,7 @@ use flap_core::model::{Model, Motions};
 use super::params;
 use crate::data::{assert_close, table};
 
-/// The gain of an actuator of this taper and extension, from the force of a plate; (6).
+/// The gain of an actuator with this width ratio and extension ratio, relative to the force of a plate, Eq. (6).
 fn taper_gain(actuator_width_ratio: f64, actuator_extension_ratio: f64) -> f64 {
     let p = Params { actuator_width_ratio, actuator_extension_ratio, ..Params::jafferis2016() };
     let (t_pzt, t_cf) = (p.piezo_thickness, p.shim_thickness);
@@ -52,7 +52,7 @@ fn actuators_without_width_at_one_end_are_refused() {
     }
 }
 
-/// Stiffness of the tip per modulus of the plates, and stiffness that the shim gives (N/m), (3).
+/// Stiffness of the tip per modulus of the plates, and stiffness of the shim (N/m), Eq. (3).
 fn stiffnesses(c: &Constants<f64>, p: &Params) -> [f64; 2] {
     let per_modulus = c.f_stiff * c.u_per_tip / (0.5 * (p.piezo_modulus_max - p.piezo_modulus_min));
     [per_modulus, c.k_soft - per_modulus * p.piezo_modulus_min]
@@ -88,7 +88,7 @@ fn derived_constants_equal_the_reference() {
     assert_close((secant_stiffness(&c, 0.0) - shim) / per_modulus, 38.984e9, 2e-5, "E_e(0)");
 }
 
-/// Section 3 of the text and the caption of Fig. 5.
+/// Transmission ratios in section 3 of the text and in the caption of Fig. 5.
 #[test]
 fn transmissions_scale_as_in_figure_5() {
     let [t_2, t_3] = [params("T2"), params("T3")];
@@ -99,7 +99,7 @@ fn transmissions_scale_as_in_figure_5() {
     assert_close(t_3.hinge_stiffness, 3.172_469_681_760_742_5e-6, 1e-14, "kappa_wh of T3");
 }
 
-/// ln((1 + e^(z₀+u))/(1 + e^z₀)), accurate for small u by its series, for large u by taking out eᵘ.
+/// ln((1 + e^(z₀+u))/(1 + e^z₀)): for small u as a series, for large u with the factor eᵘ outside the logarithm.
 fn expected_stiffening(z_0: f64, u: f64) -> f64 {
     let sigma = 1.0 / (1.0 + (-z_0).exp());
     if u < 1e-5 {

@@ -26,13 +26,13 @@ fn constants() -> Constants<f64> {
     Constants::derive(&params("T1")).unwrap()
 }
 
-/// The model under the voltages of its plates.
+/// The model with the voltages of its plates as input.
 fn probe<'a>(constants: &'a Constants<f64>, plates: &'a [Plate<f64>; 2]) -> Probe<'a, Bimorph> {
     const MODEL: &Bimorph = &Bimorph::SINE;
     Probe { model: MODEL, constants, input: plates, side: 1.0 }
 }
 
-/// Charges of the two plates (C), the reciprocal of (6).
+/// Charges of the two plates (C), which follow from Eq. (6) by reciprocity.
 ///
 /// ```text
 /// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)
@@ -103,7 +103,7 @@ fn accelerations_forces_and_currents_equal_the_reference() {
     println!("largest relative error {:.1e} ({})", largest.0, largest.1);
 }
 
-/// g' and g'' are the derivatives of g, and the currents those of the charges.
+/// g' and g'' are the derivatives of g, and the currents are the derivatives of the charges.
 #[test]
 fn derivatives_of_force_and_charge_are_their_rates() {
     let c = constants();
@@ -145,7 +145,7 @@ fn voltages_are_those_of_eq_7() {
     }
 }
 
-/// The forces of the plates follow from their voltages alone, for every drive of a point.
+/// For every drive, the forces of the plates depend only on the voltages of the plates.
 #[test]
 fn the_drive_acts_through_its_voltages() {
     let p = params("T1");
@@ -200,7 +200,7 @@ fn arithmetic_classes_agree_to_rounding() {
     slopes::assert_classes_agree(&cases(), 0.0);
 }
 
-/// The sign function that the reading `directional` needs is that of the velocity.
+/// The sign function in the reading `directional` is the sign of the velocity.
 #[test]
 fn sign_of_the_velocity_directs_the_attack_angle() {
     let c = constants();
@@ -223,7 +223,7 @@ fn sign_of_the_velocity_directs_the_attack_angle() {
     }
 }
 
-/// Harmonics swing beyond 0 and V_pp; the columns of field and capacitive power follow.
+/// With harmonics, the voltages leave the range from 0 to V_pp, and the columns of field and capacitive power change.
 #[test]
 fn harmonics_widen_the_voltages() {
     let third = |h: f64| Params { waveform: third_harmonic(h), drive_voltage_pp: 100.0, ..params("T1") };

@@ -9,7 +9,7 @@ use super::model;
 use crate::rows::{QUICK, assert_lanes_equal_scalars};
 use crate::waveforms::third_harmonic;
 
-/// Designs, drives and readings in a fixed odd order; every tenth is impossible or blows up.
+/// Designs, drives and readings in a fixed irregular order; every tenth point is impossible or its motion diverges.
 fn points() -> Vec<Vec<f64>> {
     (0..90)
         .map(|i| {

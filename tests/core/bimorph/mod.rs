@@ -29,7 +29,7 @@ pub(crate) fn params(set: &str) -> Params {
     named(set, &["T1", "T2", "T3", "RD"], &sets)
 }
 
-/// The plates under any two voltages. Each voltage is taken as the wave of a drive without a constant part.
+/// The plates with given voltages. Each voltage is the wave of a drive without a constant part.
 pub(crate) fn plates_under<R: Real>(c: &Constants<R>, [first, second]: [Wave<R>; 2]) -> [Plate<R>; 2] {
     let (zero, one) = (c.b.lit(0.0), c.b.lit(1.0));
     let mut c = *c;
@@ -47,9 +47,9 @@ pub(crate) fn driven(p: &Params, record: &Record) -> Params {
 
 /// The settled row of a point.
 ///
-/// The equations have kinks at which a wing's velocities change sign. They make step sizes, and with them the state at the
-/// ends of cycles, jitter with the integration error. Asked for the tightest of these tolerances
-/// that the jitter lets it meet, a point is as settled as it can be.
+/// The equations have kinks at which a wing's velocities change sign. At these kinks, the integration error changes the
+/// step sizes irregularly. The state at the ends of cycles therefore jitters. The function returns the row with the
+/// smallest tolerance that the point meets despite the jitter.
 fn settled(params: &Params, rtol: f64) -> Row {
     let mut last = None;
     for settle_tol in [rtol, 10.0 * rtol, 100.0 * rtol, 1000.0 * rtol] {

@@ -1,4 +1,4 @@
-//! Orbits and transients from any initial state, which a grid file cannot ask for.
+//! Orbits and transients from any initial state, which a grid file cannot set.
 
 use std::ops::ControlFlow;
 
@@ -39,7 +39,7 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
     end
 }
 
-/// The signals over one drive period from `y`, and the right-hand sides evaluated in it.
+/// The signals over one drive period from `y`, and the number of evaluations of the right-hand side in this period.
 pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>, u64) {
     let start = start(p, y);
     let model = Bimorph::default().variant(&p.to_values());

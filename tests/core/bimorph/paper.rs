@@ -1,4 +1,4 @@
-//! Statements of the paper's text, and how much its misprints and what is assumed matter.
+//! Statements of the paper's text, and the effects of its misprints and of our assumptions.
 
 use flap_core::drive::Wave;
 use flap_core::model::bimorph::{
@@ -37,7 +37,7 @@ fn responses<const V: usize>(p: &Params, voltages: [f64; V], from: u32, to: u32)
     })
 }
 
-/// Frequency and value of a column's largest value.
+/// Frequency at which a column is largest, and the largest value.
 fn peak(response: &[(f64, Row)], column: &str) -> (f64, f64) {
     response
         .iter()
@@ -79,7 +79,7 @@ fn transmission_is_as_stiff_as_the_strained_actuator() {
     assert_close(secant_stiffness(&c, 240e-6), c.k_t, 4e-3, "K_t");
 }
 
-/// "the resonance frequency increases roughly according to 1/T", III-A; the hinge's own is higher.
+/// "the resonance frequency increases roughly according to 1/T", III-A; the frequency of the hinge alone is higher.
 #[test]
 fn undamped_resonances() {
     for (set, stroke) in [("T1", 119.9), ("T2", 151.1), ("T3", 203.6)] {
@@ -88,7 +88,7 @@ fn undamped_resonances() {
     assert_close(modes::<Bimorph>(&constants("T1"))[1], 175.9, 1e-3, "hinge");
 }
 
-/// The response to constant voltages: 0.29 degrees per volt from 100 V on, less below the transition.
+/// The response to constant voltages: 0.29 degrees per volt above 100 V, and less below the transition.
 #[test]
 fn deflection_at_dc() {
     let c = constants("T1");
@@ -98,8 +98,8 @@ fn deflection_at_dc() {
     }
 }
 
-/// The model's coefficients are those of Fig. 3 with its largest and smallest drag; the fitted ones of Table I move the
-/// largest lift over drag from 71 to 79 deg.
+/// With the largest and smallest drag of Fig. 3, the model has the coefficients of Fig. 3. With the fitted coefficients
+/// of Table I, the lift-to-drag ratio is largest at 79 deg instead of 71 deg.
 #[test]
 fn coefficients_of_figure_3_and_table_1() {
     let of = |c: &Constants<f64>| Coefficients { lift: c.b_l, drag_mean: c.b_1, drag_swing: c.b_2 };
@@ -118,8 +118,8 @@ fn coefficients_of_figure_3_and_table_1() {
     assert_close(highest(|degrees| table_1.lift_to_drag(degrees)).0, 79.2, 1e-3, "angle");
 }
 
-/// The three regimes of II-A: a broad peak; a broad and a sharp one; a sharp one, higher and lower in frequency
-/// with more voltage.
+/// The three regimes of II-A: one broad peak, a broad and a sharp peak, and one sharp peak. The sharp peak becomes
+/// higher, and its frequency lower, with more voltage.
 #[test]
 fn three_regimes() {
     let column = "stroke_pp_deg_per_v";
@@ -148,7 +148,8 @@ fn steep_rise_begins_at_50_degrees() {
     }
 }
 
-/// "the model predicts small resonance peaks at about 60 Hz and 35 Hz", II-C: a third and a fifth of the hinge's.
+/// "the model predicts small resonance peaks at about 60 Hz and 35 Hz", II-C: a third and a fifth of the hinge's
+/// frequency.
 #[test]
 fn hinge_angle_has_small_peaks_at_35_and_60_hz() {
     let [response] = responses(&params("T1"), [160.0], 30, 70);
@@ -157,8 +158,8 @@ fn hinge_angle_has_small_peaks_at_35_and_60_hz() {
     assert!(humps.iter().any(|f| (f - 58.5).abs() <= 1.5), "{humps:?}");
 }
 
-/// "we expect the mean lift force to scale approximately as 1/T^1.47"; "an increase in lift from 140 mg to ~290
-/// mg", IV. The milligrams-force here are those of g = 9.80665 m/s^2.
+/// "we expect the mean lift force to scale approximately as 1/T^1.47"; "an increase in lift from 140 mg to ~290 mg",
+/// IV. The test converts milligrams-force with g = 9.80665 m/s^2.
 #[test]
 fn lift_grows_as_the_transmission_ratio_falls() {
     let [first, _] = responses(&params("T1"), [160.0, 200.0], 110, 140);
@@ -172,8 +173,8 @@ fn lift_grows_as_the_transmission_ratio_falls() {
     assert_close(lift, 290.0, 5e-3, "T2, 200 V");
 }
 
-/// "a mean lift of 320 mg", "10.3 mg/mW", "2 phi_0 of 92 deg", "the resonance frequency is around 160 Hz", IV:
-/// measured on wings of another shape. The model gives 269 mg, 8.3 mg/mW and 95 deg at 160 Hz.
+/// "a mean lift of 320 mg", "10.3 mg/mW", "2 phi_0 of 92 deg", "the resonance frequency is around 160 Hz", IV. The
+/// numbers were measured on wings of another shape. At 160 Hz the model computes 269 mg, 8.3 mg/mW and 95 deg.
 #[test]
 fn the_redesigned_vehicle() {
     let p = Params::jafferis2016_improved();
@@ -230,7 +231,7 @@ fn sizes_of_what_was_decided() {
     }
 }
 
-/// As printed, Eq. (6) gives no sharp resonance up to 240 V, where the paper has one.
+/// With Eq. (6) as printed, the response up to 240 V has no sharp resonance, but the paper shows a sharp resonance.
 #[test]
 fn the_printed_field_transition_has_no_sharp_resonance() {
     let p = Params { field_transition: FieldTransition::Printed, ..params("T1") };
@@ -242,7 +243,7 @@ fn the_printed_field_transition_has_no_sharp_resonance() {
     assert_eq!(humps(&response, "stroke_pp_deg").len(), 1);
 }
 
-/// Halving the hinge's stiffness brings its frequency to that of the stroke.
+/// With half of the hinge's stiffness, the natural frequency of the hinge is near the natural frequency of the stroke.
 #[test]
 fn a_soft_hinge_meets_the_stroke() {
     let p = params("T1");

@@ -48,7 +48,7 @@ fn tip_energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
     0.5 * (c.stroke_mass * ratio * ratio + c.tip_mass) * y[1] * y[1] + elastic_energy(c, y[0])
 }
 
-/// Energy that the plates' charges have brought in and that is neither elastic nor kinetic (J).
+/// Energy from the plates' charges that is neither elastic nor kinetic energy (J).
 ///
 /// ```text
 /// U = ½C_p (V₁² + V₂²) + (g'V − g)₁ (x − ½bx²) − (g'V − g)₂ (x + ½bx²)
@@ -62,7 +62,7 @@ fn electric_energy(c: &Constants<f64>, plates: &[Plate<f64>; 2], x: f64) -> f64 
 
 const STATES: [Range<f64>; 4] = [-4e-4..4e-4, -0.4..0.4, -1.5..1.5, -1500.0..1500.0];
 
-/// Both presets with their parameters moved by up to 30 %.
+/// Both presets with their parameters changed by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
     let presets = vec![Params::jafferis2016().to_values(), Params::jafferis2016_improved().to_values()];
     let names = "transmission_ratio wing_area hinge_stiffness piezo_thickness \
@@ -74,7 +74,7 @@ fn any_params() -> impl Strategy<Value = Params> {
     })
 }
 
-/// The same with damping, unequal plates, and a transmission whose ratio grows or falls.
+/// Random presets as in [`any_params`], with damping, unequal plates, and a transmission whose ratio grows or falls.
 fn any_robot() -> impl Strategy<Value = Params> {
     (any_params(), -2e9..5e9, 0.7..1.3, 0.0..2e-8, 0.0..0.2).prop_map(
         |(p, transmission_growth, plate_ratio, stroke_damping, stroke_loss_factor)| Params {
@@ -119,7 +119,7 @@ proptest! {
         prop_assert!((rate - work).abs() < 1e-7 * size, "{} against {}", rate, work);
     }
 
-    /// (x, ψ) → −(x, ψ) with the plates swapped mirrors the motion and leaves lift and power alone.
+    /// (x, ψ) → −(x, ψ) with swapped plates mirrors the motion and does not change lift and power.
     #[test]
     fn half_strokes_are_mirror_images(p in any_params(), y in STATES, v in any_voltages(), folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };
@@ -188,7 +188,7 @@ pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
     0.5 * (low + high)
 }
 
-/// At 1 Hz, a hundredth of its resonance, the tip goes where constant voltages would put it.
+/// At 1 Hz, a hundredth of the resonance frequency, the tip follows its position under constant voltages.
 #[test]
 fn slow_motions_are_quasi_static() {
     for (set, voltage) in [("T1", 50.0), ("T1", 200.0), ("T3", 150.0)] {
@@ -222,7 +222,7 @@ fn a_tip_in_vacuum_keeps_its_energy() {
     }
 }
 
-/// Small motions have the natural frequencies of the columns.
+/// Small motions have the frequencies in the columns of natural frequencies.
 #[test]
 fn small_motions_repeat_with_their_natural_frequencies() {
     for set in ["T1", "T2", "RD"] {

@@ -6,7 +6,7 @@ use flap_core::simulate::Row;
 use super::{driven, measure, params, settled};
 use crate::data::{Record, assert_close, table};
 
-/// The operating point of a reference row; the table also lists what the set implies.
+/// The operating point of a reference row; the table also contains the constants that follow from the set.
 fn operating_point(record: &Record) -> Params {
     let p = driven(&params(record.text("set")), record);
     assert_close(p.transmission_ratio, record.number("T_rad_per_m"), 1e-14, &record.name);
@@ -18,7 +18,8 @@ fn operating_point(record: &Record) -> Params {
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 
-/// Our column, the reference's, and the factor from the reference's unit and sign to ours.
+/// flap's column, the reference's column, and the factor from the reference's unit and sign to the unit and sign of
+/// flap.
 #[rustfmt::skip]
 const COLUMNS: [(&str, &str, f64); 20] = [
     ("stroke_pp_deg", "stroke_pp_deg", 1.0),
@@ -57,7 +58,7 @@ fn errors(row: &Row, record: &Record) -> Vec<(f64, &'static str)> {
     errors
 }
 
-/// Compares every case and prints how well it agrees.
+/// Compares every case with the reference and prints the largest error of each case.
 fn compare(rtol: f64, tolerance: f64) {
     let mut worst = 0.0_f64;
     for record in table("bimorph/steady_cases.csv") {
@@ -84,14 +85,15 @@ fn rtol_1e_8_gives_the_reference_to_1e_5() {
     compare(1e-8, 1e-5);
 }
 
-/// The steep flank of the resonance (Floquet multipliers up to 0.8) amplifies the integration's error fivefold,
-/// and so does, in a measure that is small itself, a wing that hardly pitches.
+/// The steep flank of the resonance (Floquet multipliers up to 0.8) amplifies the integration's error five times. In a
+/// small measure, a wing that hardly pitches also amplifies the integration's error.
 #[test]
 fn rtol_1e_6_gives_the_reference_to_3e_4() {
     compare(1e-6, 3e-4);
 }
 
-/// The electrical power into the plates is the power of their forces, and is lost to the stroke's drag.
+/// The mean electrical power of the plates equals the mean power of their forces and the mean power of the stroke's
+/// drag.
 #[test]
 fn electrical_power_is_mechanical_power_is_what_the_drag_takes() {
     let mut worst = 0.0_f64;
@@ -119,7 +121,7 @@ fn orbits_are_symmetric() {
     }
 }
 
-/// The table is compared to 1e-5: a wrong digit in a coefficient changes lift by more.
+/// The tolerance of the table is 1e-5, because a wrong digit in a coefficient changes the lift by more than 1e-5.
 #[test]
 fn a_coefficient_changed_in_its_last_printed_digit_is_noticed() {
     let p = || Params { drive_voltage_pp: 160.0, drive_frequency: 128.0, ..params("T1") };

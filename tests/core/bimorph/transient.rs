@@ -55,7 +55,7 @@ fn the_frequency_sweep_of_eq_7_equals_the_reference() {
     assert!(error < 1e-6, "{error:e}");
 }
 
-/// The same sweep, cycle by cycle.
+/// The frequency sweep of Eq. (7), cycle by cycle.
 #[test]
 fn the_envelope_of_the_frequency_sweep_equals_the_reference() {
     let records = table("bimorph/chirp_envelope_160V.csv");

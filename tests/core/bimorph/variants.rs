@@ -1,4 +1,4 @@
-//! Readings of the paper, and the two motions of a hinge that is too soft, against the reference.
+//! Readings of the paper, and the two motions with a soft hinge, against the reference.
 
 use flap_core::model::bimorph::{ActuatorStiffness, CentreOfPressure, FieldTransition, Params, Signals};
 
@@ -56,7 +56,7 @@ fn orbits_reached_from_rest_equal_the_reference() {
     println!("variants from rest: {worst:.1e}");
 }
 
-/// Every reference orbit is one here, whether or not a motion from rest ends on it.
+/// Every orbit of the reference is an orbit of flap, also if motions from rest settle on another orbit.
 #[test]
 fn orbits_of_the_reference_repeat() {
     for record in table("bimorph/variant_cases.csv") {
@@ -77,8 +77,8 @@ fn orbits_of_the_reference_repeat() {
     }
 }
 
-/// With half the hinge's stiffness, 160 V and 126 Hz, the wing strokes by 114 or by 59 degrees, as it happens:
-/// from rest by 114.
+/// With half the hinge's stiffness, 160 V and 126 Hz, the wing has two orbits, with strokes of 114 and of 59 degrees. A
+/// motion from rest settles on the orbit with 114 degrees.
 #[test]
 fn a_soft_hinge_has_two_motions() {
     let records = table("bimorph/variant_cases.csv");

@@ -88,7 +88,8 @@ fn shape_moments_of_a_rectangle() {
     assert_close(p.midspan_chord.unwrap(), p.mean_chord, 1e-15, "midspan chord");
 }
 
-/// The presets' chords have the moments of Table A1, if the wing's root lies where these moments imply.
+/// The presets' chords have the moments of Table A1, if the wing's root is at the distance that follows from these
+/// moments.
 #[test]
 fn shape_moments_of_the_presets_chords_are_the_printed_ones() {
     for (kind, offset) in [("small", 0.3528), ("large", 0.3613)] {
@@ -110,7 +111,7 @@ fn shape_moments_of_the_presets_chords_are_the_printed_ones() {
     }
 }
 
-/// With blade elements everything comes from the chord, whatever is given for its moments.
+/// With blade elements, flap computes all moments from the chord and ignores given moments.
 #[test]
 fn given_moments_are_not_used_with_blade_elements() {
     let blade = Params { flow_direction: FlowDirection::Blade, ..Params::ozaki2018_large() };
@@ -147,7 +148,7 @@ fn impossible_inertias_are_refused() {
     assert!(error.to_string().contains("not finite"), "{error}");
 }
 
-/// The presets that are hypotheses swap the hinges of Table A1 and nothing else.
+/// The presets with swapped hinges differ from the published presets only in the hinges of Table A1.
 #[test]
 fn swapped_presets_swap_the_hinges() {
     let [small, large] = [Params::ozaki2018_small(), Params::ozaki2018_large()];

@@ -85,7 +85,7 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     }
 }
 
-/// The rate that comes with the switching function is its derivative along the motion.
+/// The rate of the switching function is the derivative of the switching function along the motion.
 #[test]
 fn rate_of_the_mean_velocity_is_its_derivative() {
     for Case { model, constants: c, voltages: [drive], side, y, record } in cases() {
@@ -97,7 +97,7 @@ fn rate_of_the_mean_velocity_is_its_derivative() {
     }
 }
 
-/// Forces and moments of blade elements, element by element as they are defined.
+/// Forces and moments of blade elements, computed element by element from the definition.
 #[test]
 fn blade_elements_add_up_to_the_wing() {
     for Case { model, constants: c, voltages: [drive], y, record, .. } in cases_with(FlowDirection::Blade) {

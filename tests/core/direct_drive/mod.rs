@@ -10,7 +10,7 @@ use flap_core::model::direct_drive::{CentreOfPressure, FlowDirection, Params};
 
 use crate::by_name::named;
 
-/// Whichever way the air flows.
+/// All directions of flow.
 const FLOWS: [FlowDirection; 2] = [FlowDirection::Uniform, FlowDirection::Blade];
 
 /// The parameters of `small` or `large` in the reference tables.

@@ -1,4 +1,4 @@
-//! Lift of a motion that is given, and drives given as samples.
+//! Lift of a given motion, and drives given as samples.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ fn model() -> &'static dyn Simulator {
     by_name("direct-drive").unwrap()
 }
 
-/// Lift from a measured motion, (35): of a reference motion, sampled every 20 µs for two periods.
+/// Lift from a measured motion, Eq. (35): the motion of the reference, sampled every 20 µs for two periods.
 #[test]
 fn lift_of_a_filmed_motion_equals_the_reference() {
     let records = table("direct-drive/traj_small_30V_209Hz_steady.csv");
@@ -49,7 +49,7 @@ fn settings() -> SolverSettings {
     SolverSettings { rtol: 1e-8, atol: 1e-10, settle_tol: 1e-7, ..SolverSettings::default() }
 }
 
-/// A sine as a record of 400 samples is a sine, on scalars and in lanes.
+/// A record with 400 samples of a sine drives the wing as a sine does, on scalars and in lanes.
 #[test]
 fn a_recorded_sine_drives_like_a_sine() {
     let frequency = 109.0;

@@ -29,14 +29,14 @@ fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
         + 0.5 * c.k_w * psi * psi
 }
 
-/// The model in which the air flows as `p` asks.
+/// The model with the flow direction of `p`.
 fn model(p: &Params) -> DirectDrive {
     DirectDrive { flow: p.flow_direction, ..DirectDrive::default() }
 }
 
 const STATES: [Range<f64>; 4] = [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0];
 
-/// Both presets with their parameters moved by up to 30 %.
+/// Both presets with their parameters changed by up to 30 %.
 fn any_params() -> impl Strategy<Value = Params> {
     let presets = vec![Params::ozaki2018_small().to_values(), Params::ozaki2018_large().to_values()];
     let names = "wing_length mean_chord wing_mass hinge_stiffness \
@@ -70,7 +70,7 @@ proptest! {
         prop_assert!((rate - work).abs() < 1e-8 * size, "{rate} against {work}");
     }
 
-    /// (φ, ψ, V) → −(φ, ψ, V) mirrors the motion and leaves lift and power alone.
+    /// (φ, ψ, V) → −(φ, ψ, V) mirrors the motion and does not change lift and power.
     #[test]
     fn half_strokes_are_mirror_images(p in any_params(), y in STATES, volts in -100.0..100.0, folded in prop::bool::ANY) {
         let reading = if folded { CentreOfPressure::Folded } else { CentreOfPressure::Directional };

@@ -35,7 +35,7 @@ fn operating_point(record: &Record) -> Params {
     }
 }
 
-/// Our column, the reference's, and the factor from the reference's unit to ours.
+/// flap's column, the reference's column, and the factor from the reference's unit to the unit of flap.
 const COLUMNS: [(&str, &str, f64); 22] = [
     ("stroke_amplitude_deg", "phi_amp_deg", 1.0),
     ("stroke_mean_deg", "phi_mean_deg", 1.0),
@@ -90,7 +90,7 @@ fn rtol_1e_6_gives_the_reference_to_2e_4() {
     compare(STEADY, |_, p| p, 1e-6, 2e-4);
 }
 
-/// The reference takes 64 blade elements.
+/// The reference has 64 blade elements.
 #[test]
 fn directions_of_flow_give_the_reference() {
     let adapt = |record: &Record, p: Params| match record.text("sgn") {
@@ -101,7 +101,7 @@ fn directions_of_flow_give_the_reference() {
     compare("direct-drive/blade_cases.csv", adapt, 1e-8, 1e-5);
 }
 
-/// Forces of blade elements do not jump: no crossings are located, and fewer steps are taken.
+/// Forces of blade elements do not jump, so flap does not locate crossings and takes fewer steps.
 #[test]
 fn blade_elements_take_fewer_steps() {
     let evals = |direction: FlowDirection| {
@@ -160,7 +160,7 @@ fn readings_of_the_paper_give_the_reference() {
     }
 }
 
-/// The tables are compared to 1e-5: a wrong digit in a coefficient changes lift by more.
+/// The tolerance of the tables is 1e-5, because a wrong digit in a coefficient changes the lift by more than 1e-5.
 #[test]
 fn a_coefficient_changed_in_its_last_printed_digit_is_noticed() {
     let base = run(&Params::ozaki2018_large(), 1e-8, 1e-8);

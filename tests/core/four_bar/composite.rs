@@ -1,4 +1,4 @@
-//! Mass and inertias of a wing made of a membrane, a spar along it and veins across it.
+//! Mass and inertias of a wing made of a membrane, a spar along the span and veins across the wing.
 
 use flap_core::model::four_bar::Params;
 use flap_core::quadrature::gauss_legendre;
@@ -12,7 +12,7 @@ struct Composite {
     membrane: f64,
     /// Mass per length along the span of the spar (kg/m).
     spar: f64,
-    /// Position of the spar in chords behind the rotation axis; negative before it.
+    /// Position of the spar in chords behind the rotation axis; negative before the rotation axis.
     spar_position: f64,
     /// Mass per length of the veins, each of which crosses the whole chord (kg/m).
     vein: f64,
@@ -24,20 +24,20 @@ struct Composite {
 struct Piece {
     mass: f64,
     radius: f64,
-    /// Depths below the rotation axis at which it begins and ends (m).
+    /// Depths below the rotation axis (m) of both ends of the piece.
     depth: [f64; 2],
 }
 
 impl Composite {
-    /// `p` with mass, centre of mass and inertias of a wing made like this, of the planform of `p`.
+    /// `p` with mass, centre of mass and inertias of a wing of these materials with the planform of `p`.
     ///
     /// ```text
     /// m_w = ∫dm     R = ∫r dm/m_w     β = ∫ζ dm/m_w     J_xx = ∫(ζ − β)² dm     J_zz = ∫(r − R)² dm
     /// J_yy = J_xx + J_zz     J_xz = ∫(r − R)(ζ − β) dm
     /// ```
     ///
-    /// r is the distance from the stroke axis, ζ the depth below the rotation axis. The wings of both presets were
-    /// made so; their parameters are rounded.
+    /// r is the distance from the stroke axis, ζ the depth below the rotation axis. The parameters of both presets are
+    /// rounded values of these integrals.
     fn wing(&self, p: &Params) -> Params {
         let pieces = self.pieces(p);
         let mass: f64 = pieces.iter().map(|piece| piece.mass).sum();

@@ -5,7 +5,7 @@ use super::{mass_matrix, params};
 use crate::data::assert_close;
 use crate::probe::modes;
 
-/// The numbers of the reference for the two systems, to its printed digits.
+/// The reference's constants of the two systems, as many digits as the reference prints.
 #[test]
 fn equal_the_reference_to_the_printed_digits() {
     let [p75, p30] = [params("sys75"), params("sys30")];
@@ -152,7 +152,8 @@ fn readings_of_the_arms_agree_without_an_offset() {
     }
 }
 
-/// Each element of a chord is pushed against its own motion, wherever the rotation axis is: (6) and (18) on elements.
+/// Eqs. (6) and (18) hold for each element of a chord, for any position of the rotation axis. The force on an element
+/// is opposite to its motion.
 #[test]
 fn rotation_is_that_of_the_elements_of_a_chord_for_an_axis_off_the_wing() {
     let p = params("sys75");

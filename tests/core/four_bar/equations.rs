@@ -85,7 +85,8 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     println!("largest relative error {:.1e} ({})", largest.0, largest.1);
 }
 
-/// The cases of the table with all sorts of strips side by side, and with pitches beyond 90°.
+/// The cases of the table with different kinds and numbers of strips in neighbouring lanes, and with pitches beyond
+/// 90°.
 fn mixed_cases() -> Vec<Case> {
     let mut cases = cases();
     for (i, case) in cases.iter_mut().enumerate() {
@@ -113,7 +114,7 @@ fn arithmetic_classes_agree_to_rounding() {
     slopes::assert_classes_agree(&cases(), 1e-9);
 }
 
-/// Translational forces and moments as the paper has them: strip by strip, each with its own attack angle.
+/// Translational forces and moments as in the paper: strip by strip, each strip with its own attack angle.
 fn strip_by_strip(p: &Params, y: &[f64; 4], strips: usize) -> [f64; 4] {
     let [_, phi, theta_dot, phi_dot] = *y;
     let [kappa, origin] = match p.arms {
@@ -150,8 +151,8 @@ fn strip_by_strip(p: &Params, y: &[f64; 4], strips: usize) -> [f64; 4] {
     sums
 }
 
-/// The sums over directed strips are the paper's strips, whatever the pitch: 64 strips term by term, and 16 Gauss
-/// nodes as good as 256 strips.
+/// For any pitch, flap's sums over directed strips equal the paper's sums over strips. 64 strips agree term by term,
+/// and 16 Gauss nodes are as accurate as 256 strips.
 #[test]
 fn directed_sums_are_the_sums_of_the_strips() {
     for case in cases() {
@@ -187,7 +188,7 @@ fn directed_sums_are_the_sums_of_the_strips() {
     }
 }
 
-/// The rate that comes with the side is the derivative of its function along the motion.
+/// The rate of the side is the derivative of the switching function along the motion.
 #[test]
 fn rate_of_the_side_is_its_derivative() {
     for case in cases() {
@@ -200,7 +201,7 @@ fn rate_of_the_side_is_its_derivative() {
     }
 }
 
-/// On either side of φ = 0 the equations of motion are the same, and the lift is not.
+/// On both sides of φ = 0 the equations of motion are the same, but the lift changes its sign.
 #[test]
 fn equations_go_on_smoothly_past_the_vertical() {
     let c = Constants::derive(&params("sys75")).unwrap();

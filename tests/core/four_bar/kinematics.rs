@@ -39,7 +39,7 @@ fn equal_the_reference() {
     println!("largest error {largest:.1e}");
 }
 
-/// A function of the stroke, its derivative as computed, and its size.
+/// Functions of the stroke: name, derivative as flap computes it, derivative from differences, and size.
 fn quantities(c: &Constants<f64>, theta: f64) -> [(&'static str, f64, f64, f64); 15] {
     let motion = c.four_bar.motion(theta);
     let links = transmission(c, theta);

@@ -8,8 +8,8 @@ use super::steady::model;
 use crate::rows::{QUICK, assert_lanes_equal_scalars};
 use crate::waveforms::third_harmonic;
 
-/// Designs, drives and readings in a fixed odd order; wings of different numbers of strips side by side; some are
-/// impossible or blow up.
+/// Designs, drives and readings in a fixed irregular order. Wings with different numbers of strips are in neighbouring
+/// lanes. Some points are impossible, or their motion diverges.
 fn points() -> Vec<Vec<f64>> {
     (0..90)
         .map(|i| {

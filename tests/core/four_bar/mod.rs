@@ -47,16 +47,16 @@ fn side(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
     FourBar::default().switch(c, y, y)[0].signum()
 }
 
-/// Moments of the air but for the added mass.
+/// Moments of the air without added mass.
 #[derive(Debug, PartialEq)]
 struct Moments {
-    /// About the stroke axis, of the wing's translation (16).
+    /// Moment about the stroke axis from the wing's translation, Eq. (16).
     stroke: f64,
-    /// About the rotation axis, of its translation (16), (17).
+    /// Moment about the rotation axis from the wing's translation, Eqs. (16) and (17).
     pitch: f64,
-    /// About the stroke axis, of its rotation.
+    /// Moment about the stroke axis from the wing's rotation.
     rotation_stroke: f64,
-    /// About the rotation axis, of its rotation (18).
+    /// Moment about the rotation axis from the wing's rotation, Eq. (18).
     rotation_pitch: f64,
 }
 

@@ -13,7 +13,8 @@ use crate::by_name::scaled;
 use crate::probe::{Probe, modes};
 use crate::span::{self, tolerances};
 
-/// Kinetic energy plus that of hinge, actuator and series spring, less the work of a constant voltage (J).
+/// Kinetic energy of the wing plus elastic energy of hinge, actuator and series spring, minus the work of a constant
+/// voltage (J).
 fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
     let [theta, phi, theta_dot, phi_dot] = *y;
     let links = transmission(c, theta);
@@ -26,7 +27,7 @@ fn energy(c: &Constants<f64>, volts: f64, y: &[f64; 4]) -> f64 {
 
 const STATES: [Range<f64>; 4] = [-1.0..1.0, -3.5..3.5, -200.0..200.0, -800.0..800.0];
 
-/// Both systems with their parameters moved by up to 20 %.
+/// Both systems with their parameters changed by up to 20 %.
 fn any_params() -> impl Strategy<Value = Params> {
     let presets = vec![Params::arabagi2013_75hz().to_values(), Params::arabagi2013_30hz().to_values()];
     let names = "wing_length root_chord wing_mass hinge_stiffness \
@@ -64,7 +65,8 @@ proptest! {
         prop_assert!((rate - work).abs() < 1e-7 * size, "{rate} against {work}");
     }
 
-    /// Rotation takes energy from the wing, and so does translation but for lift on a pitching wing.
+    /// Rotational drag takes energy from the wing. Translational forces take energy from the wing except through the
+    /// lift of a pitching wing.
     #[test]
     fn rotational_drag_always_dissipates(p in any_params(), y in STATES) {
         let c = Constants::derive(&p).unwrap();
@@ -73,8 +75,8 @@ proptest! {
         prop_assert!(still.stroke * y[2] <= 0.0);
     }
 
-    /// (θ̇, φ, φ̇) → −(θ̇, φ, φ̇) mirrors the forces of the air and leaves lift alone. The four-bar is not symmetric, so
-    /// the whole motion is not either.
+    /// (θ̇, φ, φ̇) → −(θ̇, φ, φ̇) mirrors the forces of the air and does not change the lift. The four-bar is not
+    /// symmetric, so the whole motion is not symmetric either.
     #[test]
     fn the_air_treats_both_half_strokes_alike(p in any_params(), y in STATES) {
         let c = Constants::derive(&p).unwrap();
@@ -90,7 +92,7 @@ proptest! {
         prop_assert_eq!(one, other);
     }
 
-    /// V·i = F·δ̇ + d/dt of the energy stored in capacitance and springs: the actuator loses nothing.
+    /// V·i = F·δ̇ + d/dt of the energy stored in capacitance and springs: the actuator has no losses.
     #[test]
     fn the_actuator_loses_nothing(p in any_params(), theta in -1.0..1.0, theta_dot in -200.0..200.0, value in -100.0..100.0, rate in -1e5..1e5) {
         let c = Constants::derive(&p).unwrap();
@@ -135,7 +137,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
     }
 }
 
-/// An impulse on the stroke makes the wing ring at its natural frequencies.
+/// After an impulse on the stroke, the wing oscillates at its natural frequencies.
 #[test]
 fn small_motions_have_the_natural_frequencies() {
     let p = Params {

@@ -53,7 +53,7 @@ fn pitch_and_lift_equal_the_reference() {
     }
 }
 
-/// The pitch on the orbit, too: at the beginning of a period.
+/// The pitch at the beginning of a period also equals the pitch of the reference.
 #[test]
 fn the_orbit_begins_where_the_reference_does() {
     let solver = SolverSettings { rtol: 1e-8, atol: 1e-10, settle_tol: 1e-7, ..SolverSettings::default() };
@@ -76,7 +76,7 @@ fn the_orbit_begins_where_the_reference_does() {
     }
 }
 
-/// Measures of the actuator are not known under a prescribed stroke.
+/// With a prescribed stroke, measures of the actuator are missing.
 #[test]
 fn the_actuator_of_a_prescribed_stroke_is_unknown() {
     let mut p =

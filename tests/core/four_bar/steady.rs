@@ -49,10 +49,11 @@ pub(super) fn wrapped(degrees: f64) -> f64 {
     180.0 - (180.0 - degrees).rem_euclid(360.0)
 }
 
-/// Our column, what the reference has for it in our unit, and the size that errors are relative to.
+/// flap's column, the value of the reference in flap's unit, and the size to which errors are relative.
 ///
-/// Angles, powers and the like are compared relative to themselves. What is small because larger things cancel is
-/// compared to those: means of the angles to their first harmonics, parts of the lift to the sum of their magnitudes.
+/// Errors of angles and powers are relative to the angle or the power. If a small value is a difference of larger
+/// values, the errors are relative to the larger values. For mean angles these are the first harmonics, and for parts
+/// of the lift the sum of their magnitudes.
 fn comparisons(record: &Record) -> Vec<(&'static str, f64, f64)> {
     let number = |column: &str| record.number(column);
     let [stroke, pitch] = ["theta1_rad", "phi1_rad"].map(|column| number(column).to_degrees());
@@ -86,7 +87,7 @@ fn comparisons(record: &Record) -> Vec<(&'static str, f64, f64)> {
     list
 }
 
-/// Runs every case and compares it; prints the largest error and the right-hand sides per cycle.
+/// Runs every case and compares it with the reference; prints the largest error and the right-hand sides per cycle.
 fn compare(rtol: f64, settle_tol: f64, tolerance: f64) {
     let mut largest = (0.0, String::new());
     let mut evaluations = Vec::new();
@@ -108,8 +109,8 @@ fn compare(rtol: f64, settle_tol: f64, tolerance: f64) {
     println!("right-hand sides per cycle: {evaluations:?}");
 }
 
-/// `settle_tol` stays at its default. With less than 3e-7, row 2 does not settle: near the kinks of U|U| a step is
-/// accepted in one cycle and rejected in another, and the state alternates by 5e-7 for ever.
+/// `settle_tol` keeps its default. With less than 3e-7, row 2 does not settle. Near the kinks of U|U| a step is
+/// accepted in one cycle and rejected in the next cycle, so the state alternates by 5e-7.
 #[test]
 fn rtol_1e_8_gives_the_reference_to_1e_5() {
     compare(1e-8, 1e-6, 1e-5);
@@ -131,7 +132,7 @@ fn powers_add_up() {
     }
 }
 
-/// Components of the lift add up, and the extremes lie about the mean.
+/// Components of the lift add up to the lift, and the mean is between the extremes.
 #[test]
 fn lift_is_the_sum_of_its_parts() {
     let row = run(&params("sys75"), 1e-8, 1e-6);
@@ -143,7 +144,7 @@ fn lift_is_the_sum_of_its_parts() {
     assert!(measure(&row, "lift_min_mn") < 0.0 && measure(&row, "lift_max_mn") > parts);
 }
 
-/// Unloaded at V_ref = 0, the actuator's tip stands out by γ V_dc on average, and its field is V/h_p.
+/// Without load at V_ref = 0, the mean displacement of the actuator's tip is γ V_dc, and the field is V/h_p.
 #[test]
 fn actuator_columns_are_what_they_say() {
     let p = Params { drive_voltage_pp: 1.0, drive_frequency: 1.0, ..params("sys75") };
@@ -159,7 +160,7 @@ fn actuator_columns_are_what_they_say() {
     assert_close_to(measure(&nominal, "field_max_v_per_um"), 0.98, 1.0, 5e-3, "field at 150 V + 50 V");
 }
 
-/// The tables are compared to 1e-5: a wrong digit in a coefficient changes lift by more.
+/// The tolerance of the tables is 1e-5, because a wrong digit in a coefficient changes the lift by more than 1e-5.
 #[test]
 fn a_coefficient_changed_in_its_last_digit_is_noticed() {
     let p = Params::arabagi2013_75hz;

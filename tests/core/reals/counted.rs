@@ -1,4 +1,4 @@
-//! The operations of right-hand sides, counted: a change of their cost shows here.
+//! The numbers of operations of right-hand sides. The tests fail if the numbers change.
 
 use std::cell::Cell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -9,7 +9,7 @@ use flap_core::num::{PerLane, Real};
 use super::dual::Dual;
 use super::{BIMORPH, DIRECT_DRIVE, DIRECT_DRIVE_BLADES, FOUR_BAR, GROWING_BIMORPH, values};
 
-/// Numbers of operations. Constants are free, and so are changes of sign, comparisons and selections.
+/// Numbers of operations. Constants, changes of sign, comparisons and selections are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Operations {
     /// Additions and subtractions.
@@ -19,7 +19,7 @@ struct Operations {
     fused: u32,
     quotients: u32,
     roots: u32,
-    /// Elementary functions. Sine and cosine together are one.
+    /// Elementary functions. Sine and cosine of the same argument count as one function.
     functions: u32,
 }
 
@@ -36,11 +36,11 @@ fn operations(work: impl FnOnce()) -> Operations {
     OPERATIONS.get()
 }
 
-/// A number that counts the operations with it.
+/// A number whose operations are counted.
 #[derive(Clone, Copy, Debug)]
 struct Counted(f64);
 
-/// The result of an operation, with its count.
+/// Counts an operation and returns its result.
 fn counted(count: fn(&mut Operations) -> &mut u32, result: f64) -> Counted {
     let mut operations = OPERATIONS.get();
     *count(&mut operations) += 1;
@@ -48,7 +48,7 @@ fn counted(count: fn(&mut Operations) -> &mut u32, result: f64) -> Counted {
     Counted(result)
 }
 
-/// The result of an operation, which is counted in one of the fields.
+/// Counts an operation in one of the fields and returns its result.
 macro_rules! counted {
     ($field:ident, $result:expr) => {
         counted(|operations| &mut operations.$field, $result)
@@ -147,7 +147,7 @@ fn numbers(o: Operations) -> [u32; 6] {
     [o.sums, o.products, o.fused, o.quotients, o.roots, o.functions]
 }
 
-/// Operations of the inputs and of the right-hand side, on numbers made of a counted one by `number`.
+/// Operations of the inputs and of the right-hand side. `number` converts a counted number to a number of type `R`.
 fn counts<M: Model<4>, R: Real>(model: &M, preset: &str, number: fn(Counted) -> R) -> [[u32; 6]; 2] {
     let start = model.start(&values(preset)).unwrap();
     let number = |value| number(Counted(value));
@@ -181,8 +181,8 @@ fn right_hand_sides_take_these_operations() {
     assert_eq!(found, expected);
 }
 
-/// Arithmetic operations and elementary functions of the slopes of a motion with four responses: by dual numbers, and by five
-/// motions.
+/// Operations for the slopes of a motion with four responses, by dual numbers and by five motions. The function counts
+/// arithmetic operations and elementary functions.
 fn costs<M: Model<4>>(model: &M, preset: &str) -> [[u32; 2]; 2] {
     let sum = |o: [u32; 6]| [o[..5].iter().sum(), o[5]];
     let [dual, plain] = [

@@ -1,4 +1,4 @@
-//! Dual numbers: a number with its derivatives along D directions, which every operation carries along.
+//! Dual numbers: numbers with their derivatives along D directions.
 
 use std::array;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -36,7 +36,7 @@ impl<R: Real, const D: usize> Dual<R, D> {
         )
     }
 
-    /// A number with this value, whose derivatives are functions of those of `self` and of their direction.
+    /// A number with this value. `slope` returns a derivative from the derivative of `self` and from its direction.
     #[inline(always)]
     fn with(self, value: R, slope: impl Fn(R, usize) -> R) -> Dual<R, D> {
         let mut slopes = self.slopes;
@@ -250,7 +250,7 @@ impl<R: Real, const D: usize> Real for Dual<R, D> {
     }
 }
 
-/// Functions of one number, and the derivatives that dual numbers give them.
+/// The derivatives that dual numbers compute are the analytical derivatives of functions of one number.
 #[test]
 fn derivatives_of_functions_are_those_of_calculus() {
     let at = |x: f64| Dual::<f64, 1>::along(x, 0, 1.0);

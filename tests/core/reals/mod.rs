@@ -1,4 +1,4 @@
-//! The models on other numbers than lanes: numbers that count operations, and dual numbers.
+//! The models with other types of numbers than lanes: numbers that count operations, and dual numbers.
 
 mod counted;
 mod dual;

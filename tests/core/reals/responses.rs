@@ -18,22 +18,25 @@ use nalgebra::{Matrix4, Vector4};
 use super::dual::Dual;
 use super::values;
 
-/// Parameters along which derivatives are taken. No switching function depends on them.
+/// Parameters along which derivatives are taken. No switching function depends on these parameters.
 const PARAMETERS: [&str; 2] = ["drive_voltage_pp", "hinge_stiffness"];
 
-/// The share by which a parameter is changed: two-sided differences err by about 1e-12 by curvature and 1e-10 by rounding.
+/// The relative change of a parameter. Two-sided differences have errors of about 1e-12 from curvature and 1e-10 from
+/// rounding.
 const CHANGE: f64 = 1e-6;
 
 /// The error of a step, in units of the states' typical sizes.
 const TOLERANCE: f64 = 1e-11;
 
-/// Equal steps per period, before they are halved.
+/// Number of equal steps per period, before the steps are halved.
 const STEPS: u32 = 64;
 
-/// The smallest step as a share of the period: steps are halved down to it at a kink of a force and at the switching surface.
+/// The smallest step, relative to the period. At a kink of a force and at the switching surface, steps are halved until
+/// this size.
 const SMALLEST: f64 = 1e-13;
 
-/// A number with its derivatives: by each initial state in units of its typical size, by each parameter in shares of it.
+/// A number with its derivatives along the initial states, in units of their typical sizes, and along the relative
+/// changes of parameters.
 type Number = Dual<f64, 6>;
 
 /// The states, and the integral of the lift (N·s).
@@ -83,7 +86,7 @@ impl<M: Model<4>> Motion<M> {
         }
     }
 
-    /// The derivatives of a state at time `t`, along parameters too.
+    /// The derivatives of a state at time `t`, also along the parameters.
     fn slopes(&self, t: f64, side: f64, y: &State<Number>) -> State<Number> {
         let (mut dy, _) = slopes(&self.model, &self.constants, t, side, y);
         let y = y.map(|y| y.value);
@@ -106,7 +109,7 @@ impl<M: Model<4>> Motion<M> {
         ahead(&array::from_fn(|i| k1[i] + (k2[i] + k3[i]) * 2.0 + k4[i]), h / 6.0)
     }
 
-    /// The state after `h`, by steps that are halved until two halves agree with the whole and stay on one `side`.
+    /// The state after `h`. The steps are halved until two half steps agree with the whole step and stay on one `side`.
     fn advance(&self, t: f64, h: f64, side: &mut f64, y: &State<Number>) -> State<Number> {
         let middle = self.step(t, 0.5 * h, *side, y);
         let end = self.step(t + 0.5 * h, 0.5 * h, *side, &middle);
@@ -124,7 +127,8 @@ impl<M: Model<4>> Motion<M> {
         slopes(&self.model, &self.constants, t, side, y).1
     }
 
-    /// The state beyond the surface: since the crossing, which is a time with derivatives, it has had the slope of the other side.
+    /// The state beyond the switching surface, with the slope of the new side since the crossing. The time of the
+    /// crossing has derivatives.
     fn crossed(&self, t: f64, side: &mut f64, y: &State<Number>) -> State<Number> {
         let [value, rate] = self.switch(t, *side, y);
         let since = value / rate;
@@ -143,7 +147,7 @@ impl<M: Model<4>> Motion<M> {
         components.fold(0.0, |largest, difference| difference.abs().max(largest))
     }
 
-    /// The end of the period that begins at `y`, and the number of times that it has crossed the switching surface.
+    /// The end of the period that begins at `y`, and the number of crossings of the switching surface in the period.
     fn end(&self, y: &[f64]) -> (State<Number>, u32) {
         let mut state = [Number::constant(0.0); 5];
         for (i, &value) in y.iter().enumerate() {
@@ -161,7 +165,7 @@ impl<M: Model<4>> Motion<M> {
     }
 }
 
-/// The values with a parameter changed by a share of itself.
+/// The values with a relative change of one parameter.
 fn moved<M: Model<4>>(values: &[f64], name: &str, share: f64) -> Vec<f64> {
     let mut values = values.to_vec();
     values[Parameter::index(M::DESCRIPTION.parameters, name).unwrap()] *= 1.0 + share;

@@ -1,4 +1,4 @@
-//! Any text at all: never a panic, and diagnostics that can be shown.
+//! For any text, flap does not panic, and all diagnostics can be printed.
 
 use flap_core::parameter::Kind;
 use flap_sweep::plan::Admission;
@@ -37,7 +37,7 @@ path = 'a.csv'
 columns = ["lift_mean_mn"]
 "#;
 
-/// Scraps that mean something in a grid file.
+/// Pieces of text with a meaning in a grid file.
 const SCRAPS: [&str; 32] = [
     "mean = 0",
     "to = 1",

@@ -1,4 +1,4 @@
-//! Samples that cannot be.
+//! Impossible samples.
 
 use super::check;
 

@@ -32,7 +32,7 @@ pub(crate) struct ChangeArgs {
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// Parameters of --each, with one value of each
+    /// Parameters of --each, with one value per parameter
     #[arg(skip)]
     pub(crate) each: Vec<(String, String)>,
 }

@@ -71,15 +71,15 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// Better direction of the column y in a Pareto picture [default: as for x]
+    /// Better direction of the column y in a Pareto picture [default: as for the column x]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
     /// For a tornado: print and draw the change of the measure if one parameter changes by its standard deviation. flap computes
     /// this change from derivatives and from the sample
     ///
-    /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no such columns, flap computes
-    /// the derivatives at the means of the parameters, with the sidecar of the results.
+    /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no columns of
+    /// [gradient], flap computes the derivatives at the means of the parameters, with the sidecar of the results.
     #[arg(long, conflicts_with = "html")]
     pub(crate) derivatives: bool,
 
@@ -132,7 +132,8 @@ pub(crate) enum PictureKind {
     Response,
     /// A measure as the colour of cells, against two parameters
     Map,
-    /// Two measures of every design as points, coloured by a third column, or by device or preset if there are several
+    /// Two measures of every design as points, coloured by a third column, or by device or preset if the file has
+    /// several devices or presets
     Scatter,
     /// The number of designs in each range of a measure, with the 5th, 50th and 95th percentile
     Histogram,

@@ -22,7 +22,7 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     changes: ChangeArgs,
 
-    /// Run each design with each of these values of a parameter. You can repeat --each
+    /// Run each design with each of the given values of a parameter. You can repeat --each
     ///
     /// Values are separated by commas, as in --each 'drive_voltage_pp=100 V, 150 V, 200 V'.
     #[arg(long, value_name = "NAME=VALUE,...", value_parser = values)]

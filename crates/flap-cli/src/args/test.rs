@@ -206,7 +206,7 @@ pub(crate) struct LiftArgs {
     #[arg(long)]
     pub(crate) periodic: bool,
 
-    /// CSV file for motion and forces over time; `-` prints this table to stdout instead of the summary
+    /// CSV file for motion and forces over time; `-` prints motion and forces to stdout instead of the summary
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -245,7 +245,8 @@ pub(crate) struct TrackArgs {
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     pub(crate) chord: Option<f64>,
 
-    /// CSV file for stroke_deg and pitch_deg over time; `-` prints this table to stdout [default: stdout, in the format of --format]
+    /// CSV file for stroke_deg and pitch_deg over time; `-` prints both angles to stdout [default: stdout, in the
+    /// format of --format]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 

@@ -212,7 +212,7 @@ fn deviations(plan: &Plan) -> String {
 }
 
 /// Returns the parameters that stay the same although they usually change with a varied parameter, and formulas for
-/// these parameters. The text is empty if no parameter stays the same in this way.
+/// these parameters. The text is empty if `linked` is empty.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();

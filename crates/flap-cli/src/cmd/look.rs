@@ -5,7 +5,7 @@ use crate::data::filter::Filters;
 use crate::failure::Failure;
 
 impl LookArgs {
-    /// Returns the failure if no row is left.
+    /// Returns the failure if the file has no rows, or no row satisfies the conditions of --where.
     pub(super) fn no_rows(&self, filters: &Filters) -> Failure {
         let file = self.results.display();
         if self.filters.is_empty() {

@@ -24,7 +24,7 @@ pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// Value of each parameter, in the order of the parameters.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or stroke from a file, if the command line names such a file.
+    /// The model with a waveform or stroke from a file, if the command line contains the name of the file.
     pub(crate) sampled: Option<Box<dyn Simulator>>,
     index: u64,
     /// Indices of the parameters that the command line sets.
@@ -100,7 +100,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// If rows are computed at hover, searches the inputs of hover.
+    /// If rows are computed at hover, searches for the inputs at hover.
     fn find_hover(&mut self) -> Result<(), Failure> {
         let trim = |body: &BodyRows| body.trim(self.plan.solver(), &self.values, &never);
         let Some(found) = self.plan.body().and_then(trim) else { return Ok(()) };
@@ -137,7 +137,7 @@ impl Chosen {
             .map_or_else(|| self.simulator().run_point(&run, None), |body| body.row_at(&run, None))
     }
 
-    /// Sets a parameter. Returns false if the model has no such parameter.
+    /// Sets the parameter `name`. Returns false if the model does not have the parameter.
     pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
         let index = Parameter::index(self.plan.parameters(), name);
         if let Some(index) = index {

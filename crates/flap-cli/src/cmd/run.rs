@@ -1,4 +1,4 @@
-//! `flap run`: one design point, or a few.
+//! `flap run`: runs one or several design points.
 
 use std::fmt::Write as _;
 use std::path::Path;

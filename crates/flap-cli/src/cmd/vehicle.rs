@@ -21,7 +21,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Fraction of a combination below which an input or a component is not listed.
+/// Smallest part of an input or a component in a combination that flap lists, as a fraction of the combination.
 const SMALL: f64 = 0.1;
 
 /// Fraction of the largest singular value below which a combination has no effect.

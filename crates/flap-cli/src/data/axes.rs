@@ -12,12 +12,12 @@ pub(crate) struct Axes {
     pub(crate) columns: Vec<usize>,
     /// True for a sample: most values differ, so the points form no grid.
     pub(crate) sampled: bool,
-    /// Columns among `columns` that stand for a sample.
+    /// Columns among `columns` that represent the parameters of a sample.
     pub(crate) sample: Vec<usize>,
     /// Columns among `columns` that contain words.
     pub(crate) words: Vec<usize>,
     /// All parameters of a sample. Each parameter of a sample has a different value in every row, so the value of one
-    /// parameter determines the values of the others.
+    /// parameter determines the values of the other parameters.
     pub(crate) members: Vec<usize>,
 }
 
@@ -112,8 +112,8 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
     members
 }
 
-/// Returns the kept columns that stand for a sample, from the sidecar. Without a sidecar, returns the columns whose
-/// values look like a sample.
+/// Returns the kept columns that represent the parameters of a sample, from the sidecar. Without a sidecar, returns the
+/// columns whose values look like a sample.
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {

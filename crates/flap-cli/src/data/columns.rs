@@ -44,7 +44,7 @@ pub(crate) enum Cells {
     Numbers(Vec<f64>),
     /// For each row, the index of the word in the row, or [`NO_WORD`] for an empty cell.
     Words { codes: Vec<u32>, words: Vec<String> },
-    /// Not read.
+    /// The cells of the column were not read.
     Unread,
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
 pub(crate) mod tests {
     use super::*;
 
-    /// Returns a table of columns after a first column that counts the rows.
+    /// Returns a table with the columns `columns`, after a first column that counts the rows.
     pub(crate) fn table(columns: &[(&str, &[f64])]) -> Table {
         let rows = columns[0].1.len();
         let column = |name: &str, values: Vec<f64>| Column {

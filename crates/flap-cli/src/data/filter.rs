@@ -57,7 +57,8 @@ impl TextColumn {
         TextColumn { column, name: name.to_owned(), words: RefCell::default() }
     }
 
-    /// Returns the position of the row's word in `wanted`, or the number of wanted words if the word is another one.
+    /// Returns the position of the row's word in `wanted`, or the number of wanted words if `wanted` does not contain
+    /// the word.
     fn place(&self, row: &StringRecord, wanted: &[impl AsRef<str>]) -> usize {
         let word = cell(row, self.column);
         let mut words = self.words.borrow_mut();
@@ -67,7 +68,7 @@ impl TextColumn {
         wanted.iter().position(|wanted| wanted.as_ref() == word).unwrap_or(wanted.len())
     }
 
-    /// Returns a line with the words of the column, if there are words.
+    /// Returns a line with the words of the column, if the column contains words.
     fn advice(&self) -> Option<String> {
         let words = self.words.borrow();
         let more = if words.len() > MOST_WORDS { ", …" } else { "" };
@@ -88,7 +89,7 @@ struct Comparison {
     /// Words in quotes, and the columns that the condition compares with these words.
     words: Vec<String>,
     texts: Vec<TextColumn>,
-    /// The numbers in the first row, of the columns that the comparison uses.
+    /// The numbers in the first row, for the columns that the comparison uses.
     first: OnceCell<Vec<f64>>,
 }
 
@@ -220,7 +221,8 @@ impl Filters {
     }
 }
 
-/// Returns a question for the user if a number without a unit may lack a prefix. `usual` is a number in the column.
+/// Returns a question for the user if a number without a unit may lack the prefix of the unit. `usual` is a typical
+/// number of the column.
 pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);

@@ -8,7 +8,7 @@ use super::columns::{Cells, NO_WORD, Table};
 
 /// The distinct values of a column, and the value in each row.
 pub(crate) struct Levels {
-    /// For each row, the index of the value in the row.
+    /// For each row, the index of the row's value among the distinct values.
     pub(crate) codes: Vec<usize>,
     pub(crate) values: Values,
 }

@@ -96,7 +96,7 @@ impl Source {
         Ok(found)
     }
 
-    /// Takes the plan of the sidecar, if there is one.
+    /// Takes the plan of the sidecar, if the sidecar has a plan.
     pub(crate) fn take_plan(&mut self) -> Option<Plan> {
         self.plan.take()
     }

@@ -19,7 +19,7 @@ pub(super) struct Size {
 /// Text size of ticks, legends and notes, in the units of drawing.
 pub(super) const TEXT: u32 = 12;
 
-/// A narrower picture has its panels below one another.
+/// Width below which panels are below one another, in the units of drawing.
 const NARROW: f64 = 600.0;
 
 impl Size {
@@ -36,7 +36,7 @@ pub(super) struct Canvas {
     pub(super) size: Size,
     /// Pixels of a PNG.
     pub(super) pixels: [u32; 2],
-    /// The size in print, if the user gave one.
+    /// The size in print, if the user set a size in print.
     pub(super) print: Option<Print>,
 }
 

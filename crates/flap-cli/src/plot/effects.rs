@@ -30,7 +30,7 @@ const THICK: f64 = 0.7;
 /// Height of the legend, in the units of drawing.
 const LEGEND: f64 = 22.0;
 
-/// The names of the two ways, with their colours.
+/// The names of the two methods, with their colours.
 const WAYS: [(&str, &str); 2] = [("derivatives", SERIES[0]), ("sample", SERIES[1])];
 
 /// A parameter with its effects on a measure: the changes of the measure for one standard deviation of the parameter.
@@ -38,9 +38,9 @@ struct Effect {
     column: usize,
     /// Standard deviation of the parameter.
     deviation: f64,
-    /// From the derivative; NaN if it is missing.
+    /// The effect from the derivative; NaN if the derivative is missing.
     derivative: f64,
-    /// From the line of least squares through the designs.
+    /// The effect from the least-squares line through the designs.
     sample: f64,
 }
 
@@ -115,7 +115,7 @@ pub(super) fn draw(
     Ok(scene)
 }
 
-/// Draws the names of the two ways with their colours, at the top of the plot.
+/// Draws the names of the two methods with their colours, at the top of the plot.
 fn legend(scene: &mut Scene, frame: &ComputedLayout) {
     /// Side of a coloured square.
     const SIDE: f64 = 10.0;

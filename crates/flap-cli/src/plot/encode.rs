@@ -45,7 +45,7 @@ fn in_print(svg: &str, scene: &Scene, print: Print) -> Result<String, String> {
     Ok(svg[..start].to_owned() + &size + &svg[end..])
 }
 
-/// Returns the format that the ending of a name stands for.
+/// Returns the format for the ending of a file name.
 pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     match ending(out).as_str() {
         "svg" => Ok(Format::Svg),
@@ -73,7 +73,7 @@ const MOST_PIXELS: f64 = 1e8;
 
 /// Returns a picture as PNG.
 ///
-/// It is drawn at double size and averaged, so that lines and points are smooth.
+/// The picture is drawn at double size and averaged, so that lines and points are smooth.
 fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
     // The library rounds up, so a rounding error would add a pixel.
     const LESS: f64 = 1e-2;
@@ -159,7 +159,7 @@ impl Image {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }
 
-    /// Returns the image as PNG. `dpi` is its resolution in print, in pixels per inch.
+    /// Returns the image as PNG. `dpi` is the resolution of the image in print, in pixels per inch.
     fn write(&self, dpi: Option<f64>) -> Result<Vec<u8>, String> {
         let side = |length: usize| u32::try_from(length).map_err(|error| error.to_string());
         let mut png = Vec::new();
@@ -226,8 +226,8 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
     pieces.into_iter().map(line).collect()
 }
 
-/// Removes the text that reads upwards from a scene. Returns this text upright, in a scene as wide as the first scene
-/// is high.
+/// Removes the rotated text from a scene. Returns this text without rotation in a new scene, whose width is the height
+/// of the first scene.
 ///
 /// The library draws rotated letters bold and without smooth edges. A quarter turn to the left moves the text to its place.
 fn take_turned(scene: &mut Scene) -> Option<Scene> {

@@ -25,7 +25,7 @@ impl Columns {
     }
 }
 
-/// Returns the kind and the columns of a picture: as requested, or the defaults for what the user did not request.
+/// Returns the kind and the columns of a picture: as requested, or the defaults if the user did not request them.
 pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let kind = request.args.kind.map_or_else(|| suitable(request, axes), Ok)?;
     refuse_strays(request, kind)?;
@@ -76,7 +76,7 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     Ok(if lines && !colours { PictureKind::Response } else { PictureKind::Map })
 }
 
-/// Returns the kind for two columns of a grid.
+/// Returns the kind of picture for two columns of a grid.
 fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind {
     let is_parameter = |column: usize| (1..request.end).contains(&column);
     match (is_parameter(x), is_parameter(y)) {

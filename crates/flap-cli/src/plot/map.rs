@@ -133,8 +133,8 @@ fn place(axis: &Axis, share: f64) -> f64 {
     if axis.log { low * (high / low).powf(share) } else { low + (high - low) * share }
 }
 
-/// A rectangle of a raster in which all places have the same nearest point. The first column and row are included, the
-/// second are not.
+/// A rectangle of a raster in which all places have the same nearest point. The rectangle includes the first column and
+/// row, but not the second column and row.
 #[derive(Clone, Debug, PartialEq)]
 struct Rectangle {
     columns: [usize; 2],
@@ -195,7 +195,7 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
     Ok(Grid { cells: values.into_iter().enumerate().map(cell).collect(), x: across.axis, y: up.axis })
 }
 
-/// Returns the cells of curves along the first of `columns`, one curve for each value of the second.
+/// Returns the cells of curves along the first of `columns`, one curve for each value of the second column.
 ///
 /// The values of the first column differ from curve to curve in responses, and if only the first column is refined. The
 /// cells of a curve end halfway between the values of this curve.

@@ -105,7 +105,8 @@ fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failu
     }
 }
 
-/// Returns the heading: `--title`, or the file's name. Control characters, which XML forbids, are removed.
+/// Returns the heading: the text of `--title`, or the name of the results file. Control characters, which XML forbids,
+/// are removed.
 fn heading(args: &PlotArgs) -> String {
     let name = || args.results.file_name().map(|name| name.to_string_lossy().into_owned());
     printable(&args.title.clone().or_else(name).unwrap_or_default())
@@ -128,7 +129,7 @@ fn require_html(html: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file all or nothing.
+/// Writes a complete file or no file.
 fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     let written = job::make(path, force, |mut file| file.write_all(bytes).map(|()| None))?;
     written.map_err(|error: std::io::Error| Failure::cannot_write(path, &error))

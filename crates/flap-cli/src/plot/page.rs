@@ -36,7 +36,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     Ok(flap_live::page::results(heading, &data))
 }
 
-/// Returns the first view of the page: the picture with the same arguments, if there is such a picture.
+/// Returns the first view of the page: the picture with the same arguments, if the arguments give a picture.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (request.filters.iter())
         .map(|(column, text)| Ok((request.name(*column).to_owned(), filter(table, *column, text)?)))
@@ -92,7 +92,7 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
     Ok(Start { kind, x: columns.x, y, by, color: columns.color, best, filters })
 }
 
-/// Returns the value of a slice in the form of the file.
+/// Returns the value of a condition as the file contains it.
 fn filter(table: &Table, column: usize, text: &str) -> Result<Value, Failure> {
     let rows = slices::filtered(table, &[(column, text.to_owned())])?;
     Ok(match &table.columns[column].cells {

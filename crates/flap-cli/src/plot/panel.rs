@@ -69,7 +69,7 @@ impl Axis {
         Axis { categories, ..Axis::linear(label, range) }
     }
 
-    /// Returns the word at a place; empty between two words.
+    /// Returns the word at the position `value` of an axis; an empty text between two words.
     fn word(words: &[String], value: f64) -> String {
         let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
         (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())

@@ -123,7 +123,7 @@ impl<'a> Request<'a> {
         self.args.x_aim.is_some() || self.args.y_aim.is_some()
     }
 
-    /// Returns the column of `--option`. If there is no column, the failure contains the reason.
+    /// Returns the column of `--option`. If the column is missing, the failure contains the reason `why`.
     pub(super) fn required(&self, option: &str, column: Option<usize>, why: &str) -> Result<usize, Failure> {
         column.ok_or_else(|| self.lacks(format!("--{option} is not given, and {why}")))
     }

@@ -20,7 +20,7 @@ const MOST_LINES: usize = 16;
 /// Largest number of points in a line.
 const MOST_POINTS: usize = 4000;
 
-/// The radius of points over words.
+/// The radius of points if the horizontal axis has words.
 const WORD_SIZE: f64 = 4.0;
 
 /// Draws column `y` over column `x`.

@@ -72,8 +72,8 @@ pub(super) fn is_log(values: &[f64]) -> bool {
     values.windows(2).all(|two| ((two[1] / two[0]).ln() - step).abs() < 1e-6 * step)
 }
 
-/// Returns at most about `most` points of a line, in their order: the ends and the extremes of each stretch, so that peaks
-/// remain.
+/// Returns at most about `most` points of a line, in their order. The function keeps the ends and the extremes of each
+/// part of the line, so that peaks remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();

@@ -90,7 +90,7 @@ impl Points {
         Ok(Points { rows, places, extent, shown, missing })
     }
 
-    /// Returns the note about rows without a place; `None` if there are none.
+    /// Returns the note about rows without a place in the picture; `None` if all rows have a place.
     pub(super) fn note(&self) -> Option<String> {
         let all = self.rows.len() + self.missing;
         (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))

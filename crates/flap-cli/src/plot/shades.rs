@@ -26,8 +26,8 @@ impl Shades {
         is_signed(self.range.0, self.range.1)
     }
 
-    /// Returns the colour of a number. With both signs, negative numbers are blue, positive numbers red, and equal
-    /// sizes equally strong. Without both signs, the lightness rises evenly.
+    /// Returns the colour of a number. If the range has both signs, negative numbers are blue, positive numbers are
+    /// red, and equal magnitudes are equally strong. If all numbers have the same sign, the lightness rises evenly.
     pub(super) fn colour(&self, value: f64) -> String {
         let (low, high) = self.range;
         if self.is_signed() {

@@ -24,7 +24,7 @@ const MOST_POINTS: usize = 8000;
 /// The angles, given as the first parts of the column names.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
-/// Largest number of motions in a picture: more cannot be distinguished.
+/// Largest number of motions in a picture. More motions cannot be distinguished.
 const MOST_MOTIONS: usize = 16;
 
 /// Draws one motion with its phase portrait, or several motions over time.
@@ -167,9 +167,9 @@ fn one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failur
 /// The arrangement of panels.
 #[derive(Clone, Copy, PartialEq)]
 enum Arrangement {
-    /// Beside one another.
+    /// The panels are beside one another.
     Beside,
-    /// Below one another.
+    /// The panels are below one another.
     Below,
 }
 
@@ -230,8 +230,8 @@ fn figure(
     figure.render()
 }
 
-/// Returns `names` with at most `most` letters each: an ellipsis replaces their common beginning and the middle of long
-/// names. Names that are equal after that get a number.
+/// Returns `names` with at most `most` letters each. An ellipsis replaces their common beginning and the middle of long
+/// names. Shortened names that are equal get a number.
 fn shortened(names: &[&str], most: usize) -> Vec<String> {
     let letters: Vec<Vec<char>> = names.iter().map(|name| name.chars().collect()).collect();
     if letters.iter().all(|name| name.len() <= most) {

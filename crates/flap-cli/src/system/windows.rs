@@ -12,7 +12,7 @@ use windows_sys::core::BOOL;
 
 use crate::failure::Exit;
 
-/// Flag that an event of the Windows console sets, such as Ctrl-C.
+/// Flag that an event of the Windows console, such as Ctrl-C, sets.
 static STOP: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// Longest time that Windows waits before it ends a process whose console is closed.

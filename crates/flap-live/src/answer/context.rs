@@ -28,7 +28,7 @@ pub(super) fn failed(error: &RunError) -> Refused {
     Refused::Fault(error.to_string())
 }
 
-/// Returns the reason why there is no motion.
+/// Returns the reason why a motion could not be computed.
 pub(super) fn unfinished(reason: Unfinished) -> Refused {
     match reason {
         Unfinished::Interrupted => Refused::Superseded,

@@ -32,7 +32,7 @@ pub(crate) struct Numbers {
     published_modes: Option<Vec<Mode>>,
     /// Derivatives of a measure, in falling order of magnitude.
     gradient: Option<Vec<Slope>>,
-    /// The reason why there are no derivatives.
+    /// The reason why the derivatives are missing.
     gradient_reason: Option<String>,
 }
 

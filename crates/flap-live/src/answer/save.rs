@@ -7,7 +7,7 @@ use super::context::AnswerContext;
 use super::python;
 use crate::request::{Along, Refused, SaveKind, SaveRequest};
 
-/// A text, and the name of the file for the text.
+/// A text, and the name of the file in which the user saves the text.
 #[derive(Serialize)]
 pub(crate) struct Saved {
     name: &'static str,

@@ -29,7 +29,7 @@ flap_core::parameters! {
 
         /// Length of the wing beyond its base.
         wing_length: f64 = ("m", "L_e", Number(Positive)),
-        /// Chord at the root; from there it shrinks to nothing at the tip as a quarter of an ellipse.
+        /// Chord at the root; the chord decreases to zero at the tip as a quarter of an ellipse.
         root_chord: Option<f64> = ("m", "L_c", Following(Positive, "a third of wing_length")),
         /// Length of the base between the wing's two sides, with the shaft at its middle.
         base_length: f64 = ("m", "L_b", Number(NonNegative)),
@@ -47,7 +47,7 @@ flap_core::parameters! {
         membrane_thickness: f64 = ("m", "t_m", Number(NonNegative)),
         /// Density of the air.
         air_density: f64 = ("kg/m^3", "rho", Number(NonNegative)),
-        /// Attack angle that the wing loses per flap rate, down to half a right angle.
+        /// Decrease of the attack angle per flap rate; the attack angle is at least 45°.
         attack_slope: f64 = ("s", "C_alpha", Number(NonNegative)),
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Description {
     pub(super) best: Vec<Best>,
 }
 
-/// The number of rows of a status.
+/// The number of rows with a status.
 #[derive(Serialize)]
 pub(super) struct Count {
     pub(super) status: String,

@@ -110,7 +110,7 @@ fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     ))
 }
 
-/// Returns a note if the table of chords has another area than the outline.
+/// Returns a note if the area of the table of chords differs from the area of the outline.
 fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     let is_chord = |name: &str| name.strip_prefix("chord_").is_some_and(|rest| rest.parse::<usize>().is_ok());
     let chords = parameters.iter().filter(|(name, _)| is_chord(name)).map(|(_, chord)| *chord);

@@ -83,7 +83,7 @@ impl Values {
         })
     }
 
-    /// Returns true if this is the value of a parameter in a preset of the model.
+    /// Returns true if a preset of the model has the value `value` of the parameter.
     fn is_published(&self, parameter: usize, value: f64) -> bool {
         self.robot.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
     }

@@ -36,8 +36,8 @@ pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     }
 }
 
-/// The result of `work`. The progress counts `units`, and signals stop the work. `None` if the work was stopped or has
-/// no start.
+/// The result of `work`. The progress counts `units`, and signals stop the work. `None` if the work was stopped, or if
+/// no computed point has a periodic motion.
 pub(super) fn watched<T, E>(
     args: &OptimiseArgs,
     units: &'static str,

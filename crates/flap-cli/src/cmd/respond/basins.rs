@@ -42,7 +42,7 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// Returns the basins of a design for a terminal.
+/// Returns the basins of a design as a table for a terminal.
 fn table(plan: &Plan, along: &Along, curve: &Curve, basins: &[Basin]) -> String {
     let varied = plan.axes().varied();
     let varied = varied.map(|index| assignment(&plan.parameters()[index], curve.design.values[index]));

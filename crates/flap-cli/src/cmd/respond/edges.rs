@@ -15,7 +15,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, assignment, six_digits};
 
-/// Measure in the table in a terminal.
+/// The measure that the table in a terminal contains.
 const STROKE: &str = "stroke_pp_deg";
 
 /// Prints the edges of each design of a plan that follows a parameter.
@@ -61,7 +61,7 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// Returns the texts of both parameters, beginning with the second parameter.
+    /// Returns both parameters, the second parameter first.
     fn parameters(&self) -> [&Parameter<'_>; 2] {
         [self.second.parameter, self.along.parameter].map(|index| &self.plan.parameters()[index])
     }

@@ -39,7 +39,7 @@ pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path,
     Ok((path, format))
 }
 
-/// Keeps the motion of the wings when the body moves.
+/// Keeps the motion of the wings unchanged when the body moves.
 pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
     let index = find_parameter(chosen.plan.parameters(), RESPONSE)?;
     let frozen = point::value(&chosen.plan.parameters()[index], "--frozen", "frozen")?;

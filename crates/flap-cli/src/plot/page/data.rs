@@ -40,7 +40,7 @@ pub(super) struct Start {
     pub(super) color: Option<usize>,
     /// The better directions of x and y, such as `1,-1`; empty for a view without a Pareto front.
     pub(super) best: String,
-    /// Values of slices, by column.
+    /// The values of the conditions on rows, by column.
     #[serde(rename = "where")]
     pub(super) filters: BTreeMap<String, Value>,
 }
@@ -54,7 +54,7 @@ pub(super) enum Kind {
     Map,
 }
 
-/// The value of a slice.
+/// The value of a condition.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum Value {
@@ -80,7 +80,7 @@ struct Column<'a> {
     /// The words for the codes 0, 1, …; the code after the last word stands for an empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     words: Option<&'a [String]>,
-    /// The values for the codes 0, 1, …; no value stands for an empty cell.
+    /// The values for the codes 0, 1, …; null stands for an empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<Vec<f64>>,
 }

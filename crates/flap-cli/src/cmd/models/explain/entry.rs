@@ -17,7 +17,7 @@ pub(super) struct Entry {
     models: Vec<&'static str>,
     /// Text that follows the list of models.
     rest: String,
-    /// Indented lines.
+    /// The meaning of the name, which is printed as indented lines.
     pub(super) text: String,
 }
 
