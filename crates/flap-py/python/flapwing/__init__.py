@@ -3,7 +3,7 @@
 `presets` lists published designs, and `params` lists the parameters of a design. `run` simulates one design,
 `trajectory` returns the motion of a design, and `resonance` returns the resonances. `sweep` runs a whole grid, and
 `evaluate` runs a batch of points. `respond` follows designs up and down along the drive frequency or any other
-parameter. `chirp` simulates a drive with a changing frequency, and `impulse` a free motion. `track_wing` and
+parameter. `chirp` simulates a drive with a changing frequency, and `impulse` simulates a free motion. `track_wing` and
 `forces_along` process the motion of a filmed wing. `fit` fits parameters to readings, `compare` compares fits, and
 `select` chooses free parameters. `fit_coefficients` fits the laws of lift, drag and centre of pressure to a table.
 `optimise` finds the best design within the axes of a grid. `wrench_map` fits a quadratic map of the forces and torques

@@ -74,7 +74,7 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     design : str, path, dict or Grid
         A preset, a device, a grid, or the name of a model. The design determines the names of the fitted parameters.
     table : str, path, Table, data frame or mapping of columns
-        The column `attack_deg` or `attack_rad` contains attack angles from 0 to 90°, at least four different ones. At
+        The column `attack_deg` or `attack_rad` contains attack angles from 0 to 90°, at least four different angles. At
         least one of three columns is required: `lift_coefficient`, `drag_coefficient`, or `pressure`, the centre of
         pressure. In `bimorph`, the centre of pressure is the distance behind the hinge's axis in mean wing widths, like
         the parameter `pressure_min`. In `direct-drive` and `four-bar`, the centre of pressure is the distance behind
@@ -88,11 +88,12 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     Raises
     ------
     ValueError
-        The design is unknown, or the model of the design has other laws of lift and drag. A column is missing, an angle
-        is not between 0 and 90°, a number is not finite, or columns differ in length. The table has too few angles, or
-        the angles do not determine a law. The lift requires three different angles between 0 and 90°, without the ends.
+        Raised if the design is unknown, or the model of the design has other laws of lift and drag. Raised if a column
+        is missing, an angle is not between 0 and 90°, a number is not finite, or columns differ in length. Raised if
+        the table has too few angles, or the angles do not determine a law. The lift requires three different angles
+        between 0 and 90°, excluding 0 and 90°.
     TypeError
-        The table is neither text, nor a path, nor a set of columns.
+        Raised if the table is neither text, nor a path, nor a set of columns.
 
     Examples
     --------
@@ -152,8 +153,8 @@ def _check_angles(name: str, columns: Array) -> None:
 def _solve(columns: Array, values: Array, least: int) -> Array:
     """Return the least-squares solution, in which the first `least` unknowns are not negative.
 
-    The constrained solution is an unconstrained solution in which some of these unknowns are zero, so all sets of zeros
-    are tried.
+    The constrained solution is an unconstrained solution in which some of the first `least` unknowns are zero.
+    Therefore all sets of zero unknowns are tried.
     """
     solutions = []
     for positive in product((True, False), repeat=least):

@@ -28,7 +28,7 @@ class Column(NamedTuple):
 
     @property
     def is_flag(self) -> bool:
-        """True if the column contains flags: True, False or unknown."""
+        """True if the column contains flags, which are True, False or unknown."""
         return self.words is None and self.cells.dtype == np.int8
 
     def values(self) -> np.ndarray[Any, Any]:
@@ -102,8 +102,8 @@ def to_arrow(columns: Columns, meta: Meta) -> pyarrow.Table:
 
 
 def _origin(meta: Meta) -> dict[str, str]:
-    """Return the entries of `meta` as text, because every file format can store text. Entries that are not text become
-    JSON.
+    """Return the entries of `meta` as text, because every file format can store text. Entries that are not text are
+    written as JSON.
     """
     return {
         name: value if isinstance(value, str) else json.dumps(value, default=_plain) for name, value in meta.items()

@@ -423,7 +423,8 @@ def scattered(name: str) -> ValueError:
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:
-    """Return values as a list for a sentence. From a long list, values in the middle are left out."""
+    """Return values as text for a sentence, separated by commas. From a long list, values in the middle are left
+    out."""
     texts = [value if isinstance(value, str) else f"{value:.12g}" for value in values]
     if len(texts) > 12:
         texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]

@@ -58,8 +58,8 @@ def evaluate(
         `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
         the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
-        of finished points, and the number of all points.
+        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
+        numbers: the number of finished points, and the number of all points.
     client : executor, optional
         Run the points on the workers of an executor, as for `sweep`. With and without `client`, the rows are the same.
     points_per_task : int, optional
@@ -77,7 +77,7 @@ def evaluate(
         The state in which each motion begins, at the start of a drive period. The columns of `initial_state` are the
         components of the state (see `states`), with one row per point. Each column's name ends in the unit of the
         column. If a row of `initial_state` contains nan, the motion of the row's point begins at rest. If a design has
-        several orbits, the state determines the orbit that is found. The default of `initial_state` is rest.
+        several orbits, the state determines the orbit that is found. By default, the motion begins at rest.
     return_states : bool, optional
         If True, the table also has columns with the state of the motion at the beginning of a drive period. You can
         pass the table as `initial_state` of the next call.
@@ -99,11 +99,12 @@ def evaluate(
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown. Columns have different lengths or masked values. A parameter is
-        a column and also a keyword. A parameter of a model is missing. Derivatives are requested with respect to a
-        choice, a whole number or a derived parameter. A grid with mistakes raises GridError.
+        Raised if a preset, parameter, option or unit is unknown. Raised if columns have different lengths or masked
+        values. Raised if a parameter is a column and also a keyword. Raised if a parameter of a model is missing.
+        Raised if derivatives are requested with respect to a choice, a whole number or a derived parameter. A grid with
+        mistakes raises GridError.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

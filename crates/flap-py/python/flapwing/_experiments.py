@@ -52,10 +52,10 @@ def chirp(
     Raises
     ------
     ValueError
-        An argument is invalid (see `run`). With the given sign of `rate`, the drive frequency cannot reach `stop` from
-        `start`, or the motion diverges.
+        Raised if an argument is invalid (see `run`). Raised if the drive frequency cannot reach `stop` from `start`
+        with the given sign of `rate`, or the motion diverges.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------
@@ -108,10 +108,10 @@ def impulse(
     Raises
     ------
     ValueError
-        An argument is invalid (see `run`). The impulse is zero, or the impulse is more than half a turn, or the
-        duration is zero.
+        Raised if an argument is invalid (see `run`). Raised if the impulse is zero, or the impulse is more than half a
+        turn, or the duration is zero.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------
@@ -166,12 +166,12 @@ def forces_along(
     Raises
     ------
     ValueError
-        An argument is invalid (see `run`). A column is missing or has values that are not finite numbers, or the times
-        do not increase.
+        Raised if an argument is invalid (see `run`). Raised if a column is missing or has values that are not finite
+        numbers, or the times do not increase.
     OSError
-        The file cannot be read.
+        Raised if the file cannot be read.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------
@@ -203,8 +203,8 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     points : path or columns
         The tracked points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns of
         `points` are `root_x`, `root_y`, `tip_x` and `tip_y`, which are the coordinates of two points of the leading
-        edge. The column of the time is `time_s` (or `time_ms`). The pitch also requires `edge_x` and `edge_y`, the
-        coordinates of a point on the lower edge.
+        edge. The column of the time is `time_s` (or `time_ms`). For the pitch, `points` also requires the columns
+        `edge_x` and `edge_y`, which are the coordinates of a point on the lower edge.
     chord : float, optional
         Length of the chord from the leading edge to the point on the lower edge: more than 0. The unit of `chord` is
         the unit of the coordinates. The table has the column `pitch_deg` only if `chord` is given.
@@ -218,12 +218,12 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     Raises
     ------
     ValueError
-        A column is missing or has values that are not finite numbers. All leading edges are parallel. In an image, the
-        distance between lower edge and leading edge is larger than the chord.
+        Raised if a column is missing or has values that are not finite numbers. Raised if all leading edges are
+        parallel. Raised if the distance between lower edge and leading edge in an image is larger than the chord.
     OSError
-        The file cannot be read.
+        Raised if the file cannot be read.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

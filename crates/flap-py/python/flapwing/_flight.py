@@ -43,8 +43,8 @@ def fly(
     A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The vector x has nine states:
     the means of the body's velocities, rates and angles over the last wing beat.
 
-    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. An example is an input
-    that leaves its range.
+    If the simulation cannot continue, the table ends early and a UserWarning gives the reason. For example, the table
+    ends early if an input leaves its range.
 
     Parameters
     ----------
@@ -88,10 +88,10 @@ def fly(
     Raises
     ------
     ValueError
-        The design is no vehicle, or a mass property is missing or impossible. A state or an input is unknown, or the
-        shape of `gains` is wrong. The motion of the wings is not periodic.
+        Raised if the design is no vehicle, or a mass property is missing or impossible. Raised if a state or an input
+        is unknown, or the shape of `gains` is wrong. Raised if the motion of the wings is not periodic.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

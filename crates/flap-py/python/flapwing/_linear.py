@@ -24,7 +24,7 @@ class LinearModel:
     Attributes
     ----------
     A, B, C, D : arrays
-        The matrices of the state space. `C` is the identity and `D` is zero.
+        The matrices of the state-space model. `C` is the identity matrix, and `D` is the zero matrix.
     damping : array, 6 × 6
         The derivatives of mean force (N) and mean torque (N m) with respect to the velocity (m/s) and the rates (rad/s)
         of the body.
@@ -86,7 +86,7 @@ class LinearModel:
         Raises
         ------
         ImportError
-            python-control is not installed.
+            Raised if python-control is not installed.
         """
         try:
             import control

@@ -27,8 +27,8 @@ def params(design: Design, /) -> dict[str, Parameter]:
     Raises
     ------
     ValueError
-        `design` is neither the name of a preset or a model, nor a readable file. A device or a grid with mistakes
-        raises GridError.
+        Raised if `design` is neither the name of a preset or a model, nor a readable file. A device or a grid with
+        mistakes raises GridError.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        The same designs and models as for `params`.
+        A design or a model, as for `params`.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Raises
     ------
     ValueError
-        The design or model is invalid, as for `params`.
+        Raised if the design or model is invalid, as for `params`.
 
     Examples
     --------
@@ -77,8 +77,7 @@ def states(design: Design, /) -> dict[str, State]:
     Parameters
     ----------
     design : str, path, dict, Grid or Vehicle
-        The same designs and models as for `params`. A vehicle has the states of each wing, with the wing's name as a
-        prefix.
+        A design or a model, as for `params`. A vehicle has the states of each wing, with the wing's name as a prefix.
 
     Returns
     -------
@@ -88,7 +87,7 @@ def states(design: Design, /) -> dict[str, State]:
     Raises
     ------
     ValueError
-        The design or model is invalid, as for `params`.
+        Raised if the design or model is invalid, as for `params`.
 
     Examples
     --------

@@ -95,9 +95,9 @@ class Live:
         Raises
         ------
         ImportError
-            anywidget is not installed: ``pip install anywidget``.
+            Raised if anywidget is not installed (``pip install anywidget``).
         ValueError
-            The height is 0 or less.
+            Raised if the height is 0 or less.
         """
         try:
             import anywidget
@@ -158,9 +158,9 @@ def live(
     Raises
     ------
     ValueError, GridError, TypeError
-        An argument is invalid (see `run`), or the port is not from 1 to 65535.
+        Raised if an argument is invalid (see `run`), or the port is not from 1 to 65535.
     OSError
-        The port is in use.
+        Raised if the port is in use.
 
     Examples
     --------

@@ -12,7 +12,7 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """The error for an unknown name. You can catch this error as a KeyError or as a ValueError."""
+    """The error for an unknown name. You can catch an `UnknownName` error as a KeyError or as a ValueError."""
 
     def __str__(self) -> str:
         # Without this, a KeyError shows its message in quotes on one line.

@@ -21,7 +21,7 @@ class NativeColumn(TypedDict):
 
 
 class NativeSummary(TypedDict, total=False):
-    """Counts of the rows and points of a run. The dictionary is empty if all rows of the run already existed in the
+    """Counts of the rows and points of a run. `NativeSummary` is empty if all rows of the run already existed in the
     file."""
 
     rows: int
@@ -221,7 +221,7 @@ class NativeColours(TypedDict):
 
 
 class NativeWays(TypedDict):
-    """Bands in which the branches up and down differ, and the rows after which a branch jumps."""
+    """Bands in which the rising and the falling branch differ, and the rows after which a branch jumps."""
 
     bands: list[tuple[float, float]]
     up: list[int]
@@ -239,7 +239,7 @@ class NativeBars(TypedDict):
 
 
 class NativeIdentity(TypedDict):
-    """The identity of a process, which determines the bits of the rows that the process computes."""
+    """The build and the arithmetic of a process, which determine the last bits of the computed rows."""
 
     build: str
     arithmetic: str

@@ -32,8 +32,8 @@ def optimise(
 
     The search first computes the points of the grid. In a second stage, the search improves the best points step by
     step, with the derivatives of the measures. The search can choose any value between the smallest and the largest
-    value of an axis. Options and whole numbers can have only the values of the grid. Parameters that change together
-    can also have only the values of the grid. Every motion begins at rest, as in a sweep.
+    value of an axis. Options, whole numbers, and parameters that change together can have only the values of the grid.
+    Every motion begins at rest, as in a sweep.
 
     Parameters
     ----------
@@ -56,9 +56,9 @@ def optimise(
         Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
         change the result.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
-        of finished points and starts, and the number of all points and starts. With `client`, the whole search is one
-        step of the progress.
+        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
+        numbers: the number of finished points and starts, and the number of all points and starts. With `client`, the
+        whole search is one step of the progress.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The search runs on one of the workers of the executor.
     **keywords : float or str
@@ -73,10 +73,10 @@ def optimise(
     Raises
     ------
     ValueError
-        An expression or a condition has a mistake. No parameter varies in the grid. No point of the grid has a periodic
-        motion. A grid with mistakes raises GridError.
+        Raised if an expression or a condition has a mistake. Raised if no parameter varies in the grid. Raised if no
+        point of the grid has a periodic motion. A grid with mistakes raises GridError.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

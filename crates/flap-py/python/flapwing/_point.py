@@ -54,11 +54,11 @@ def run(
         The index of a point in the grid, counted from 0. If the grid has more than one point, `point` is required.
     initial_state : dict, Table or DataFrame, optional
         The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
-        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components that are not given are zero. You can
-        also give a row that has columns of the states, such as ``trajectory(…)[-1:]``. A row with states is a Table, a
-        DataFrame, a dictionary or a row of a DataFrame. If a state in the given row is nan, the motion begins at rest.
-        If the design has several orbits, the state determines the orbit that is found. The default of `initial_state`
-        is rest.
+        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components of the state that are not given are
+        zero. You can also give a row that has columns of the states, such as ``trajectory(…)[-1:]``. A row with states
+        is a Table, a DataFrame, a dictionary or a row of a DataFrame. If a state in the given row is nan, the motion
+        begins at rest. If the design has several orbits, the state determines the orbit that is found. By default, the
+        motion begins at rest.
     waveform : path, tuple or columns, optional
         One period of the drive waveform, which replaces the parameter `drive_shape`. A CSV file or columns (a
         dictionary, Table or DataFrame) have `time_s` (or `time_ms`) and `wave`. You can also give a pair of arrays: the
@@ -98,9 +98,9 @@ def run(
         the motion settles. Newton's iteration takes fewer drive periods, and finds the orbit on which the motion
         settles. The default of `newton` is True.
     progressive : bool, optional
-        If True, the search for the orbit begins at looser tolerances and ends at rtol. If False, the whole search is at
-        rtol, which takes about twice the work. The orbit does not depend on `progressive`. The default of `progressive`
-        is True.
+        If True, the search for the orbit begins at looser tolerances and ends at `rtol`. If False, the whole search
+        uses the tolerance `rtol`, which takes about twice the work. The orbit does not depend on `progressive`. The
+        default of `progressive` is True.
     symmetry : bool, optional
         If True, and if the second half of an orbit mirrors the first half, only half of each period is integrated. If
         False, whole periods are always integrated. The orbit does not depend on `symmetry`. The default of `symmetry`
@@ -118,13 +118,13 @@ def run(
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown. A value is out of range, infinite or not a number. A grid has
-        several points, but `point` is not given. The error message has the most similar known name and the allowed
-        values.
+        Raised if a preset, parameter, option or unit is unknown. Raised if a value is out of range, infinite or not a
+        number. Raised if a grid has several points, but `point` is not given. The error message has the most similar
+        known name and the allowed values.
     TypeError
-        An argument has the wrong type, such as text for a tolerance or a number for an option.
+        Raised if an argument has the wrong type, such as text for a tolerance or a number for an option.
     IndexError
-        The grid has no point with the index `point`.
+        Raised if the grid has no point with the index `point`.
 
     Examples
     --------
@@ -200,10 +200,10 @@ def trajectory(
     Raises
     ------
     ValueError
-        An argument is invalid (see `run`). The combination of parameter values is impossible, or the motion does not
-        settle.
+        Raised if an argument is invalid (see `run`). Raised if the combination of parameter values is impossible, or
+        the motion does not settle.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------
@@ -281,9 +281,9 @@ def resonance(
     Raises
     ------
     ValueError
-        An argument is invalid (see `run`). The combination of parameter values is impossible.
+        Raised if an argument is invalid (see `run`). Raised if the combination of parameter values is impossible.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

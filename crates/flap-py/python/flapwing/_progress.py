@@ -11,8 +11,8 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield the function that reports progress. The arguments of the function are the number of finished points and the
-    number of all points. Yield None if no progress is shown.
+    """Yield the function that reports progress. The arguments of the progress function are the number of finished
+    points and the number of all points. Yield None if no progress is shown.
     """
     if callable(progress):
         yield progress

@@ -45,7 +45,7 @@ def respond(
         The parameter that rises and falls. The default of `parameter` is ``"drive_frequency"``.
     start, stop, step : float or str, optional
         First value, last value and step of the followed parameter: numbers in SI units, or text with units. The
-        defaults are the values of the parameter's axis in the grid.
+        defaults of `start`, `stop` and `step` are the values of the parameter's axis in the grid.
     tolerance : float or str, optional
         Longest allowed step of the followed parameter at the ends of bistable bands and where the response is steep.
         The default of `tolerance` is a sixteenth of the shortest step.
@@ -60,8 +60,8 @@ def respond(
         `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
         the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
-        of finished designs, and the number of all designs.
+        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
+        numbers: the number of finished designs, and the number of all designs.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). Each task of the workers follows one design. With and without
         `client`, the rows are the same.
@@ -72,18 +72,19 @@ def respond(
     -------
     Table
         One row per motion. The columns of the table are `curve` (number of the design), the parameters of the design,
-        `branch` (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. After `status` come the
-        column `bistable` (true if the rising and the falling branch have different motions) and the measures.
+        `branch` (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. The column `bistable`
+        (true if the rising and the falling branch have different motions) and the measures come after `status`.
         `Table.verdicts` has the verdict on each design, and ``meta["parameter"]`` is the name of the followed
         parameter.
 
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown. The range from `start` to `stop` has no steps. The followed
-        parameter is a choice, or varies together with a second parameter. A grid with mistakes raises GridError.
+        Raised if a preset, parameter, option or unit is unknown. Raised if the range from `start` to `stop` has no
+        steps. Raised if the followed parameter is a choice, or varies together with a second parameter. A grid with
+        mistakes raises GridError.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------
@@ -156,8 +157,8 @@ def edges(
         Step of the second parameter. With `edge_step`, the table has only cusps, turns, ends of edges, and points at
         multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed points.
     start, stop, step : float or str, optional
-        First value, last value and step of the first parameter, as for `respond`. The defaults are the values of the
-        first parameter's axis in the grid.
+        First value, last value and step of the first parameter, as for `respond`. The defaults of `start`, `stop` and
+        `step` are the values of the first parameter's axis in the grid.
     tolerance : float or str, optional
         Longest allowed step of the first parameter at the ends of bistable bands, as for `respond`.
     threads : int, optional
@@ -178,10 +179,11 @@ def edges(
     Raises
     ------
     ValueError
-        A preset, parameter, option or unit is unknown. The range has no steps, or the design's value of the second
-        parameter is not between `edge_start` and `edge_stop`. A grid with mistakes raises GridError.
+        Raised if a preset, parameter, option or unit is unknown. Raised if the range has no steps, or the design's
+        value of the second parameter is not between `edge_start` and `edge_stop`. A grid with mistakes raises
+        GridError.
     TypeError
-        A value has the wrong type.
+        Raised if a value has the wrong type.
 
     Examples
     --------

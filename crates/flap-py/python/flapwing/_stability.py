@@ -61,8 +61,9 @@ def hover_eigenvalues(
     Raises
     ------
     ValueError
-        A column of the damping matrix is missing, or `body_inertia` has not three entries. An argument is not a number
-        or an array with a number for each row. The inertia of the body is not positive definite.
+        Raised if a column of the damping matrix is missing, or `body_inertia` has not three entries. Raised if an
+        argument is not a number or an array with a number for each row. Raised if the inertia of the body is not
+        positive definite.
     """
     columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
     missing = [name for line in columns for name in line if name not in rows]

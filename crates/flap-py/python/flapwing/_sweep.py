@@ -50,8 +50,8 @@ def sweep(
         `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
         the rows.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
-        of finished points, and the number of all points.
+        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
+        numbers: the number of finished points, and the number of all points.
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
         with the method `result`. For example, `client` can be an executor of `concurrent.futures`, submitit or mpi4py,
@@ -59,7 +59,7 @@ def sweep(
         the rows have the same order and the same bytes. If a worker of a Dask cluster dies, other workers run the
         points of the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker
         whose processor rounds numbers differently also raises an error, because the last bits of the rows could differ.
-        The process of the caller runs the points of ``[refine]``.
+        The points of ``[refine]`` run in the process that calls `sweep`.
     points_per_task : int, optional
         Number of points in a task of `client`, 1 or more. The default of `points_per_task` is at most 2,048 points for
         each thread of a task. A task of the default size takes a few seconds. If each task is a job of a queue, set a
@@ -83,19 +83,21 @@ def sweep(
     Raises
     ------
     GridError
-        The grid has mistakes. The error message lists each mistake with the line of the mistake, the allowed values and
-        the most similar known name. GridError is a ValueError.
+        Raised if the grid has mistakes. The error message lists each mistake with the line of the mistake, the allowed
+        values and the most similar known name. GridError is a ValueError.
     FileExistsError
-        `restart` is not given, and `out` has complete rows of a different grid or is not a result file.
+        Raised if `restart` is not given, and `out` has complete rows of a different grid or is not a result file.
     OSError
-        A file cannot be read or written.
+        Raised if a file cannot be read or written.
     ValueError
-        `out` cannot be continued, because the unfinished rows in `out` belong to a different grid or were changed. A
-        preset, parameter, option, unit or measure is unknown. A keyword is a parameter that the grid varies or derives.
+        Raised if `out` cannot be continued, because the unfinished rows in `out` belong to a different grid or were
+        changed. Raised if a preset, parameter, option, unit or measure is unknown. Raised if a keyword is a parameter
+        that the grid varies or derives.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
     KeyboardInterrupt
-        Ctrl-C was pressed. Rows in `out` are kept, and the same call continues the sweep.
+        Raised if Ctrl-C was pressed. After Ctrl-C, the rows in `out` are kept, and the same call of `sweep` continues
+        the sweep.
 
     Examples
     --------
@@ -172,10 +174,10 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Raises
     ------
     OSError
-        The file cannot be read.
+        Raised if the file cannot be read.
     ValueError
-        The file is not a table of results, or the file is damaged. For a damaged file, the error message gives the
-        place of the damage.
+        Raised if the file is not a table of results, or the file is damaged. For a damaged file, the error message
+        gives the place of the damage.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise _mistakes.refused("path", path, "it must be the path of a file of results")

@@ -68,8 +68,8 @@ class Table:
     ----------
     axes : list of dict
         The axes of the grid. Along the rows, the last axis varies fastest. The dictionary of an axis has the parameters
-        that vary together along the axis, with the values of all these parameters. The arrays of values are read-only.
-        `axes` is empty if the rows do not come from a grid with axes.
+        that vary together along the axis, with the values of all these parameters. The arrays of the parameter values
+        are read-only. `axes` is empty if the rows do not come from a grid with axes.
     meta : dict
         The origin of the rows. The entries are `flap` (version), `build` (a hash of the sources), `model`, `preset`,
         `solver`, `arithmetic` and `grid` (the text of the grid file). Further entries are `counts` (number of rows by
@@ -256,8 +256,8 @@ class Table:
         """Return the table as an Arrow table. Numbers share memory with the table, and unknown values are null.
 
         The metadata of the fields have the units and meanings of the columns. The metadata of the schema have the
-        entries of `meta`, as ``flapwing.build``, ``flapwing.grid`` and so on. Entries that are not text become JSON.
-        Parquet files keep the metadata of the fields and of the schema.
+        entries of `meta`, as ``flapwing.build``, ``flapwing.grid`` and so on. Entries that are not text are written as
+        JSON. Parquet files keep the metadata of the fields and of the schema.
         """
         return _columns.to_arrow(self._columns, self.meta)
 

@@ -58,8 +58,8 @@ class Wing(_Entries):
     Raises
     ------
     TypeError
-        An argument has the wrong type. All mistakes except wrong types are reported by `Vehicle`, with the place of
-        each mistake.
+        Raised if an argument has the wrong type. All mistakes except wrong types are reported by `Vehicle`, with the
+        place of each mistake.
 
     Examples
     --------
@@ -119,10 +119,10 @@ class Vehicle(_Entries):
 
     A vehicle is a mapping with the entries of a grid file that has the table ``[vehicle]``. If you add tables such as
     ``axes`` to the mapping, the mapping is a grid. A parameter NAME of the model applies to all wings. The parameter
-    ``left_NAME`` applies only to the wing with the name `left`. ``difference_NAME`` is the value for left wings minus
-    the value for right wings. For wings that are not mirrored, half of ``difference_NAME`` is added to NAME. For
-    mirrored wings, half of ``difference_NAME`` is subtracted from NAME. The model leaves out aerodynamic interaction
-    between wings. The body axes are x forward, y to the left, and z up.
+    ``left_NAME`` applies only to the wing with the name `left`. The parameter ``difference_NAME`` is the value of NAME
+    for left wings minus the value of NAME for right wings. For wings that are not mirrored, half of ``difference_NAME``
+    is added to NAME. For mirrored wings, half of ``difference_NAME`` is subtracted from NAME. The model leaves out
+    aerodynamic interaction between wings. The body axes are x forward, y to the left, and z up.
 
     Parameters
     ----------
@@ -138,10 +138,10 @@ class Vehicle(_Entries):
         The mass of the whole vehicle, which determines the column `lift_to_weight`: a number in kilograms, or text such
         as ``"85 mg"``.
     trim : str, optional
-        If `trim` is ``"hover"``, each design is computed at hover: flap searches the inputs at which the lift equals
-        the weight and all torques are zero. The rows of a trimmed vehicle also have the inputs. Two further columns
-        describe the mode of motion about hover that grows fastest: the growth rate and the period. `trim` requires
-        `total_mass`.
+        If `trim` is ``"hover"``, each design is computed at hover: flap searches for the inputs at which the lift
+        equals the weight and all torques are zero. The rows of a trimmed vehicle also have the inputs. Two further
+        columns describe the mode of motion about hover that grows fastest: the growth rate and the period. `trim`
+        requires `total_mass`.
     damping : bool
         If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the rates
         of the body.
@@ -149,14 +149,14 @@ class Vehicle(_Entries):
     Raises
     ------
     GridError
-        The entries of the vehicle have mistakes. The error message lists each mistake with the place of the mistake,
-        the allowed values and the most similar known name.
+        Raised if the entries of the vehicle have mistakes. The error message lists each mistake with the place of the
+        mistake, the allowed values and the most similar known name.
     ValueError
-        `design` already has a vehicle.
+        Raised if `design` already has a vehicle.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
     OSError
-        A device file cannot be read.
+        Raised if a device file cannot be read.
 
     Examples
     --------
@@ -232,8 +232,8 @@ class Vehicle(_Entries):
         Raises
         ------
         ValueError
-            A mass property is missing or impossible, an input is unknown, or the motion of the wings is not periodic.
-            `trim` is true, but the vehicle hovers at no values of the inputs near the point.
+            Raised if a mass property is missing or impossible, an input is unknown, or the motion of the wings is not
+            periodic. Raised if `trim` is true, but the vehicle hovers at no values of the inputs near the point.
 
         Examples
         --------

@@ -263,7 +263,7 @@ def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
 
 
 def _column(parts: list[NativeColumn]) -> NativeColumn:
-    """Join one column of all parts of a batch. The parts can have different lists of words."""
+    """Join one column of all parts of a batch. The parts of a text column can have different lists of words."""
     cells = [one["cells"] for one in parts]
     if parts[0]["words"] is None:
         return {**parts[0], "cells": np.concatenate(cells)}

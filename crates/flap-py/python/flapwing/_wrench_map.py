@@ -52,11 +52,11 @@ class WrenchMap:
     largest_error : array of shape (6,)
         Largest error of each component on the rows that were left out of the fit, in mN and µN·m.
     rows : dict of str to int
-        Number of rows in the fit (``"fitted"``), and number of rows that were left out of the fit (``"left_out"``). For
-        each further status, the number of rows without a periodic motion.
+        Number of rows in the fit (``"fitted"``), and number of rows that were left out of the fit (``"left_out"``). The
+        further keys are the statuses of rows without a periodic motion, with the number of rows.
     floquet_max : float
-        Largest Floquet multiplier of all rows. If the multiplier is more than 0.7, the ranges of the inputs are near a
-        steep part of the response.
+        Largest Floquet multiplier of all rows. If the largest multiplier is more than 0.7, the ranges of the inputs are
+        near a steep part of the response.
     """
 
     inputs: list[str]
@@ -90,9 +90,9 @@ class WrenchMap:
         Raises
         ------
         ValueError
-            The last dimension is not the number of inputs.
+            Raised if the last dimension is not the number of inputs.
         TypeError
-            `inputs` contains values that are not numbers.
+            Raised if `inputs` contains values that are not numbers.
         """
         with _mistakes.reading("inputs", inputs, "it must be numbers in SI units, one for each input"):
             values = np.asarray(inputs, dtype=np.float64)
@@ -123,9 +123,9 @@ def wrench_map(
 ) -> WrenchMap:
     """Fit a quadratic map from the inputs of a vehicle to the vehicle's mean force and mean torque.
 
-    Model-predictive controllers can use the map. The map is a least-squares fit to rows of the vehicle. The rows are
-    spread over the ranges of the inputs. Every fifth row is left out of the fit, and these left-out rows test the
-    accuracy of the map.
+    Model-predictive controllers can use the map. The map is a least-squares fit to computed rows of the vehicle. The
+    rows are spread over the ranges of the inputs. Every fifth row is left out of the fit, and these left-out rows test
+    the accuracy of the map.
 
     A UserWarning reports a map with large errors, rows without a periodic motion, a steep response, or an input without
     effect.
@@ -138,8 +138,8 @@ def wrench_map(
         Smallest and largest value of each input: numbers in SI units, or text with units. The inputs are parameters of
         the vehicle, or the words ``"amplitude"``, ``"bias"``, ``"frequency"``, ``"second_harmonic"``,
         ``"second_phase"`` and ``"third_harmonic"``. A word without a prefix, such as ``"bias"``, changes all wings.
-        ``"bias_difference"`` is the bias of left wings minus the bias of right wings. ``"left_bias"`` changes only the
-        wing with the name `left`.
+        The input ``"bias_difference"`` is the bias of left wings minus the bias of right wings. The input
+        ``"left_bias"`` changes only the wing with the name `left`.
     samples : int, optional
         Number of rows to compute. The default of `samples` is 400 rows.
     point : int, optional
@@ -148,8 +148,9 @@ def wrench_map(
         Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
         change the map.
     progress : bool or function, optional
-        True shows a progress bar (tqdm, in consoles and notebooks). A function is called with two numbers: the number
-        of finished rows, and the number of all rows. With `client`, the whole map is one step of the progress.
+        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
+        numbers: the number of finished rows, and the number of all rows. With `client`, the whole map is one step of
+        the progress.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The map is computed on one of the workers of the executor.
     **keywords : float or str
@@ -163,11 +164,11 @@ def wrench_map(
     Raises
     ------
     ValueError
-        The design is no vehicle. An input or a unit is unknown. The smallest value of a range is not below the largest
-        value of the range. The number of samples or of periodic rows is too small for the number of coefficients. A
-        grid with mistakes raises GridError.
+        Raised if the design is no vehicle. Raised if an input or a unit is unknown. Raised if the smallest value of a
+        range is not below the largest value of the range. Raised if the number of samples or of periodic rows is too
+        small for the number of coefficients. A grid with mistakes raises GridError.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
 
     Examples
     --------

@@ -119,7 +119,8 @@ def sensitivities(
     Raises
     ------
     ValueError
-        The design, the measure or a parameter is unknown. A change is zero. The motion of the design is not periodic.
+        Raised if the design, the measure or a parameter is unknown. Raised if a change is zero. Raised if the motion of
+        the design is not periodic.
 
     Examples
     --------
@@ -221,8 +222,9 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values get the mean of the ranks. A parameter is left out if all designs have the same value of the parameter.
-    A parameter is also left out if an earlier parameter sorts the designs in the same or in the reverse order.
+    Equal values get the mean of their ranks. A parameter is left out if all designs have the same value of the
+    parameter. A parameter is also left out if an earlier parameter sorts the designs in the same or in the reverse
+    order.
 
     Parameters
     ----------
@@ -245,7 +247,8 @@ def rank_correlations(
     Raises
     ------
     ValueError
-        A column or value is unknown. No design has a value of the measure. No parameter varies.
+        Raised if a column or value is unknown. Raised if no design has a value of the measure. Raised if no parameter
+        varies.
 
     Examples
     --------
@@ -381,7 +384,8 @@ def describe(
     Raises
     ------
     ValueError
-        A column or value is unknown. No design has a value of one of the measures. A percentage is not from 0 to 100.
+        Raised if a column or value is unknown. Raised if no design has a value of one of the measures. Raised if a
+        percentage is not from 0 to 100.
 
     Examples
     --------
@@ -427,9 +431,9 @@ def non_dominated(costs: Any) -> Mask:
     Raises
     ------
     ValueError
-        `costs` is not two-dimensional.
+        Raised if `costs` is not two-dimensional.
     ImportError
-        moocore is not installed.
+        Raised if moocore is not installed.
 
     Examples
     --------

@@ -38,9 +38,10 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     """Return parameters that `select` can free: uncertain parameters of a design, and terms that the papers leave out.
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
-    design's value. The parameters in the list below have special bounds. In the list, ω is the angular drive frequency,
-    J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T is `transmission_ratio`. In the list, E
-    is half of the drive voltage per thickness of a plate. A damping that is not zero in the design has default bounds.
+    design's value. The parameters in the list below have special bounds. In the bounds, ω is the angular drive
+    frequency, J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T is `transmission_ratio`. In
+    the bounds, E is half of the drive voltage per thickness of a plate. A damping that is not zero in the design has
+    default bounds.
 
     - `drag_coefficient_min`: 0.05 to 2
     - `stroke_damping`: 0 to J ω
@@ -56,8 +57,8 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     - `pressure_term_0`, `pressure_term_1`: -0.2 to 0.2
 
     `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1` are not among the candidates, because readings of
-    stroke and pitch can hardly distinguish these terms from other candidates. If your data contain lift, add the terms.
-    The default bounds of these terms are -1 and 1.
+    stroke and pitch can hardly distinguish these terms from other candidates. If your data contain lift, add the lift
+    and drag terms to the candidates. The default bounds of the lift and drag terms are -1 and 1.
 
     Parameters
     ----------
@@ -72,7 +73,7 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     Raises
     ------
     ValueError
-        The design is unknown.
+        Raised if the design is unknown.
 
     Examples
     --------
@@ -95,5 +96,5 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
 
 def is_number(value: Any) -> TypeGuard[float]:
-    """Return True for a number that is not a truth value."""
+    """Return True for a number, and False for other values such as a bool."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -155,9 +155,9 @@ class Comparison:
         Raises
         ------
         TypeError
-            `count` is not a whole number.
+            Raised if `count` is not a whole number.
         ValueError
-            `count` is less than 1.
+            Raised if `count` is less than 1.
         """
         return deciding_readings(self._sides[:2], _arguments.count("count", count))
 
@@ -167,9 +167,9 @@ class Comparison:
         """Return the operating points at which new readings would decide best between the two best fits.
 
         A reading decides between two fits if the predictions of the fits differ by many standard errors. The standard
-        error contains the noise of the reading and the errors of the fitted parameters. The choice ignores differences
-        that new estimates of the parameters could remove. Before each choice, the two fits are updated with the
-        readings that were chosen earlier. The updates of the fits use derivatives at the estimates.
+        error contains the noise of the reading and the errors of the fitted parameters. The choice of readings ignores
+        differences that disappear if the parameters are estimated again. Before each choice, the two fits are updated
+        with the readings that were chosen earlier. The updates of the fits use derivatives at the estimates.
 
         Parameters
         ----------
@@ -189,8 +189,8 @@ class Comparison:
         Raises
         ------
         ValueError
-            A name is unknown, the data have no readings of a measure, or no operating point has settled motions in the
-            two fits.
+            Raised if a name is unknown, or the data have no readings of a measure. Raised if no operating point has
+            settled motions in the two fits.
         """
         return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)
 
@@ -237,10 +237,10 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     Raises
     ------
     ValueError
-        `fits` has fewer than two entries. The fits have different readings, a robust loss, parameters with a `spread`,
-        or too few readings in common.
+        Raised if `fits` has fewer than two entries. Raised if the fits have different readings, a robust loss,
+        parameters with a `spread`, or too few readings in common.
     TypeError
-        An entry of `fits` is not a `Fit`.
+        Raised if an entry of `fits` is not a `Fit`.
 
     Examples
     --------

@@ -178,12 +178,12 @@ def _decide(
     """Return the candidate points at which readings decide best between two fits. For each point, return the standard
     error and the expected difference of chi-square.
 
-    If the first law is correct, a reading raises the chi-square of the second fit. The rise of chi-square is the
-    squared difference of the two predictions, divided by the sum of two variances. The first variance belongs to the
-    reading, and the second variance to the prediction of the second fit. If the second law is fitted to the reading,
-    its prediction moves towards the first law. The rise of chi-square is then smaller. For the expected difference of
-    chi-square, the first law is correct in one case and the second law in the other case. The expected difference is
-    the mean of the rises of chi-square in these two cases.
+    If the model of the first fit is correct, a reading raises the chi-square of the second fit. The rise of chi-square
+    is the squared difference of the two predictions, divided by the sum of two variances. The two variances are the
+    variance of the reading and the variance of the second fit's prediction. An update of the second fit with the
+    reading moves the prediction towards the first fit, so chi-square rises less. The expected difference of chi-square
+    is the mean of two rises. The two rises are computed for a correct model of the first fit and for a correct model of
+    the second fit.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]

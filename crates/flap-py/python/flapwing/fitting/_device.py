@@ -1,4 +1,5 @@
-"""The device file of a fit, with parameters, standard errors and correlations. You can use the file as a design."""
+"""The device file of a fit, with parameters, standard errors and correlations. You can use the device file as a
+design."""
 
 from __future__ import annotations
 

@@ -75,16 +75,17 @@ def of_residuals(
 ) -> Discrepancies:
     """Return the discrepancy that explains the squares of the residuals.
 
-    The discrepancies of a measure have the covariance size² · s_i · s_j · ρ_ij. In this formula, s is the model's value
-    if standard errors are in per cent, and 1 if not. The correlation ρ of two points falls with the distance between
-    the points. The distance is counted in ranks along each parameter. The decline of ρ is computed from the products of
-    neighbouring residuals. The expected sum of squares accounts for the part of noise and discrepancy that the fitted
-    parameters follow, as in a restricted maximum likelihood.
+    For readings i and j of a measure, the covariance of the discrepancies is size² · s_i · s_j · ρ_ij. In this formula,
+    s is the model's value if standard errors are in per cent, and 1 if not. The correlation ρ of two points falls with
+    the distance between the points. The distance of two points is counted in ranks along each parameter. The decline of
+    the correlation ρ with the distance is computed from the products of neighbouring residuals. The expected sum of
+    squares accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
+    likelihood.
 
-    `measures` has the fitted readings of each measure, and `structured` the measures whose residuals have a pattern.
-    The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain the
-    discrepancy. If the residuals of a measure of this kind have a pattern, the whole standard error counts as
-    discrepancy. `inverse` is the covariance of the coordinates without discrepancy.
+    `measures` has the fitted readings of each measure, and `structured` has the measures whose residuals have a
+    pattern. The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain
+    the discrepancy. If the residuals of a measure of the kind ``"unknown"`` have a pattern, the whole standard error
+    counts as discrepancy. `inverse` is the covariance of the coordinates without discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)
@@ -144,8 +145,8 @@ def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> di
 def _correlated(
     layout: Layout, chosen: Places, declines: Mapping[str, float], shape: Array, slopes: Array
 ) -> tuple[Array, float]:
-    """Return two results from the correlation matrix of the discrepancy, which is weighted by `shape`. The first result
-    is the matrix, multiplied by `slopes` from both sides. The second result is the sum of all elements of the matrix.
+    """Return a product and a sum of the discrepancy's correlation matrix, which is weighted by `shape`. The product is
+    the weighted matrix, multiplied by `slopes` from both sides. The sum contains all elements of the weighted matrix.
     """
     weighted = shape[:, np.newaxis] * slopes
     ranks = {name: layout.ranks[name][chosen] for name in layout.varied}

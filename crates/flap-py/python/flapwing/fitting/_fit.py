@@ -55,8 +55,8 @@ def fit(
     free : list of str, or dict
         The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
         Bounds are numbers in SI units or text with units; None stands for the default bounds. The default bounds are a
-        third of the design's value and three times the design's value. If the design's value is zero, see
-        `FreeParameter`.
+        third of the design's value and three times the design's value. If the parameter is zero in the design, the
+        bounds are described in `FreeParameter`.
     sigma : float, str or dict, optional
         The standard error of readings that have no column of standard errors. `sigma` is a number in the measure's
         unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
@@ -80,8 +80,8 @@ def fit(
         Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
         change the results.
     progress : bool or function, optional
-        If True, the number of computed points is shown. A function is called with two arguments, which are both the
-        number of computed points.
+        If True, the number of computed points is shown. A progress function is called with two arguments, which are
+        both the number of computed points.
     **keywords : float or str
         Parameters that apply to all data, and solver settings.
 
@@ -95,12 +95,12 @@ def fit(
     Raises
     ------
     ValueError
-        The data have no readings, unknown columns or units, cells that are not numbers, or fewer readings than free
-        parameters. Bounds are in the wrong order, or a parameter is unknown.
+        Raised if the data have no readings, unknown columns or units, cells that are not numbers, or fewer readings
+        than free parameters. Raised if bounds are in the wrong order, or a parameter is unknown.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
     ImportError
-        SciPy is not installed.
+        Raised if SciPy is not installed.
 
     Examples
     --------

@@ -149,8 +149,8 @@ def profiles(
     model: Model, target: Target, found: Found, covariance: Array, quantile: float, factors: Array
 ) -> tuple[list[Profile], Found | None]:
     """Return the profiles of all coordinates up to `quantile` standard errors. If a search for a profile finds a better
-    fit than the estimate, return the better fit too. `factors` has the increase of the standard error of each
-    coordinate by the discrepancy of the model.
+    fit than the estimate, return the better fit too. `factors` has the factor by which the discrepancy of the model
+    increases each coordinate's standard error.
     """
     space = model.space
     search = _ProfileSearch(space, target, found, covariance, quantile, factors)
@@ -198,8 +198,8 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
     space at each set, no readings of the same measures at the same points can distinguish the parameters. If only a
     product of parameters affects the readings, the null space in logarithms of the parameters is the same at all sets.
-    If only a sum of parameters affects the readings, the null space in the parameters is the same at all sets. For
-    products and for sums, the stacked derivatives of all sets of parameters have the same null space.
+    If only a sum of parameters affects the readings, the null space in the parameters is the same at all sets. The
+    common null space of all sets is computed from one matrix, in which the derivatives at all sets are stacked.
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.

@@ -296,8 +296,8 @@ def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Grou
 
 
 def _error(names: Names, name: str, told: str, given: Any) -> tuple[float, bool]:
-    """Return a standard error or a standard deviation. The flag is True if the number is a share of the parameter's
-    value, and False if the number is in SI units."""
+    """Return a standard error or a standard deviation as a number and a flag. The flag is True if the number is a share
+    of the parameter's value, and False if the number is in SI units."""
     text = given.strip() if isinstance(given, str) else ""
     if isinstance(given, (int, float)) and not 0 < given < np.inf:
         raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")

@@ -22,9 +22,9 @@ class NextMeasurements:
     Attributes
     ----------
     target, unit : str
-        The parameter or measure whose error is reduced, and the unit of the target.
+        The parameter or measure whose error is reduced, and the unit of the error.
     now : float
-        The present error of the target.
+        The error of the target without the new readings.
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
@@ -67,9 +67,9 @@ def plan(
     """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
     the present error of the target.
 
-    To the information matrix, a reading adds the outer product of the reading's derivatives, divided by the variance of
-    the reading. The next reading is the candidate reading after which the variance of the target is smallest.
-    `errors_of` returns the standard errors of the readings of a measure at given values.
+    A reading adds the outer product of the reading's derivatives, divided by the reading's variance, to the information
+    matrix. The next reading is the candidate reading after which the variance of the target is smallest. `errors_of`
+    returns the standard errors of the readings of a measure at given values.
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:

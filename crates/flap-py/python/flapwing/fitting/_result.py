@@ -128,7 +128,8 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            A column, a unit or a measure is unknown, or `reading` is True and the data have no readings of the measure.
+            Raised if a column, a unit or a measure is unknown, or `reading` is True and the data have no readings of
+            the measure.
         """
         noise = self._noise(measure, {}, data_set) if _arguments.flag("reading", reading) else None
         given = self._points("points", points)
@@ -182,8 +183,8 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            A name is unknown, a standard error is missing, `candidates` has no points, or no point has a settled
-            motion.
+            Raised if a name is unknown, a standard error is missing, `candidates` has no points, or no point has a
+            settled motion.
         """
         repeats = _arguments.flag("repeats", repeats)
         count = _arguments.count("count", count)
@@ -212,8 +213,8 @@ class Fit(Solution):
         parameters.
 
         If the design is a device, the file keeps the description of the device. The file also keeps the standard
-        errors, correlations and sources of the parameters that were not fitted. ``{"device": "mybee.toml"}`` uses the
-        file in a grid. ``[sample] of = "device"`` draws samples from the standard errors in the file.
+        errors, correlations and sources of the parameters that were not fitted. You can name the file in a grid, as in
+        ``{"device": "mybee.toml"}``. ``[sample] of = "device"`` draws samples from the standard errors in the file.
 
         Parameters
         ----------
@@ -227,9 +228,9 @@ class Fit(Solution):
         Raises
         ------
         FileExistsError
-            The file exists, and `overwrite` is False.
+            Raised if the file exists, and `overwrite` is False.
         ValueError
-            Some parameters differ between data sets, and `data_set` is not one of the data sets.
+            Raised if some parameters differ between data sets, and `data_set` is not one of the data sets.
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 

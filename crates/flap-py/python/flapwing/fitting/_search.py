@@ -259,7 +259,8 @@ NOTHING = 3e-4
 
 def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
     """Return the lengths of the columns of `jacobian`, and the singular values and right singular vectors of the matrix
-    of normalised columns. The mask is True for vectors with an effect. Each row is a vector.
+    of normalised columns. The mask is True for singular vectors with an effect. Each row of the returned matrix is a
+    right singular vector.
     """
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
@@ -270,7 +271,7 @@ def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
 
 def inverse(jacobian: Array) -> tuple[Array, Mask]:
     """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
-    residuals do not determine. The covariance leaves out directions without effect.
+    residuals do not determine. The covariance leaves out directions without an effect on the residuals.
     """
     lengths, sizes, directions, known = decompose(jacobian)
     scaled = directions[known] / sizes[known, np.newaxis] / lengths

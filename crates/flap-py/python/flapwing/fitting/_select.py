@@ -40,7 +40,7 @@ class SelectionStep:
         Sum of the squares of (residual / standard error) over all readings. For estimated standard errors,
         chi-square contains no information about the fit.
     criterion : float
-        The criterion after the step.
+        The value of the selection criterion after the step.
     gain : float
         The decrease of the criterion in the step. For the first fit, `gain` is nan.
     p : float
@@ -50,9 +50,9 @@ class SelectionStep:
         Root mean square of the errors of all readings that were not fitted. Each error is divided by the standard error
         of its reading. `held_out` is nan if the selection has no `hold_out`.
     alternatives : dict of str to float
-        The parameters that were fitted in the step but not chosen. Each value in `alternatives` is a difference between
-        two criteria: with the parameter that was not chosen, minus with the chosen parameter. A parameter with a value
-        below 2 in `alternatives` explains the readings about as well as the chosen parameter.
+        The parameters that were fitted in the step but not chosen. Each value in `alternatives` is the criterion with
+        the parameter that was not chosen, minus the criterion with the chosen parameter. A parameter with a value below
+        2 in `alternatives` explains the readings about as well as the chosen parameter.
     """
 
     freed: str
@@ -190,11 +190,11 @@ def select(
         The criterion that each step must lower.
     significance : float
         Largest probability that noise alone explains a step. The computed probability takes into account that the best
-        of all candidate parameters was chosen (Bonferroni). With ``significance=1``, only the criterion decides, which
-        frees too many parameters.
+        of all candidate parameters was chosen (Bonferroni correction). With ``significance=1``, only the criterion
+        decides, which frees too many parameters.
     tries : int
         Largest number of candidate parameters that are fitted in a step. Candidates with the same predicted effect on
-        the readings count as one.
+        the readings count as one candidate.
     sigma, seed, hold_out, threads, progress
         The arguments of `fit` with the same names. Readings in `hold_out` do not take part in the selection.
     starts : int
@@ -212,12 +212,12 @@ def select(
     Raises
     ------
     ValueError
-        An argument is invalid, as for `fit`. The criterion is unknown. A candidate has a `spread`, or no value in the
-        design. The budget is below the number of parameters in `start`.
+        Raised if an argument is invalid, as for `fit`. Raised if the criterion is unknown. Raised if a candidate has a
+        `spread`, or no value in the design. Raised if the budget is below the number of parameters in `start`.
     TypeError
-        An argument has the wrong type.
+        Raised if an argument has the wrong type.
     ImportError
-        SciPy is not installed.
+        Raised if SciPy is not installed.
 
     Examples
     --------

@@ -244,7 +244,7 @@ def goodness(
 
 def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: Mask, reach: Array) -> HeldOut:
     """Return the prediction errors of readings that were not fitted. `names` has the measure of each reading, and
-    `reach` half of the width of the 95 % band of each reading.
+    `reach` has half of the width of each reading's 95 % band.
     """
     difference = values - measured
     settled = held & np.isfinite(difference)
@@ -256,7 +256,8 @@ def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: 
 
 
 class Solution:
-    """Estimates with uncertainties, and the model and the data of the fit. `Fit` is the public class."""
+    """Estimates with uncertainties, and the model and the data of the fit. The public class `Fit` adds methods to
+    `Solution`."""
 
     def __init__(
         self,

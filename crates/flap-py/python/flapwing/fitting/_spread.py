@@ -104,8 +104,8 @@ def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Ans
     """Return standard deviations of a parameter's values, and the deviance of each standard deviation (minus two times
     the log likelihood).
 
-    The likelihood is the integral over all free parameters and over the mean of the values (restricted maximum
-    likelihood). In the integral, residuals are linear in the parameters.
+    The likelihood is integrated over all free parameters and over the mean of the values (restricted maximum
+    likelihood). For the integral, the residuals are taken as linear functions of the parameters.
     """
     everything = target.residuals(space, x, answer)
     readings = int(target.used.sum())

@@ -78,7 +78,7 @@ def _ranks(values: np.ndarray[Any, Any]) -> Places:
 
 def tests(layout: Layout, measures: Mapping[str, Places], scaled: Array) -> list[Structure]:
     """Return a test for each measure and each parameter that varies. `measures` has the readings of each measure, and
-    `scaled` the residuals in standard errors.
+    `scaled` has the residuals in standard errors.
     """
     found = [
         Structure(measure, parameter, p)

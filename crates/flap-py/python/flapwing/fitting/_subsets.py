@@ -53,7 +53,7 @@ class Effect:
     change: Array
 
     def is_like(self, other: Effect) -> bool:
-        """Return True if the readings hardly distinguish the effect from another effect."""
+        """Return True if the readings hardly distinguish this effect from the effect `other`."""
         return bool(np.sum((self.change - other.change) ** 2) < min(1.0, _ALIKE * float(other.change @ other.change)))
 
 

@@ -34,7 +34,8 @@ _BOUNDS = {
 
 
 def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units. If the model does not have a size, the size is nan."""
+    """Return typical sizes of terms for a design, in SI units. A size is nan if the design has no values of the
+    parameters in the size."""
 
     def of(name: str) -> float:
         value = values.get(name)

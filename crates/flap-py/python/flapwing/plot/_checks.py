@@ -19,7 +19,7 @@ _F = TypeVar("_F", bound=Callable[..., object])
 
 
 class _Kind(NamedTuple):
-    """A kind of argument."""
+    """A kind of argument: a check of the argument, and the allowed values as text."""
 
     fits: Callable[[Any], bool]
     #: The allowed values of the argument, for error messages.

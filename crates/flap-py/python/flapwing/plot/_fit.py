@@ -47,9 +47,9 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     Raises
     ------
     ValueError
-        `show` is not the name of a picture, or the fit has no profiles.
+        Raised if `show` is not the name of a picture, or the fit has no profiles.
     TypeError
-        `result` is not a `Fit`.
+        Raised if `result` is not a `Fit`.
     """
     if not isinstance(result, Fit):
         raise TypeError(f"`result` is {type(result).__name__}\nit must be the result of flapwing.fit")

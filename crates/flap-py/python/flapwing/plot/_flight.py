@@ -95,8 +95,9 @@ def flight(
     label : sequence of str, optional
         The name of each flight of a list.
     legend : bool or str
-        False for no legends, or the place of the legends inside the axes, such as ``"upper left"``. By default, the
-        legends are above the axes of a new figure. In axes that you give, the legends are inside the axes by default.
+        If `legend` is False, the picture has no legends. Text such as ``"upper left"`` sets the place of the legends
+        inside the axes. By default, the legends are above the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for one panel. The figure of `ax` determines the style of the panel. The default of `ax` is axes of a new
         figure.
@@ -109,8 +110,8 @@ def flight(
     Raises
     ------
     ValueError
-        A table is no flight, or a group is unknown. More than four flights are given, or the number of names differs
-        from the number of flights. `ax` is given, but the flights have several panels.
+        Raised if a table is no flight, or a group is unknown. Raised if more than four flights are given, or the number
+        of names differs from the number of flights. Raised if `ax` is given, but the flights have several panels.
 
     Examples
     --------

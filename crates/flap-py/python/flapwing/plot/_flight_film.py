@@ -56,7 +56,7 @@ def flight_film(
 
     A thick line shows the body. The thick line goes from the shoulders of the wings through the centre of mass, which
     is a dot, to the opposite side. The length of the thick line is not a property of the vehicle. Keep the returned
-    object until you have saved or shown the animation: ``plot.flight_film(flight, motion).save("flight.gif")``.
+    `Animation` until you have saved or shown the animation: ``plot.flight_film(flight, motion).save("flight.gif")``.
 
     Parameters
     ----------
@@ -76,8 +76,8 @@ def flight_film(
         Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
         takes about 0.1 s to draw.
     scale : float, optional
-        Factor by which the drawn vehicle is enlarged relative to the trajectory: more than zero. The default is the
-        smallest factor, 1 or more, at which the drawn vehicle is at least as large as 15 % of the flown distance.
+        Factor by which the drawn vehicle is enlarged relative to the trajectory: more than zero. The default of `scale`
+        is the smallest factor, 1 or more, that makes the drawn vehicle at least 15 % of the flown distance.
 
     Returns
     -------
@@ -87,8 +87,8 @@ def flight_film(
     Raises
     ------
     ValueError
-        The table is no flight or has fewer than two rows, or the trajectory does not repeat. The flight has no vehicle,
-        or the vehicle has no wings. A view or a wing is unknown.
+        Raised if the table is no flight or has fewer than two rows, or the trajectory does not repeat. Raised if the
+        flight has no vehicle, or the vehicle has no wings. Raised if a view or a wing is unknown.
     """
     data = Data.of(table)
     for name in ("time_s", *GROUPS["position"].columns, *GROUPS["angle"].columns):

@@ -62,12 +62,12 @@ def control_matrix(
         array.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
-        the picture becomes narrower.
+        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
+        By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
         new figure.
@@ -79,8 +79,8 @@ def control_matrix(
     Raises
     ------
     ValueError
-        The table has no derivatives of a force or torque, or several rows with derivatives. An input is unknown. An
-        array does not have six rows and one column for each input.
+        Raised if the table has no derivatives of a force or torque, or several rows with derivatives. Raised if an
+        input is unknown. Raised if an array does not have six rows and one column for each input.
 
     Examples
     --------
@@ -114,9 +114,9 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
         The parameter on the horizontal axes of the panels. The default of `x` is the axis of the grid.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     Raises
     ------
     ValueError
-        The results do not have the columns of a vehicle, or a column or value is unknown.
+        Raised if the results do not have the columns of a vehicle, or a column or value is unknown.
     """
     data = Data.of(table).slice(where, slices)
     outputs = [name for name in (*FORCES, *TORQUES) if name in data]

@@ -69,9 +69,9 @@ def heatmap(
     value : str, optional
         The measure to draw. The default of `value` is the mean lift.
     x, y : str, optional
-        The parameters on the axes: numbers or words. Default for x: ``drive_frequency``, or the last axis of the grid
-        if ``drive_frequency`` does not vary. Default for y: the first axis of the grid that is not x. If the grid has
-        fewer than two axes, the defaults for x and y are parameters of the sample.
+        The parameters on the axes: numbers or words. The default of `x` is ``drive_frequency``, or the last axis of the
+        grid if ``drive_frequency`` does not vary. The default of `y` is the first axis of the grid that is not x. If
+        the grid has fewer than two axes, the defaults for x and y are parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
         The scales of the axes. By default, an axis is logarithmic if the ratio of neighbouring values is constant. For
         points that form no grid, the default scale is linear.
@@ -92,15 +92,16 @@ def heatmap(
         value for costs such as power. By default, the best cell has the largest value for measures that are not costs.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If `reduce` is not given and
-        an axis of the grid is neither drawn nor selected, the picture has only the middle value of this axis. A warning
-        shows the value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. Without
+        `reduce`, if an axis of the grid is neither drawn nor selected, the picture has only rows at the middle value of
+        this axis. A warning shows the middle value that was used.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
-        the picture becomes narrower.
+        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
+        By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes in which flap draws the picture. The figure of `ax` determines the style of the picture. Only labels and a
         colour bar are drawn outside of `ax`. The default of `ax` is axes of a new figure.
@@ -112,8 +113,8 @@ def heatmap(
     Raises
     ------
     ValueError
-        A column or value is unknown. Several rows are in one cell, and `reduce` is not given. The points form no grid
-        and are on one line.
+        Raised if a column or value is unknown. Raised if several rows are in one cell, and `reduce` is not given.
+        Raised if the points form no grid and are on one line.
 
     Examples
     --------
@@ -362,7 +363,7 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the masks of cells without a value, one mask for each reason of the missing value."""
+    """Return the masks of cells without a value, one mask for each reason why a cell has no value."""
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:

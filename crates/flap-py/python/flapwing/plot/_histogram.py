@@ -47,13 +47,13 @@ def histogram(
         `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is above the axes of a new figure. In axes that you give, the legend is inside the axes by default. The
-        legend contains the mean and the standard deviation.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is above the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default. The legend contains the mean and the standard deviation.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels are drawn outside of
         `ax`. The default of `ax` is axes of a new figure.
@@ -65,7 +65,8 @@ def histogram(
     Raises
     ------
     ValueError
-        A column or value is unknown. No design has a value of the measure. A percentage is not from 0 to 100.
+        Raised if a column or value is unknown. Raised if no design has a value of the measure. Raised if a percentage
+        is not from 0 to 100.
 
     Examples
     --------

@@ -43,12 +43,13 @@ def hysteresis(
         The number of the design in the column ``curve``, if the table has several designs.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
         drawn outside of `ax`. The default of `ax` is axes of a new figure.
@@ -60,8 +61,8 @@ def hysteresis(
     Raises
     ------
     ValueError
-        The table has several designs, and no design is selected. A column or value is unknown. The table has no
-        branches.
+        Raised if the table has several designs, and no design is selected. Raised if a column or value is unknown.
+        Raised if the table has no branches.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:

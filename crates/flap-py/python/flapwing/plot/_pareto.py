@@ -51,15 +51,16 @@ def pareto(
         A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
-        the picture becomes narrower.
+        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
+        By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
         drawn outside of `ax`. The default of `ax` is axes of a new figure.
@@ -71,7 +72,8 @@ def pareto(
     Raises
     ------
     ValueError
-        Fewer than two objectives are given. A column or value is unknown. No design has all objectives.
+        Raised if fewer than two objectives are given. Raised if a column or value is unknown. Raised if no design has
+        all objectives.
 
     Examples
     --------

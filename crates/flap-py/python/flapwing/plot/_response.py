@@ -52,21 +52,23 @@ def response(
         ``drive_frequency`` does not vary.
     by : str, optional
         The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
-        more axes, the default is the first axis of the grid that is not x. If several results are given, each result
-        has one line.
+        more axes, the default of `by` is the first axis of the grid that is not x. If several results are given, each
+        result has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. The default of `label` is the numbers of the results.
+        The names in the legend, one for each result of a list. By default, the names are the numbers of the results in
+        the list.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
-        the picture becomes narrower.
+        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
+        By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
         new figure.
@@ -79,7 +81,8 @@ def response(
     Raises
     ------
     ValueError
-        A column or value is unknown. Several rows have the same parameters. A column has text instead of numbers.
+        Raised if a column or value is unknown. Raised if several rows have the same parameters. Raised if a column has
+        text instead of numbers.
 
     Examples
     --------
@@ -135,21 +138,23 @@ def response_panels(
         ``drive_frequency`` does not vary.
     by : str, optional
         The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
-        more axes, the default is the first axis of the grid that is not x. If several results are given, each result
-        has one line.
+        more axes, the default of `by` is the first axis of the grid that is not x. If several results are given, each
+        result has one line.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of the grid is
-        neither drawn nor selected, the picture has only the rows at the middle value of this axis. A warning shows the
-        value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
+        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
+        warning shows the middle value that was used.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. The default of `label` is the numbers of the results.
+        The names in the legend, one for each result of a list. By default, the names are the numbers of the results in
+        the list.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     colorbar : bool or matplotlib Axes
-        False for no colour bar, or the axes for the colour bar. By default, the colour bar is beside the picture, and
-        the picture becomes narrower.
+        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
+        By default, the colour bar is beside the picture, and the picture becomes narrower.
 
     Returns
     -------
@@ -158,7 +163,7 @@ def response_panels(
     Raises
     ------
     ValueError
-        An argument is invalid (see `response`), or `measures` is empty.
+        Raised if an argument is invalid (see `response`), or `measures` is empty.
 
     Examples
     --------

@@ -82,8 +82,8 @@ def in_ratio(values: np.ndarray) -> bool:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers for the ticks of a logarithmic scale. Short scales also have ticks, although some short
-    scales contain no power of ten."""
+    """Return round numbers for the ticks of a logarithmic scale. A short scale without a power of ten also has
+    ticks."""
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]

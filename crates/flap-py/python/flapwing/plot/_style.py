@@ -103,9 +103,9 @@ def style(
     Raises
     ------
     ValueError
-        A length or a font size is zero or less, or has an unknown unit.
+        Raised if a length or a font size is zero or less, or has an unknown unit.
     TypeError
-        A value has the wrong type.
+        Raised if a value has the wrong type.
 
     Examples
     --------

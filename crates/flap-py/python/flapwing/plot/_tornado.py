@@ -41,12 +41,13 @@ def tornado(
         of the model only if `design` is a preset.
     measure, parameters, change, **fixed
         For a preset, the arguments of `flapwing.analysis.sensitivities`. For a sample, the arguments of
-        `flapwing.analysis.rank_correlations`, without `change`.
+        `flapwing.analysis.rank_correlations`, which has no argument `change`.
     top : int
         The largest number of parameters to draw.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is beside the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
         drawn outside of `ax`. The default of `ax` is axes of a new figure.
@@ -60,8 +61,8 @@ def tornado(
     Raises
     ------
     ValueError
-        An argument is invalid (see `sensitivities` and `rank_correlations`). The list of sensitivities is empty, or the
-        measure is zero for the design.
+        Raised if an argument is invalid (see `sensitivities` and `rank_correlations`). Raised if the list of
+        sensitivities is empty, or the measure is zero for the design.
     """
     if _is_table(design):
         names = None if parameters is None else list(parameters)
@@ -177,7 +178,7 @@ def _named(each: Sensitivity) -> str:
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
     """Return the names of the decrease and the increase of parameters for the legend. If the changes are equal for all
-    parameters, the names have the sizes of the changes.
+    parameters, the names contain the sizes of the changes.
     """
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)

@@ -50,7 +50,8 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw signals over time, and beside the signals phase portraits: the rate of each angle against the angle.
+    """Draw signals over time, and draw phase portraits beside the signals. A phase portrait shows the rate of an angle
+    against the angle.
 
     Parameters
     ----------
@@ -70,8 +71,9 @@ def trajectory(
         The name of the motion in the legend, or the names of the motions of a list. By default, the second and later
         motions have numbers as names.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is above the axes of a new figure. In axes that you give, the legend is inside the axes by default.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is above the axes of a new figure. If `ax` is given, the legend is
+        inside the axes by default.
     ax : matplotlib Axes, optional
         Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
         signal. If `ax` already contains motions, the colours continue and the legend has all lines.
@@ -84,9 +86,9 @@ def trajectory(
     Raises
     ------
     ValueError
-        A column is unknown. The number of names differs from the number of trajectories. `ax` is given, but the signals
-        have several units, or phase portraits are requested. The motions that `ax` already contains have a different
-        unit.
+        Raised if a column is unknown. Raised if the number of names differs from the number of trajectories. Raised if
+        `ax` is given, but the signals have several units, or phase portraits are requested. Raised if the motions that
+        `ax` already contains have a different unit.
 
     Examples
     --------

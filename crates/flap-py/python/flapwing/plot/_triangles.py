@@ -86,7 +86,7 @@ class Points:
         )
 
     def mark(self, ax: Axes, rows: np.ndarray, status: str) -> Line2D:
-        """Draw the points without a value in the rows `rows`, and return the legend entry."""
+        """Draw the points of the rows `rows`, which have no value, and return the legend entry."""
         look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
         label = f"{status} ({len(rows)})"
         (line,) = ax.plot(self.x.values[rows], self.y.values[rows], label=label, markersize=_style.size(0.7), **look)

@@ -41,7 +41,7 @@ def wing_path(
 
     A dot marks the leading edge, at the upper edge of the wing, and the line of the chord ends at the trailing edge.
     The length of the arrow shows the lift. The arrow points down if the lift is negative. Below the wing, curves show
-    stroke and pitch over the cycle. Keep the returned object until you have saved or shown the animation:
+    stroke and pitch over the cycle. Keep the returned `Animation` until you have saved or shown the animation:
     ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
@@ -55,18 +55,18 @@ def wing_path(
         Frequency of the wing's cycles (Hz). The default of `frequency` is the rate at which the motion repeats.
     radius : float, optional
         Distance of the drawn chord from the stroke axis, in chords. The default of `radius` is 3 chords. If the
-        peak-to-peak stroke is less than 11 degrees, the default is larger, so that the leading edge moves by 2.5
-        chords.
+        peak-to-peak stroke is less than 11 degrees, the default of `radius` is larger, so that the leading edge moves
+        by 2.5 chords.
     lift : str or None
         The column that the arrow shows. If `lift` is None, no arrow is drawn. If `lift` is not given and the table has
         no column of the lift, the picture has no arrow.
     pitch_sign : {1, -1}, optional
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
         lags (1) or leads (-1). The default of `pitch_sign` is the convention of the table's model. If the table has no
-        model, the default is the sign for which the trailing edge lags.
+        model, the default of `pitch_sign` is the sign for which the trailing edge lags.
     legend : bool or str
-        False for no legend, or the place of the legend inside the axes, such as ``"upper left"``. By default, the
-        legend is above the axes.
+        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
+        inside the axes. By default, the legend is above the axes.
     ax : matplotlib Axes, optional
         Axes for the picture of the wing. If `ax` is given, the curves of stroke and pitch are not drawn, and the legend
         is inside `ax`.
@@ -79,7 +79,7 @@ def wing_path(
     Raises
     ------
     ValueError
-        A column is unknown, or the motion does not repeat or is shorter than one cycle.
+        Raised if a column is unknown, or the motion does not repeat or is shorter than one cycle.
     """
     data = Data.of(table)
     if frames < 2:
