@@ -44,7 +44,7 @@ pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
         .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
 }
 
-/// Returns the unit of a derivative: the unit `of` of the measure per per cent, or per unit `by` of the parameter.
+/// Returns the unit of a derivative: the measure's unit `of`, per per cent or per unit `by` of the parameter.
 ///
 /// ```
 /// use flap_sweep::derivative::{Per, unit};
@@ -79,14 +79,14 @@ pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
 
 /// Share of the largest published value below which a value counts as small.
 ///
-/// It is not larger because robots may be far smaller than the published ones.
+/// This share is not larger because robots may be far smaller than the published robots.
 const SMALL: f64 = 1e-3;
 
-/// Returns the size (SI) to which relative changes of a parameter refer; `None` if it is zero and has no typical
-/// size.
-///
-/// It is the parameter's value. For a value of zero, or so small that changes would be lost in rounding, it is a
+/// Returns the size (SI) to which relative changes of a parameter refer; `None` if the parameter is zero and has no
 /// typical size.
+///
+/// The size is the parameter's value. If the value is zero, or so small that changes would be lost in rounding, the
+/// size is a typical size.
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
     let known = (value != 0.0 && value.is_finite()).then_some(value);
@@ -115,8 +115,8 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 
 /// Returns the typical size of a parameter (SI).
 ///
-/// For a parameter of one wing or a difference, it is the size of the parameter of all wings. Otherwise it is the
-/// published size, or the size of such quantities in insect-scale robots.
+/// For a parameter of one wing or a difference, the typical size is the size of the parameter of all wings. For any
+/// other parameter, the typical size is the published size, or the size of such quantities in insect-scale robots.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -149,7 +149,7 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
     }
 }
 
-/// Returns the largest value of a parameter in the presets of the model; zero if there is none.
+/// Returns the largest value of a parameter in the presets of the model; zero if no preset has a value.
 fn published(simulator: &dyn Simulator, index: usize) -> f64 {
     let values = simulator.presets().iter().filter_map(|preset| (preset.values)().get(index).copied());
     values.filter(|value| value.is_finite()).fold(0.0, |largest, value| value.abs().max(largest))

@@ -77,7 +77,7 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
 
 /// Opens the file at `path`.
 ///
-/// A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) counts as a file, because it ends with
+/// A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) is accepted, because the pipe ends with
 /// the command line.
 ///
 /// # Errors

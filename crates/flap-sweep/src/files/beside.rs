@@ -15,12 +15,12 @@ pub fn journal_of(results: &Path) -> PathBuf {
     with_ending(results, ".journal")
 }
 
-/// Returns the path of the waiting rows of an unfinished Parquet file: `<results>.part`.
+/// Returns the path of the file with the rows of an unfinished Parquet file: `<results>.part`.
 pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }
 
-/// Returns the path of the lock file: `<results>.lock`, beside the target if `results` is a link.
+/// Returns the path of the lock file: `<results>.lock`, or a file beside the target if `results` is a link.
 pub fn lock_of(results: &Path) -> PathBuf {
     with_ending(&disk::target(results), ".lock")
 }
@@ -30,7 +30,7 @@ pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }
 
-/// Returns the paths of sidecar, journal, waiting rows and lock file.
+/// Returns the paths of the sidecar, the journal, the rows of an unfinished Parquet file, and the lock file.
 pub(crate) fn all_of(results: &Path) -> [PathBuf; 4] {
     [sidecar_of(results), journal_of(results), part_of(results), lock_of(results)]
 }

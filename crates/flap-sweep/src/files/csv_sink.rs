@@ -21,7 +21,7 @@ impl<W: Write> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
     }
 
-    /// Returns the target. The target has all rows after [`Sink::flush`] or [`Sink::finish`].
+    /// Returns the target. After [`Sink::flush`] or [`Sink::finish`], the target contains all rows.
     pub fn target(&self) -> &W {
         self.lines.target()
     }

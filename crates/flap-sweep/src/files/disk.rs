@@ -17,9 +17,9 @@ pub(crate) fn sync(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.sync_all() } else { Ok(()) }
 }
 
-/// A file that gets its name, in place of an earlier file, when the file is complete and durable.
+/// New contents of a file, which replace the earlier file when the new contents are complete and durable.
 ///
-/// Until then, the file has no name or a unique name. If the name is a link, the link is replaced.
+/// Until the contents are complete, the file has no name or a unique name. If the name is a link, the link is replaced.
 pub(crate) struct Whole(AtomicWriteFile);
 
 impl Whole {
@@ -39,8 +39,8 @@ impl Whole {
     /// Gives the file its name, and waits until file and name would survive a crash of the machine.
     ///
     /// # Errors
-    /// The error of the operating system. An earlier file is then unchanged, except if making the name durable
-    /// failed.
+    /// The error of the operating system. After an error, an earlier file is unchanged, unless the error occurred while
+    /// the new name was made durable.
     pub(crate) fn commit(self) -> io::Result<()> {
         self.0.commit().map_err(|error| {
             // On Linux, a file without a name gets its name through /proc.
@@ -55,7 +55,7 @@ impl Whole {
     }
 }
 
-/// Returns true if the name is free: it belongs to no file or to an empty file. A link is not free.
+/// Returns true if the name is free: it belongs to no file or to an empty file. The name of a link is not free.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,
@@ -66,8 +66,8 @@ pub(crate) fn is_free(path: &Path) -> bool {
 /// Creates a new file for reading and writing. The new file may replace an empty file.
 ///
 /// # Errors
-/// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free)
-/// - the error of the operating system if the file cannot be created
+/// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free).
+/// - The error of the operating system if the file cannot be created.
 pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     if is_taken(path) && is_free(path) {
         fs::remove_file(path)?;
@@ -97,7 +97,8 @@ pub(crate) fn is_taken(path: &Path) -> bool {
 /// Longest chain of links that is followed, as on Linux.
 const MOST_LINKS: usize = 40;
 
-/// Returns the target of a link. The target need not exist. Other paths are returned unchanged.
+/// Returns the target of a link. The target of the link need not exist. Paths that are not links are returned
+/// unchanged.
 pub fn target(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -151,8 +152,8 @@ fn folder_of(path: &Path) -> &Path {
 /// Checks that `file` is still the file at `path`.
 ///
 /// # Errors
-/// [`io::ErrorKind::Other`] if there is no file or a different file at `path`. Otherwise the error of the operating
-/// system.
+/// [`io::ErrorKind::Other`] if there is no file or a different file at `path`. In all other cases, the error of the
+/// operating system.
 pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
     if is_in_place(file, path)? {
         Ok(())

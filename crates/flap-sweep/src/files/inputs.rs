@@ -31,7 +31,7 @@ impl Inputs {
         Inputs::default()
     }
 
-    /// Adds an input file. `what` is its description, such as "the grid file".
+    /// Adds an input file. `what` is the description of the file, such as "the grid file".
     pub fn add(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.files.push((what, path.to_owned()));
         self
@@ -61,7 +61,8 @@ impl Inputs {
         self
     }
 
-    /// Checks results, the replacement of results, and the files beside both, as [`Inputs::protect`] does.
+    /// Checks result files as [`Inputs::protect`] does: results, their replacement, and the files that flap stores
+    /// beside the results.
     ///
     /// # Errors
     /// [`Overlap`] with the first file that would be overwritten.

@@ -3,8 +3,8 @@
 //! A sidecar contains two kinds of checksums of complete results. The checksum of the file's bytes is fast to compare.
 //! The checksums of blocks of rows locate damage.
 //!
-//! For unfinished results, the journal records the rows that are safe and the identity of the sweep. Only these rows
-//! are read, and only with a sidecar of the same identity.
+//! For unfinished results, the journal records the rows that are safe and the identity of the sweep. Of unfinished
+//! results, only the rows that the journal counts are read, and only with a sidecar of the same identity.
 
 use std::fmt;
 use std::fs::File;
@@ -29,7 +29,7 @@ pub enum OnDamage {
     Tolerate,
 }
 
-/// Largest number of ranges in a message. The message also states the number of further ranges.
+/// Largest number of ranges in a message. The message also states the number of damaged ranges that it does not list.
 const MOST_LISTED: usize = 5;
 
 /// Differences between a result file and the file that flap wrote.
@@ -54,7 +54,7 @@ pub struct Damage {
     pub altered: bool,
     /// Number of rows in the journal that are missing in the file.
     pub lost: u64,
-    /// Differences between the sidecar and the journal, in words.
+    /// Descriptions of the differences between the sidecar and the journal.
     pub foreign_sidecar: Vec<String>,
 }
 
@@ -211,8 +211,8 @@ fn so_far(done: Option<u64>) -> String {
 /// The file is read once, and a second time if its bytes have changed.
 ///
 /// # Errors
-/// - [`OpenError::Read`] if the file cannot be read
-/// - [`OpenError::Damaged`] if the file is damaged and `on_damage` is [`OnDamage::Refuse`]
+/// - [`OpenError::Read`] if the file cannot be read.
+/// - [`OpenError::Damaged`] if the file is damaged and `on_damage` is [`OnDamage::Refuse`].
 pub fn check(
     path: &Path,
     format: Format,
@@ -254,7 +254,7 @@ fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums)
 /// Longest row of a result file (bytes).
 const LONGEST_ROW: u64 = 1 << 20;
 
-/// Format of the waiting rows of an unfinished Parquet file.
+/// Format of the file that contains the rows of an unfinished Parquet file.
 const WAITING: Format = Format::CsvZstd;
 
 /// Results that are open for reading.
@@ -272,8 +272,8 @@ pub struct Opened {
 /// The function reads the beginning of the file, or the end of a Parquet file, and checks nothing.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format
-/// - [`OpenError::Read`] if the file cannot be read
+/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Read`] if the file cannot be read.
 pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
     let format = Format::of(path)?;
     let waiting = rows_of(path, format);
@@ -289,10 +289,10 @@ pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
 /// Opens the results at `path`. Unfinished results end at their last checkpoint.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format
-/// - [`OpenError::Read`] if the file cannot be read
-/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and `on_damage` is [`OnDamage::Refuse`]
-/// - [`OpenError::Damaged`] if the results are damaged and `on_damage` is [`OnDamage::Refuse`]
+/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Read`] if the file cannot be read.
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and `on_damage` is [`OnDamage::Refuse`].
+/// - [`OpenError::Damaged`] if the results are damaged and `on_damage` is [`OnDamage::Refuse`].
 pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     let format = Format::of(path)?;
     let mut notes = Vec::new();
@@ -407,7 +407,7 @@ fn unfinished(
     .map_err(unreadable)
 }
 
-/// Result of a check.
+/// Result of a check of result files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Integrity {
     /// The results are unchanged since they were written.
@@ -420,7 +420,7 @@ pub enum Integrity {
         /// Number of finished points, if the number is known.
         done: Option<u64>,
     },
-    /// The results cannot be checked. Contains the reason.
+    /// The results cannot be checked. The variant contains the reason.
     Unverified(&'static str),
     /// Another program has changed the results.
     Damaged(Damage),
@@ -429,9 +429,9 @@ pub enum Integrity {
 /// Checks the results at `path` completely: every byte of the file, and every row.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format
-/// - [`OpenError::Read`] if the results cannot be read
-/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged
+/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Read`] if the results cannot be read.
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged.
 pub fn verify(path: &Path) -> Result<Integrity, OpenError> {
     match Sidecar::read(&sidecar_of(path)) {
         Err(SidecarError::Io { source, .. }) if source.kind() == io::ErrorKind::NotFound => {}

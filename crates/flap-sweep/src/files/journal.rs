@@ -1,8 +1,8 @@
 //! Journal of unfinished results, which records the progress of a run: `<results>.journal`.
 //!
-//! The first line of a journal identifies the run. Every other line is a checkpoint. Each line begins with the checksum
-//! of the line. A line is added only when the rows that it counts are safe on disk, and lines are never changed. A
-//! crash may leave an incomplete line at the end, whose checksum is wrong.
+//! The first line of a journal identifies the run. Each line after the first line is a checkpoint. Each line begins
+//! with the checksum of the line. A line is added only when the rows that it counts are safe on disk, and lines are
+//! never changed. A crash may leave an incomplete line at the end, whose checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -94,8 +94,8 @@ pub fn parse(text: &[u8]) -> Option<JournalContents> {
     Some(JournalContents { header, checkpoints, header_bytes })
 }
 
-/// Reads the journal at `path`. `None` if there is no journal, or if its first line is incomplete: then no row was
-/// written.
+/// Reads the journal at `path`. `None` if there is no journal, or if the first line of the journal is incomplete, in
+/// which case no row was written.
 ///
 /// # Errors
 /// The error of the operating system if the file cannot be read.
@@ -125,15 +125,15 @@ impl Journal {
     /// Creates a journal.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has this name
-    /// - the error of the operating system if the file cannot be written
+    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents has this name.
+    /// - The error of the operating system if the file cannot be written.
     pub fn create(path: &Path, header: &Header) -> io::Result<Journal> {
         let mut journal = Journal(disk::create_new(path)?);
         journal.add_line(header)?;
         Ok(journal)
     }
 
-    /// Continues a journal after its first `bytes` and removes the rest.
+    /// Continues a journal after its first `bytes` and removes the rest of the journal.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be opened or truncated.
@@ -168,7 +168,7 @@ pub(crate) struct IntactRows {
     pub(crate) journal_bytes: u64,
     /// Hash of the rows up to the checkpoint.
     pub(crate) hash: Xxh3Default,
-    /// Number of rows that only later checkpoints count.
+    /// Number of lost rows, which only later checkpoints count.
     pub(crate) lost: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Files with a linear hover model for other programs: JSON, MATLAB and Python. All numbers are in SI units.
+//! Files in JSON, MATLAB and Python with a linear hover model for other programs. All numbers are in SI units.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -74,7 +74,7 @@ impl LinearModel {
     /// With `has_position`, the states include positions. `design` describes model and preset.
     ///
     /// # Errors
-    /// An error if mass properties are missing or impossible, the body moves, or a derivative is missing.
+    /// An error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
     pub fn at(
         flight: &Flight<'_>,
         values: &[f64],
@@ -104,7 +104,7 @@ impl LinearModel {
         })
     }
 
-    /// Returns the reasons to doubt the model.
+    /// Returns the reasons why the linear model may be inaccurate.
     pub fn warnings(&self) -> Vec<String> {
         self.hover.warnings(self.frequency, self.floquet_max)
     }
@@ -122,7 +122,7 @@ impl LinearModel {
         }
     }
 
-    /// Returns the contents of the file in each format.
+    /// Returns the variables that a file contains in each format.
     fn variables(&self) -> Vec<(&'static str, Variable)> {
         let texts = |texts: &[&str]| Variable::Texts(texts.iter().map(|text| (*text).to_owned()).collect());
         let (names, units): (Vec<&str>, Vec<&str>) = self.hover.states().iter().copied().unzip();

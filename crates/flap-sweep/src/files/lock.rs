@@ -24,8 +24,8 @@ impl Lock {
     /// Locks the file at `path`, which is created if it is missing. Returns `None` if another process holds the lock.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](disk::is_free)
-    /// - the error of the operating system if the file cannot be created
+    /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](disk::is_free).
+    /// - The error of the operating system if the file cannot be created.
     pub(crate) fn take(path: &Path) -> io::Result<Option<Lock>> {
         loop {
             if disk::is_taken(path) && !disk::is_free(path) {

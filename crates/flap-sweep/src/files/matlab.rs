@@ -1,6 +1,7 @@
 //! MAT files of version 5, which MATLAB, Octave and `scipy.io.loadmat` read.
 //!
-//! Variables are not compressed. Source: The MathWorks, MAT-File Format, chapter 1 (Level 5 MAT-File Format).
+//! Variables in the MAT file are not compressed. Source: The MathWorks, MAT-File Format, chapter 1 (Level 5 MAT-File
+//! Format).
 
 use std::io::{self, Write};
 
@@ -21,7 +22,7 @@ pub enum Variable {
     Texts(Vec<String>),
 }
 
-/// Types of data elements.
+/// Codes of the types of data elements in a MAT file.
 const INT8: u32 = 1;
 const INT32: u32 = 5;
 const UINT32: u32 = 6;

@@ -32,10 +32,10 @@ impl Part {
 /// Error of shards that cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// The parts are not all shards of one sweep, or contain a shard twice. Contains a line for each mistake.
+    /// The parts are not all shards of one sweep, or contain a shard twice. The error contains a line for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
-    /// The parts were computed by several builds of flap. Contains the first shard of each.
+    /// The parts were computed by several builds of flap. The error contains the first shard of each build.
     #[error("the shards were computed by several builds of flap, whose rows may differ: {}", .0.join(", "))]
     Builds(Vec<String>),
     /// A shard cannot be read.
@@ -65,9 +65,9 @@ pub enum OnBuilds {
 /// No model is run, so another build of flap may have computed the shards.
 ///
 /// # Errors
-/// - [`MergeError::Parts`] with all mistakes
+/// - [`MergeError::Parts`] with all mistakes.
 /// - [`MergeError::Builds`] if there are no mistakes, but the parts come from several builds and `on_builds` is
-///   [`OnBuilds::Refuse`]
+///   [`OnBuilds::Refuse`].
 pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     let mut problems = Vec::new();
     let mut seen: BTreeMap<u64, &Path> = BTreeMap::new();
@@ -155,12 +155,12 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
 
 /// Writes the rows of `parts` to `to` in the order of their points.
 ///
-/// `parts` must have passed [`check`]. `whole` is the [`sidecar`] of `parts` together. `readers` read the parts, in the
-/// same order. If a reader is tolerant, rows that do not belong to the shard are left out.
+/// `parts` must have passed [`check`]. `whole` is the [`sidecar`] of all `parts` together. `readers` read the parts, in
+/// the same order. If a reader is tolerant, rows that do not belong to the shard are left out.
 ///
 /// # Errors
-/// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records
-/// - [`MergeError::Write`] if rows cannot be written
+/// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records.
+/// - [`MergeError::Write`] if rows cannot be written.
 pub fn merge(
     parts: &[Part],
     readers: &mut [Reader],

@@ -64,7 +64,7 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
     Outline::new(stations).map_err(|cause| refused(format!("{}: {cause}", path.display())))
 }
 
-/// Returns position and unit of the column called `name`. The unit is empty if the heading has none.
+/// Returns position and unit of the column called `name`. The unit is empty if the heading has no unit.
 fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
     headings.iter().enumerate().find_map(|(place, heading)| {
         let (found, unit) = heading.split_once('[').unwrap_or((heading, ""));

@@ -1,4 +1,5 @@
-//! Opens and locks result files, or replaces them as a whole. Files are never overwritten unless requested.
+//! Opens and locks result files, or replaces them as a whole. Existing files are overwritten only at the request of the
+//! caller.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -58,12 +59,12 @@ impl CreateError {
 /// the file keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
 ///
 /// # Errors
-/// - [`CreateError::Exists`] if the file has contents
-/// - [`CreateError::Unfinished`] if the file or its replacement has a journal
+/// - [`CreateError::Exists`] if the file has contents.
+/// - [`CreateError::Unfinished`] if the file or its replacement has a journal.
 /// - [`CreateError::InTheWay`] if there is a sidecar without rows, or a file of another program with the name of the
-///   lock file. If `overwrite` is true, a sidecar is allowed, and a file of another program with its name is not
-/// - [`CreateError::Busy`] if another run has locked it
-/// - [`CreateError::Io`] if it cannot be opened
+///   lock file. If `overwrite` is true, only a file of another program with the name of the lock file is an error.
+/// - [`CreateError::Busy`] if another run has locked the file.
+/// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {
     let refused = CreateError::io(path);
     let open = || OpenOptions::new().write(true).create(true).truncate(false).open(path).map_err(&refused);
@@ -85,13 +86,14 @@ pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), Crea
     Ok((open()?, Some(lock)))
 }
 
-/// Checks that there is no sidecar, or that the sidecar `may` be replaced.
+/// Checks that there is no sidecar, unless `may` allows that the sidecar is replaced.
 fn check_sidecar(results: &Path, may: bool) -> Result<(), CreateError> {
     let sidecar = sidecar_of(results);
     if may || !disk::is_taken(&sidecar) { Ok(()) } else { Err(CreateError::in_the_way(sidecar, results)) }
 }
 
-/// Checks that the names of journal and waiting rows beside the empty results are free.
+/// Checks that no files with contents have the names of the journal and of the unfinished rows beside the empty
+/// results.
 ///
 /// # Errors
 /// [`CreateError::InTheWay`] if a file with such a name has contents.
@@ -121,9 +123,9 @@ pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
 /// Locks the results at `path` for this process. The results need not exist.
 ///
 /// # Errors
-/// - [`CreateError::Busy`] if another run has locked the results
-/// - [`CreateError::InTheWay`] if a file of another program has the name of the lock file
-/// - [`CreateError::Io`] if the lock file cannot be created
+/// - [`CreateError::Busy`] if another run has locked the results.
+/// - [`CreateError::InTheWay`] if a file of another program has the name of the lock file.
+/// - [`CreateError::Io`] if the lock file cannot be created.
 pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
     let lock = lock_of(path);
     match Lock::take(&lock) {
@@ -145,7 +147,7 @@ pub(crate) fn remove_unused_locks(path: &Path) {
     }
 }
 
-/// Writes the file at `results`, which [`create`] opened, as a whole. An earlier file remains until the new one is
+/// Writes the file at `results`, which [`create`] opened, as a whole. An earlier file remains until the new file is
 /// complete.
 ///
 /// `write` returns the sidecar of the results. After a crash, the earlier or the new results exist, possibly without

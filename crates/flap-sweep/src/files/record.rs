@@ -39,10 +39,10 @@ pub enum RecordError {
         /// The reason.
         source: io::Error,
     },
-    /// No column has one of the expected headings. Contains the message.
+    /// No column has one of the expected headings. The error contains the message.
     #[error("{0}")]
     Missing(String),
-    /// The numbers cannot be used. Contains the message.
+    /// The numbers of the record cannot be used. The error contains the message.
     #[error("{0}")]
     Wrong(String),
 }
@@ -51,8 +51,8 @@ impl Record {
     /// Reads a CSV file with a line of headings. Blanks around headings and numbers are ignored.
     ///
     /// # Errors
-    /// - [`RecordError::Read`] if the file cannot be read, or a line has more or fewer cells than there are headings
-    /// - [`RecordError::Wrong`] if two columns have the same heading, or a cell is not a finite number
+    /// - [`RecordError::Read`] if the file cannot be read, or a line has more or fewer cells than there are headings.
+    /// - [`RecordError::Wrong`] if two columns have the same heading, or a cell is not a finite number.
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
         match input::text(path, MOST_BYTES) {
@@ -111,8 +111,8 @@ impl Record {
     /// these columns.
     ///
     /// # Errors
-    /// - [`RecordError::Missing`] if no column has the requested quantity
-    /// - [`RecordError::Wrong`] if a number in the column is too large, or two columns differ
+    /// - [`RecordError::Missing`] if no column has the requested quantity.
+    /// - [`RecordError::Wrong`] if a number in the column is too large, or two columns differ.
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
         let found = quantity.headings.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
@@ -164,8 +164,8 @@ impl Record {
     /// Returns a quantity as a smooth function of the record's time.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if two samples are too close in time, or the samples define no smooth function
-    /// - the errors of [`Record::column`], for the time and for the quantity
+    /// - [`RecordError::Wrong`] if two samples are too close in time, or the samples define no smooth function.
+    /// - The errors of [`Record::column`], for the time and for the quantity.
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
         let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
@@ -195,7 +195,7 @@ const LEAST_STEP: f64 = 1e-12;
 /// Largest relative difference of equal numbers in two units, relative to the column's largest number.
 const SAME: f64 = 1e-6;
 
-/// Returns the headings of a file in words.
+/// Returns the headings of a file as text for a message.
 fn known(headings: &[String]) -> String {
     if headings.iter().all(String::is_empty) {
         "the file has no columns".to_owned()
@@ -229,5 +229,5 @@ const COORDINATE: f64 = 1e12;
 
 const RADIANS: f64 = core::f64::consts::PI / 180.0;
 
-/// Largest angle (rad): 10,000 turns.
+/// Largest accepted angle (rad): 10,000 turns.
 const ANGLE: f64 = 3.6e6 * RADIANS;

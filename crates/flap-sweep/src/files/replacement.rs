@@ -1,15 +1,16 @@
-//! Files beside results that flap wrote. No other files are ever removed or replaced.
+//! Files beside results that flap wrote. The functions of this module remove and replace only files that flap wrote.
 //!
-//! A journal is recognised by the checksum of its first line, a sidecar by its entries. Waiting rows belong to the
-//! journal in the same folder, because a journal is begun only if no file has the name of waiting rows.
+//! A journal is recognised by the checksum of its first line, and a sidecar is recognised by its entries. The rows of
+//! an unfinished Parquet file belong to the journal in the same folder. flap begins a journal only if the name of these
+//! rows is free.
 //!
-//! With `--restart`, the earlier results keep their names until the new results are complete. Until then the new
-//! results of `rows.csv` are `rows.new.csv`, with a sidecar and a journal of this name. The journal records that the
-//! new results are a replacement, so flap never mistakes another file of this name for a replacement.
+//! With `--restart`, the earlier results keep their names until the new results are complete. Until the new results of
+//! `rows.csv` are complete, they are in `rows.new.csv`, with a sidecar and a journal of this name. The journal records
+//! that the new results are a replacement, so flap never mistakes another file of this name for a replacement.
 //!
-//! Results without a sidecar count as not verified, not as damaged. [`commit`] therefore removes the earlier sidecar,
-//! renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call completes the
-//! replacement.
+//! Results without a sidecar are reported as not verified, not as damaged. [`commit`] therefore removes the earlier
+//! sidecar, renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call
+//! completes the replacement.
 
 use std::fs;
 use std::io::{self, Write};
@@ -33,8 +34,8 @@ pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
     Ok(journal::read(&journal_of(results))?.is_some())
 }
 
-/// Removes the waiting rows, then the journal. If the process is killed in between, the journal still identifies the
-/// rows as flap's.
+/// Removes the rows of an unfinished Parquet file, then the journal. If the process is killed between the removals, the
+/// journal still shows that flap wrote the rows.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -48,7 +49,7 @@ pub(crate) fn remove_progress(results: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes the sidecar, the waiting rows and the journal.
+/// Removes the sidecar, the rows of an unfinished Parquet file, and the journal.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -79,8 +80,8 @@ pub(crate) fn of(results: &Path) -> PathBuf {
     replacement_of(&disk::target(results))
 }
 
-/// Returns true if only the journal of the replacement `new` is left. The replacement then has replaced the earlier
-/// results, or was discarded.
+/// Returns true if only the journal of the replacement `new` is left. In this case, the replacement has replaced the
+/// earlier results, or was discarded.
 pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }
@@ -99,8 +100,8 @@ pub(crate) fn discard(results: &Path) -> io::Result<()> {
 /// Replaces `results` by their complete replacement with its sidecar.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be renamed, written or removed. The next call continues from
-/// there.
+/// The error of the operating system if a file cannot be renamed, written or removed. After an error, the next call
+/// continues the replacement.
 pub(crate) fn commit(results: &Path) -> io::Result<()> {
     let new = of(results);
     let beside = sidecar_of(&new);

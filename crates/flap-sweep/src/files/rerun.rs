@@ -49,9 +49,9 @@ impl Wanted {
 /// The results must belong to `plan`. `rows` is the number of written rows, if known.
 ///
 /// # Errors
-/// - [`RerunError::Rows`] if the rows cannot be read, or do not belong to the plan
-/// - [`RerunError::NoEstimate`] if inaccurate rows are selected, and the rows have no error estimate
-/// - [`RerunError::TooMany`] if more than [`MOST_LISTED`] points are selected
+/// - [`RerunError::Rows`] if the rows cannot be read, or do not belong to the plan.
+/// - [`RerunError::NoEstimate`] if inaccurate rows are selected, and the rows have no error estimate.
+/// - [`RerunError::TooMany`] if more than [`MOST_LISTED`] points are selected.
 pub fn points(
     reader: &mut Reader,
     wanted: &Wanted,

@@ -1,8 +1,8 @@
 //! Access of a run to its result file. A session writes rows and checkpoints, and continues earlier runs.
 //!
-//! Checkpoints are after rows, or in compressed files at the end of a frame. The bytes up to a checkpoint do not depend
-//! on later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the same
-//! bytes.
+//! A checkpoint is at the end of a row, or in compressed files at the end of a frame. The bytes up to a checkpoint do
+//! not depend on later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the
+//! same bytes.
 //!
 //! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet file are
 //! therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. The rows become columns when
@@ -87,7 +87,7 @@ pub enum ResumeError {
     Changed {
         /// The results.
         path: PathBuf,
-        /// The differences, in words.
+        /// Descriptions of the differences.
         changes: Vec<String>,
     },
     /// Another program has changed the results.
@@ -98,11 +98,12 @@ pub enum ResumeError {
 impl Session {
     /// Begins to write to `results`, an empty file that [`output::create`] opened at `path`.
     ///
-    /// The journal records the time `started`, and in `replaces` if the results will replace earlier results.
+    /// The journal records the time `started`. The field `replaces` records that the results will replace earlier
+    /// results.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file of waiting rows
-    /// - the error of the operating system if a file cannot be written
+    /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file with the rows of an unfinished Parquet file.
+    /// - The error of the operating system if a file cannot be written.
     pub fn start(
         results: File,
         (path, format): (&Path, Format),
@@ -129,11 +130,11 @@ impl Session {
     /// Continues the results at `path`.
     ///
     /// # Errors
-    /// - [`ResumeError::Format`] if the ending of the name belongs to no format
-    /// - [`ResumeError::Create`] if a file cannot be opened
-    /// - [`ResumeError::NoJournal`] if there is no journal
-    /// - [`ResumeError::Changed`] if the journal belongs to other rows
-    /// - [`ResumeError::Altered`] if the results have changed since flap wrote them
+    /// - [`ResumeError::Format`] if the ending of the name belongs to no format.
+    /// - [`ResumeError::Create`] if a file cannot be opened.
+    /// - [`ResumeError::NoJournal`] if there is no journal.
+    /// - [`ResumeError::Changed`] if the journal belongs to other rows.
+    /// - [`ResumeError::Altered`] if the results have changed since flap wrote them.
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
         let format = Format::of(path)?;
@@ -229,8 +230,8 @@ impl Session {
     /// Adds the last checkpoint, after [`Sink::finish`]. Completes the results if the run has ended.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::Other`] if a file was removed or replaced
-    /// - the error of the operating system if a file cannot be written
+    /// - [`io::ErrorKind::Other`] if a file was removed or replaced.
+    /// - The error of the operating system if a file cannot be written.
     pub fn close(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {
             self.note(summary)?;
@@ -307,11 +308,11 @@ impl Sink for Session {
     }
 }
 
-/// Writes the waiting rows in `part` to the empty file `results`, and returns the checksums of `results`.
+/// Writes the rows in the file `part` to the empty file `results`, and returns the checksums of `results`.
 ///
 /// # Errors
-/// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`
-/// - the error of the operating system if a file cannot be read or written
+/// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`.
+/// - The error of the operating system if a file cannot be read or written.
 fn assemble(part: &Path, results: File, provenance: &Provenance, text: &str) -> io::Result<Checksums> {
     let mut rows = Reader::new(File::open(part)?, Format::CsvZstd)?;
     let mut writer = Writer::new(results, Format::Parquet, provenance)?;

@@ -25,7 +25,7 @@ pub(super) struct Placed {
 
 /// Reads the axes of the section.
 ///
-/// A parameter with wrong values still gives an axis without values, which takes part in later checks.
+/// For a parameter with wrong values, the result contains an axis without values, which is used in later checks.
 pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let mut axes = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -102,7 +102,7 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
     }
 }
 
-/// Reports that the axes have more points than a plan can have. The report is at the axis that exceeds the limit.
+/// Reports that the axes have more points than a plan can have. The report points to the axis that exceeds the limit.
 pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize>], problems: &mut Problems) {
     let span = spans.get(error.axis).cloned().unwrap_or(0..0);
     let lengths: Vec<String> = error.lengths.iter().map(u64::to_string).collect();

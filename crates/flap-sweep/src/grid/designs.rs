@@ -18,7 +18,7 @@ use crate::plan::{Differences, Value};
 
 /// Designs of a grid before they are parts of a vehicle.
 pub(super) struct Designs {
-    /// At least one, all of one model.
+    /// At least one design; all designs have the same model.
     pub(super) bases: Vec<Base>,
     /// Names of the designs, if they form an axis.
     names: Option<Names>,
@@ -32,7 +32,7 @@ struct Names {
     labels: Vec<String>,
 }
 
-/// The start of a grid: the first design, and its differences to the others.
+/// The start of a grid: the first design, and the differences between this design and the other designs.
 pub(super) struct Start {
     /// First design, without values of parameters in which the designs differ.
     pub(super) base: Base,
@@ -41,11 +41,12 @@ pub(super) struct Start {
     /// Preset of each design.
     pub(super) presets: Vec<&'static Preset>,
     pub(super) differences: Differences,
-    /// Axis of the designs, if there is one.
+    /// Axis of the designs, if the designs form an axis.
     pub(super) axis: Option<Placed>,
 }
 
-/// Returns the designs that the keys `preset` or `device` name. `None`, with a report, if there are mistakes.
+/// Returns the designs that the keys `preset` or `device` name. If there are mistakes, reports the mistakes and returns
+/// `None`.
 pub(super) fn read(root: &[Entry<'_>], reader: Reader<'_>, problems: &mut Problems) -> Option<Designs> {
     let Some((key, entry, list)) = listed(root) else {
         return Some(Designs { bases: vec![reader.base(root, problems)?], names: None });
@@ -126,7 +127,8 @@ fn labels(key: &str, list: &List<'_>, problems: &mut Problems) -> Option<Vec<Str
 }
 
 impl Designs {
-    /// Returns the start of the grid, with the wings of `[vehicle]`. `None`, with a report, if there are mistakes.
+    /// Returns the start of the grid, with the wings of `[vehicle]`. If there are mistakes, reports the mistakes and
+    /// returns `None`.
     pub(super) fn start(
         self,
         root: &[Entry<'_>],

@@ -37,7 +37,7 @@ pub(super) struct Base {
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'r> {
     pub(super) models: &'r [&'static dyn Simulator],
-    /// Devices recorded with results, by name; `None` to read files.
+    /// Devices recorded with results, by name; `None` to read devices from files.
     pub(super) recorded: Option<&'r [Source]>,
 }
 

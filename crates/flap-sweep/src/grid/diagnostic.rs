@@ -21,7 +21,7 @@ pub struct Diagnostic {
     pub message: String,
     /// Position of the bytes with the mistake in the source. The range is empty if the mistake is missing text.
     pub span: Range<usize>,
-    /// A few words that are shown at the mistake. The text may be empty.
+    /// A few words that are shown at the mistake. The label may be empty.
     pub label: String,
     /// Related positions.
     pub related: Vec<Related>,
@@ -29,7 +29,7 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// Advice.
     pub help: Vec<String>,
-    /// True if the mistake is counted but not shown. A hidden mistake needs no help.
+    /// True if the mistake is counted but not shown. A mistake that is not shown needs no help text.
     pub(crate) is_only_counted: bool,
 }
 
@@ -49,7 +49,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a second position.
+    /// Adds a second position to the mistake.
     pub(crate) fn related(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Diagnostic {
         self.related.push(Related { span, label: label.into() });
         self
@@ -81,12 +81,12 @@ impl Diagnostic {
         self
     }
 
-    /// Returns the line of the span's start, from 1.
+    /// Returns the number of the line in which the span begins; the first line is 1.
     pub fn line(&self) -> usize {
         position(&self.source.text, self.span.start).0
     }
 
-    /// Returns the column of the span's start in characters, from 1.
+    /// Returns the column in which the span begins, in characters; the first column is 1.
     pub fn column(&self) -> usize {
         position(&self.source.text, self.span.start).1
     }
@@ -230,7 +230,7 @@ impl Problems {
         })
     }
 
-    /// Returns the last mistake, for more help.
+    /// Returns the latest mistake, so that the caller can add help to this mistake.
     pub(super) fn newest(&mut self) -> Option<&mut Diagnostic> {
         self.last.as_mut().or(self.found.last_mut())
     }

@@ -33,7 +33,7 @@ pub(super) struct Names<'n> {
     pub(super) preset: Vec<Vec<Value>>,
     /// Values of the device of each design, if the grid starts from devices.
     pub(super) device: Option<Vec<Vec<Value>>>,
-    /// For each parameter without its own value, description of the parameters that it follows.
+    /// For each parameter without its own value, a description of the parameters from which its value comes.
     pub(super) unset: Vec<Option<&'static str>>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
@@ -191,7 +191,7 @@ pub(super) fn read(
 /// Returns the expression of `entry`. If the entry is not text, reports a mistake and returns `None`.
 ///
 /// # Errors
-/// The mistakes in the expression. These mistakes are not yet reported.
+/// The mistakes in the expression. The returned mistakes are not yet reported.
 pub(super) fn check(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -246,8 +246,8 @@ pub(super) fn derived_drafts<'t>(
     drafts
 }
 
-/// Reports derived parameters that are also varied or set. Each list in `set` names the way in which its parameters are
-/// set.
+/// Reports derived parameters that are also varied or set. Each list in `set` has a name for the way in which the
+/// parameters of the list are set.
 pub(super) fn report_derived_twice(
     drafts: &[(usize, Entry<'_>)],
     axes: &[Placed],
@@ -316,7 +316,8 @@ fn order(needs: &[Vec<usize>]) -> Vec<usize> {
     }
 }
 
-/// Reports formulas that depend on themselves. Each cycle is reported once. `order` contains all other formulas.
+/// Reports formulas that depend on themselves. Each cycle is reported once. `order` contains the formulas that neither
+/// are in cycles nor depend on cycles.
 fn report_cycles(needs: &[Vec<usize>], order: &[usize], entries: &[&Entry<'_>], problems: &mut Problems) {
     let mut visited: Vec<usize> = order.to_vec();
     for start in 0..needs.len() {

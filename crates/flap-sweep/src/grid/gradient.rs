@@ -16,8 +16,8 @@ use crate::plan::gradient::{Gradient, check};
 
 pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
-/// Returns the derivatives in the section. `names` contains the measures of rows, and `derived` the derived
-/// parameters.
+/// Returns the derivatives that the section `[gradient]` requests. `names` contains the measures of rows, and `derived`
+/// the derived parameters.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     simulator: &dyn Simulator,

@@ -1,4 +1,4 @@
-//! Look-up of parameters by name, and the reasons for parameters that a vehicle lacks.
+//! Look-up of parameters by name, and the reasons why a vehicle lacks a parameter.
 
 use std::ops::Range;
 
@@ -67,8 +67,8 @@ impl<'l> Lookup<'l> {
     }
 }
 
-/// Returns the reason why a vehicle with these parameters has no parameter called `name`, if the name shows the
-/// intention.
+/// Returns the reason why a vehicle with these parameters has no parameter called `name`, if `name` indicates the
+/// reason.
 ///
 /// The name may be a choice or the frequency of one wing, a difference without wings on both sides, or a phase. `None`
 /// if the parameters do not belong to a vehicle.

@@ -1,7 +1,7 @@
 //! Grid files: from text to a [`Plan`](crate::plan::Plan), or to a list of all mistakes in the text.
 //!
-//! Each part of the file has its own module. All modules report mistakes into one list, so one check finds all
-//! mistakes of a file. See `docs/reference/grid.md` for the format.
+//! Each part of the file has its own module. All modules report mistakes into one list, so one check finds all mistakes
+//! of a file. See `docs/reference/grid.md` for the format of grid files.
 
 mod axes;
 mod designs;

@@ -257,7 +257,7 @@ pub enum ReadError {
     /// The file contains results.
     #[error("{} contains results and is not a grid file", .0.display())]
     Results(PathBuf),
-    /// The text is not a valid grid. Contains the mistakes, in the order of the file.
+    /// The text is not a valid grid. The error contains the mistakes, in the order of the file.
     #[error("{}", one_per_line(.0))]
     Grid(Mistakes),
 }
@@ -297,7 +297,7 @@ fn one_per_line(mistakes: &Mistakes) -> String {
 /// Reads the grid file at `path` and returns its plan, with the presets of `models`.
 ///
 /// # Errors
-/// If the file cannot be read or has mistakes.
+/// Returns an error if the file cannot be read or has mistakes.
 pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
     let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
     read_from(file, path, models)
@@ -308,7 +308,7 @@ pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, Read
 /// `name` represents the stream in messages and in sidecars. Paths in the grid are relative to the folder of `name`.
 ///
 /// # Errors
-/// If the stream cannot be read or the grid has mistakes.
+/// Returns an error if the stream cannot be read or the grid has mistakes.
 pub fn read_from(
     source: impl io::Read,
     name: &Path,
@@ -323,7 +323,7 @@ pub fn read_from(
     parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
-/// Returns true if a file with these first bytes is compressed, Parquet, or has the header of results.
+/// Returns true if a file with these first bytes is compressed, is a Parquet file, or has the header of results.
 fn looks_like_results(bytes: &[u8]) -> bool {
     const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();

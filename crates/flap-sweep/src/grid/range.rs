@@ -108,7 +108,7 @@ fn spacing<'e, 't>(
     Some(Spacing::Step(entry, size))
 }
 
-/// Returns the missing keys in words; empty if no key is missing.
+/// Returns the missing keys as text for a message; empty if no key is missing.
 fn missing_keys(entries: &[Entry<'_>]) -> String {
     let has = |key: &str| table::find(entries, key).is_some();
     let keys = [

@@ -69,7 +69,7 @@ pub(super) fn read(
     Some(Refine { measures, along: along?, max_points: max_points?, halvings: halvings? })
 }
 
-/// Returns the indices of the refined axes: the axes of the listed parameters, or all that can be refined.
+/// Returns the indices of the refined axes: the axes of the listed parameters, or all axes that can be refined.
 fn along(
     section: &Entry<'_>,
     listed: Option<&Entry<'_>>,

@@ -12,7 +12,7 @@ use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// Value of a drive frequency that is the resonance of each design.
+/// Word that sets the drive frequency to the resonance of each design.
 pub(super) const WORD: &str = "resonance";
 
 /// Returns true if `entry` sets the drive frequency to the resonance.
@@ -20,7 +20,7 @@ pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
-/// Returns the search for resonances, if `[params]` requests it. The drive frequency of `base` is then
+/// Returns the search for resonances, if `[params]` requests it. With such a search, the drive frequency of `base` is
 /// [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],

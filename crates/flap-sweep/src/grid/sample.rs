@@ -1,4 +1,5 @@
-//! Section `[sample]`: points that are spread over the design space, or listed in a file. The points form one axis.
+//! Section `[sample]`: points that are spread over the design space, or listed in a file. The points of a sample form
+//! one axis.
 
 pub(super) mod distribution;
 mod file;
@@ -26,7 +27,7 @@ pub(super) const OF: [&str; 1] = ["device"];
 /// Returns the sample of the section, and the file that lists the points, if there is such a file.
 ///
 /// `base` contains the standard errors of parameters, and `means` contains the values of parameters that are not
-/// sampled. A parameter with a wrong distribution still takes part, without values, in later checks.
+/// sampled. A parameter with a wrong distribution is still used in later checks, but without values.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &Base,

@@ -251,8 +251,8 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     }
 }
 
-/// Reports a parameter that is a choice, which accepts a list and no `shape`, such as "ranges". Returns false if the
-/// parameter is not a choice.
+/// Reports a value of the wrong `shape`, such as "ranges", for a parameter that is a choice and accepts a list. Returns
+/// false if the parameter is not a choice.
 pub(super) fn report_choice(
     parameter: &Parameter,
     entry: &Entry<'_>,

@@ -1,11 +1,11 @@
 //! Expressions of grid files: `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
 //!
 //! An expression is checked once, when the expression is read: names are looked up, and numbers are distinguished from
-//! conditions. The result is a flat list of operations. Elementary functions come from `libm`, so values have the
-//! same bits on every machine. See `docs/reference/grid.md` for the language.
+//! conditions. The result is a flat list of operations. Elementary functions come from `libm`, so values have the same
+//! bits on every machine. See `docs/reference/grid.md` for the language of expressions.
 //!
 //! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. `and`, `or` and `not` of
-//! unknown conditions are unknown, unless the other side decides.
+//! unknown conditions are unknown, unless the other operand determines the result.
 
 mod error;
 mod evaluate;
@@ -40,7 +40,7 @@ impl Expression {
     /// Checks the expression `text`, whose names must be in `scope`.
     ///
     /// # Errors
-    /// All mistakes in names, or the first mistake of another kind. Spans are bytes of `text`.
+    /// All mistakes in names, or the first mistake of another kind. Spans are positions of bytes in `text`.
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
         parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
     }
@@ -58,8 +58,8 @@ impl Expression {
         })
     }
 
-    /// Returns the value of the expression for the given `values` of names: a number, 1 for true, 0 for false, or NaN
-    /// for an unknown value.
+    /// Returns the value of the expression for the given `values` of names. The value is a number, 1 for true, 0 for
+    /// false, or NaN if unknown.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }
@@ -78,7 +78,7 @@ pub(crate) struct Comparison {
     pub(crate) less: Expression,
     /// The side of the comparison that must be larger.
     pub(crate) more: Expression,
-    /// True if the sides must not be equal.
+    /// True if the two sides of the comparison must not be equal.
     pub(crate) is_strict: bool,
     /// True if the side that must be larger is on the right.
     pub(crate) is_rising: bool,

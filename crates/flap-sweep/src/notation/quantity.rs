@@ -22,8 +22,8 @@ pub struct Quantity<'t> {
 /// compared. `unit_of` finds the unit of a column by its name.
 ///
 /// # Errors
-/// `refused` for a number with a unit that is compared with no column, or with a column of another dimension. The error
-/// of `unit_of` for an unknown name.
+/// Returns the error from `refused` for a number whose unit is compared with no column, or with a column of another
+/// dimension. The error of `unit_of` for an unknown name.
 pub fn without_units<E>(
     text: &str,
     unit_of: impl Fn(&str) -> Result<String, E>,

@@ -1,5 +1,5 @@
-//! Numbers and options as text, for result files and the terminal. Also functions for similar names, and for positions
-//! in texts.
+//! Numbers and options as text, for result files and the terminal. This module also contains functions for similar
+//! names, and for positions in texts.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -55,7 +55,7 @@ fn float_by_standard_library(value: f64) -> String {
     text
 }
 
-/// Returns a number of things in words: `1 row`, `2 rows`.
+/// Returns a number with a noun in singular or plural: `1 row`, `2 rows`.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::count(1, "periodic row"), "1 periodic row");
@@ -68,8 +68,8 @@ pub fn count(number: u64, thing: &str) -> String {
 /// Largest number of names in a message.
 const MOST_NAMES: usize = 20;
 
-/// Returns names for a message: at most 20 names, then the number of further names and the word `thing`, such as `a, b
-/// and 3 more columns`.
+/// Returns at most 20 names for a message, the number of further names, and the word `thing`, such as `a, b and 3 more
+/// columns`.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
     let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();
@@ -88,7 +88,7 @@ pub fn truth(value: f64) -> String {
     (value != 0.0).to_string()
 }
 
-/// Length in characters above which words are shortened. Few paths are longer.
+/// Length in characters above which words are shortened. Few paths are longer than this length.
 const LONGEST_WORD: usize = 300;
 
 /// Number of characters at the beginning and at the end of a shortened word.
@@ -200,7 +200,7 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Returns line and column of a byte of `text`, both from 1. Columns count characters.
+/// Returns line and column of a byte of `text`, both counted from 1. Columns count characters.
 pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
     let mut end = byte.min(text.len());
     while !text.is_char_boundary(end) {

@@ -17,14 +17,14 @@ use unit::Unit;
 
 /// Returns the value in SI units of the quantity `text`, whose dimension must match `si_unit`.
 ///
-/// An empty `si_unit` is a pure number. Only then may `text` have no unit.
+/// An empty `si_unit` means a pure number. `text` may have no unit only if `si_unit` is empty.
 ///
 /// If `si_unit` is not a unit of flap, such as `rpm` in a model of another program, `text` must have exactly this
 /// unit.
 ///
 /// # Errors
-/// If there is no number, the unit is unknown or malformed or has another dimension, or the value is not a finite
-/// float. Spans are bytes of `text`.
+/// Returns an error if `text` has no number, if its unit is unknown, malformed or wrong, or if its value is not a
+/// finite float. Spans are positions of bytes in `text`.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let start = text.len() - text.trim_start().len();
     parse_trimmed(text.trim(), si_unit).map_err(|error| offset(error, start))
@@ -80,7 +80,7 @@ pub fn has_unit(text: &str) -> bool {
     scan(text).is_ok_and(|(_, length)| !text[length..].trim().is_empty())
 }
 
-/// Shifts an error by `start` bytes.
+/// Shifts the position of an error by `start` bytes.
 fn offset(error: UnitError, start: usize) -> UnitError {
     let Range { start: from, end } = error.span;
     UnitError { span: from + start..end + start, ..error }

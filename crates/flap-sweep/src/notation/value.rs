@@ -54,7 +54,7 @@ pub enum UnitOf<'a> {
     Text,
     /// Text may have the unit, or may be a number in SI units.
     TextOrSi,
-    /// Text has no unit. Contains the unit of the numbers.
+    /// The text of a cell is a number without a unit. The variant contains the unit of the numbers.
     Column(&'a str),
 }
 

@@ -27,7 +27,8 @@ pub fn shade(index: usize, count: usize) -> Option<f64> {
 
 /// Returns true if numbers from `low` to `high` have both signs.
 ///
-/// The colour map is then diverging, with zero in the middle. The smaller side must be at least 2 % of the larger side.
+/// For numbers with both signs, the colour map is diverging, with zero in the middle. The smaller side must be at least
+/// 2 % of the larger side.
 pub fn is_signed(low: f64, high: f64) -> bool {
     const LEAST: f64 = 0.02;
     low < 0.0 && high > 0.0 && (-low).min(high) > LEAST * (-low).max(high)

@@ -5,13 +5,14 @@ use crate::table::layout;
 /// Role of a measure in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Vertical axis over a parameter: a response, a hysteresis loop.
+    /// Measure on the vertical axis over a parameter, in pictures of a response or a hysteresis loop.
     Response,
-    /// Benefit of a design: colour of a map, y of a scatter plot, measure of a histogram or a tornado chart.
+    /// Benefit of a design, for example lift. Pictures show the benefit as the colour of a map, the y-axis of a scatter
+    /// plot, or the measure of a histogram or tornado chart.
     Benefit,
-    /// Cost of a design: x of a scatter plot.
+    /// Cost of a design, for example power: the x-axis of a scatter plot.
     Cost,
-    /// Size of the motion: colour of a scatter plot.
+    /// Size of the motion, for example the stroke: the colour of a scatter plot.
     Motion,
 }
 

@@ -1,5 +1,5 @@
-//! Choices that are the same in the pictures of the command and of Python. The choices are measures, colours, branches,
-//! statistics of a sample, and cells of points that form no grid.
+//! Properties of pictures that are the same in the command line and in Python. The properties are measures, colours,
+//! branches, statistics of a sample, and cells of points that form no grid.
 
 pub mod branches;
 pub mod colours;

@@ -33,8 +33,8 @@ pub struct Histogram {
 
 /// Returns the histogram of the finite `values`; `None` if no value is finite.
 ///
-/// The width of bars follows the rule of Freedman and Diaconis: twice the interquartile range over the cube root of
-/// the number of values. The number of bars is limited to 5 to 60.
+/// The width of bars follows the rule of Freedman and Diaconis: twice the interquartile range over the cube root of the
+/// number of values. The histogram has at least 5 and at most 60 bars.
 pub fn histogram(values: &[f64]) -> Option<Histogram> {
     const FEWEST: f64 = 5.0;
     const MOST: f64 = 60.0;
@@ -70,10 +70,10 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
     Some(Histogram { edges, counts, marked })
 }
 
-/// Returns Spearman's rank correlation of two columns, from -1 to 1, over rows in which both are finite.
+/// Returns Spearman's rank correlation of two columns, from -1 to 1, over rows in which both values are finite.
 ///
-/// Equal values share the mean of their ranks. NaN if there are fewer than three such rows, or if a column is constant
-/// in these rows.
+/// Equal values share the mean of their ranks. NaN if fewer than three rows have two finite values, or if a column is
+/// constant in these rows.
 pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     let (x, y): (Vec<f64>, Vec<f64>) =
         x.iter().zip(y).filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, y)| (*x, *y)).unzip();
@@ -107,8 +107,8 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 /// Returns the rank correlation of each parameter with a measure, in descending order of magnitude, with the
 /// parameter's index.
 ///
-/// The result leaves out parameters without a correlation. It also leaves out parameters with the same or the reverse
-/// order as an earlier parameter.
+/// The result leaves out parameters without a correlation. The result also leaves out parameters whose values have the
+/// same or the reverse order as the values of an earlier parameter.
 pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
     const SAME: f64 = 1.0 - 1e-9;
     let mut found: Vec<(usize, f64)> = Vec::new();
@@ -176,7 +176,7 @@ mod tests {
         assert!((three_quarters / (most / 2.0) - 1.0).abs() < 1e-15, "{three_quarters}");
     }
 
-    /// Spearman (1904): 1 - 6 sum d² / (n (n² - 1)) for ranks without ties.
+    /// Spearman (1904): without ties, the rank correlation is 1 - 6 sum d² / (n (n² - 1)).
     #[test]
     fn rank_correlations_are_spearmans() {
         // Ranks 1 to 5 against 2, 1, 4, 3, 5: the sum of d² is 4.

@@ -1,5 +1,5 @@
-//! Axes: the values of one varied parameter, or of several parameters that vary together. Also the followed parameter
-//! of a response.
+//! Axes: the values of one varied parameter, or of several parameters that vary together. The module also contains the
+//! followed parameter of a response.
 //!
 //! Values are computed on demand, so an axis of 10^9 values takes no memory.
 
@@ -23,7 +23,7 @@ pub enum Values {
         /// Number of values.
         count: u64,
     },
-    /// `from`, `from + step`, `from + 2 step`, and so on.
+    /// Equally spaced values: `from`, `from + step`, `from + 2 step`, and so on.
     Step {
         /// First value.
         from: f64,
@@ -58,7 +58,8 @@ pub enum Values {
         mean: f64,
         /// Standard deviation.
         sd: f64,
-        /// Weights of the independent normal numbers of the first dimensions. The sum of the squared weights is 1.
+        /// Weights with which the independent normal numbers of the first dimensions are added. The sum of the squared
+        /// weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -108,11 +109,11 @@ impl Values {
         }
     }
 
-    /// Returns the value at a position along the axis, from 0 to [`Values::len`] less 1. At whole numbers the result
+    /// Returns the value at a position along the axis, from 0 to [`Values::len`] minus 1. At whole numbers the result
     /// equals [`Values::get`].
     ///
-    /// A value between two values of the axis has the spacing of the axis. Between points of a sample there are no
-    /// values: the function returns the earlier value.
+    /// Between two values of the axis, the function interpolates with the spacing of the axis. Between points of a
+    /// sample there are no values: the function returns the earlier value.
     pub(crate) fn at(&self, position: f64) -> f64 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -216,7 +217,7 @@ impl Axes {
         Axes { axes: Vec::new(), points: 1 }
     }
 
-    /// Returns the axes with `axis` before all others.
+    /// Returns the axes with `axis` before all other axes.
     ///
     /// # Errors
     /// [`TooManyPoints`] if the product has more than [`Axes::MAX_POINTS`] points.
@@ -270,7 +271,8 @@ impl Axes {
         }
     }
 
-    /// Writes the values at these positions into `values`: one position for each axis, from 0 to its length less 1.
+    /// Writes the values at these positions into `values`: one position for each axis, from 0 to the length of the axis
+    /// minus 1.
     pub(crate) fn fill_between(&self, positions: &[f64], values: &mut [f64]) {
         for (axis, position) in self.axes.iter().zip(positions) {
             for (parameter, along) in axis.parameters() {
@@ -279,7 +281,8 @@ impl Axes {
         }
     }
 
-    /// Returns true if there are points at these positions: one for each axis, from 0 to its length less 1.
+    /// Returns true if there are points at these positions: one for each axis, from 0 to the length of the axis minus
+    /// 1.
     pub(crate) fn contain(&self, positions: &[f64]) -> bool {
         let within = |(axis, position): (&Axis, &f64)| (0.0..=(axis.len() as f64 - 1.0)).contains(position);
         positions.len() == self.axes.len() && self.axes.iter().zip(positions).all(within)
@@ -291,7 +294,7 @@ impl Axes {
 pub struct Along {
     /// Index in the model's parameter table.
     pub parameter: usize,
-    /// Values, ascending; two or more.
+    /// Values in ascending order; at least two values.
     pub values: Vec<f64>,
     /// Largest error of the ends of bistable bands, more than zero.
     pub tolerance: f64,

@@ -1,4 +1,4 @@
-//! Changes of a plan that keep it valid.
+//! Changes of a plan that keep the plan valid.
 
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ pub enum ChangeError {
         /// Mistake in the value.
         error: Box<ValueError>,
     },
-    /// The contained parameters have no value.
+    /// The parameters in the list have no value.
     #[error("these parameters have no value: {}", .0.join(", "))]
     Missing(Vec<String>),
     /// The plan would have more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS) points.
@@ -61,7 +61,7 @@ pub enum ChangeError {
     /// Rows at hover, and rows with the damping matrix, have neither derivatives nor initial states.
     #[error("rows at hover, and rows with the damping matrix, have neither derivatives nor states")]
     OfBody,
-    /// The model computes only rows, for the contained reason.
+    /// The model computes only rows; the error contains the reason.
     #[error("{0}")]
     NoMotions(String),
     /// The number of states differs from the number of points.
@@ -94,8 +94,8 @@ impl Plan {
     ///
     /// # Errors
     /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the value comes from an
-    ///   axis, a formula or the resonance
-    /// - [`ChangeError::Value`] if the parameter does not accept the value
+    ///   axis, a formula or the resonance.
+    /// - [`ChangeError::Value`] if the parameter does not accept the value.
     pub fn with_parameter(mut self, parameter: usize, value: f64) -> Result<Plan, ChangeError> {
         self.check_free(parameter)?;
         let known = &self.parameters()[parameter];
@@ -132,9 +132,10 @@ impl Plan {
     /// The measures are the columns of [`Plan::with_columns`], or all measures that are numbers.
     ///
     /// # Errors
-    /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives
-    /// - [`ChangeError::AtResonance`], [`ChangeError::OfBody`]
-    /// - [`ChangeError::NoMotions`]
+    /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
+    /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
+    ///   damping matrix.
+    /// - [`ChangeError::NoMotions`] if the model computes only rows.
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         for &parameter in &by {
@@ -168,12 +169,14 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan whose motions begin at these states, one per point; `None` for rest. All points are run.
+    /// Returns the plan whose motions begin at these states, one per point; `None` for rest. The new plan runs all its
+    /// points.
     ///
     /// # Errors
-    /// - [`ChangeError::States`] if the number of states differs from the number of points
-    /// - [`ChangeError::AtResonance`], [`ChangeError::OfBody`]
-    /// - [`ChangeError::NoMotions`]
+    /// - [`ChangeError::States`] if the number of states differs from the number of points.
+    /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
+    ///   damping matrix.
+    /// - [`ChangeError::NoMotions`] if the model computes only rows.
     pub fn begun_at(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         if states.len() as u64 != self.len() {
@@ -227,14 +230,13 @@ impl Plan {
 
     /// Returns the plan combined with an axis of values from a program. The new axis is before all other axes.
     ///
-    /// `parameters` contains the same number of values for each parameter. All points are run. Values need not be in
-    /// range:
-    /// a point with a value out of range has a row with the status invalid.
+    /// `parameters` contains the same number of values for each parameter. The new plan runs all its points. Values
+    /// need not be in range: a point with a value out of range has a row with the status invalid.
     ///
     /// # Errors
-    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a value comes from an
-    ///   axis, a formula or the resonance
-    /// - [`ChangeError::TooManyPoints`]
+    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a value comes from an axis,
+    ///   a formula or the resonance.
+    /// - [`ChangeError::TooManyPoints`] if the plan would have too many points.
     pub fn crossed_with(mut self, parameters: Vec<(usize, Vec<f64>)>) -> Result<Plan, ChangeError> {
         for (place, (parameter, _)) in parameters.iter().enumerate() {
             self.check_free(*parameter)?;
@@ -291,14 +293,14 @@ impl Plan {
         self
     }
 
-    /// Returns the plan with the given measures added at the end. Rows have no derivatives.
+    /// Returns the plan with the given measures added at the end. The rows of the new plan have no derivatives.
     pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
         self.space.measures.extend(more);
         self.space.gradient = None;
         self
     }
 
-    /// Returns the plan with the given conditions in place of the old conditions.
+    /// Returns the plan with the given conditions instead of its earlier conditions.
     pub(crate) fn with_conditions(mut self, conditions: Vec<Condition>) -> Plan {
         self.space.conditions = conditions;
         self
@@ -333,7 +335,8 @@ impl Plan {
         self.with_new_axes()
     }
 
-    /// Returns the plan that runs all points of changed axes. A refinement refers to the earlier axes and is removed.
+    /// Returns the plan that runs all points of changed axes. A refinement of the plan is removed, because the
+    /// refinement refers to the earlier axes.
     fn with_new_axes(self) -> Plan {
         Plan { selection: Selection::All, ..self.without_refinement() }
     }
@@ -357,7 +360,7 @@ impl Plan {
         Ok(self.followed_by(more))
     }
 
-    /// Returns the plan with additional points at the end. The points must be within the axes.
+    /// Returns the plan with additional points at the end. Each point must be within the ranges of the axes.
     pub(crate) fn followed_by(mut self, more: Vec<Vec<f64>>) -> Plan {
         Arc::make_mut(&mut self.added).extend(more);
         self

@@ -64,10 +64,10 @@ impl OwnMeasure {
         self.expression.kind()
     }
 
-    /// Returns the value of the measure. `values` contains the parameters, the model's measures and the user's measures
-    /// above this measure.
+    /// Returns the value of the measure. `values` contains the parameters, the model's measures, and the user's
+    /// measures that precede this measure.
     ///
-    /// NaN if the value is not finite or unknown.
+    /// Returns NaN if the value is unknown or not finite.
     pub(crate) fn value(&self, values: &[f64]) -> f64 {
         let value = self.expression.value(values);
         if value.is_finite() { value } else { f64::NAN }

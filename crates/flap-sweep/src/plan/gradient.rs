@@ -5,7 +5,7 @@ use flap_core::parameter::{Kind, Parameter, Range};
 use crate::derivative::Per;
 use crate::notation::text;
 
-/// Derivatives in rows: of each of some measures with respect to each of some parameters.
+/// Derivatives in rows: the derivatives of some measures with respect to some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
     /// Indices of the measures: first the columns of the model, then the measures of the plan.
@@ -36,7 +36,7 @@ impl Gradient {
 /// Reason why rows cannot have derivatives with respect to a parameter, as the end of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoShares {
-    /// Formulas determine the parameter.
+    /// The value of the parameter is computed by formulas.
     #[error("is derived from other parameters")]
     Derived,
     /// The parameter is a choice of options.

@@ -1,13 +1,13 @@
 //! Checked design spaces: the points of a design space, and the settings for running each point.
 //!
-//! - [`Plan`]: a checked design space, and methods that change it
-//! - [`axes`]: values of varied parameters
-//! - [`sample`]: points that are spread over a design space
-//! - [`formula`]: derived parameters, conditions, the user's measures
-//! - [`gradient`]: derivatives of measures
-//! - [`refine`]: refinement of a grid
-//! - [`uncertainty`]: standard errors of parameters
-//! - [`selection`]: points to run
+//! - [`Plan`]: a checked design space, and methods that change it.
+//! - [`axes`]: values of varied parameters.
+//! - [`sample`]: points that are spread over a design space.
+//! - [`formula`]: derived parameters, conditions, the user's measures.
+//! - [`gradient`]: derivatives of measures.
+//! - [`refine`]: refinement of a grid.
+//! - [`uncertainty`]: standard errors of parameters.
+//! - [`selection`]: points to run.
 
 mod admission;
 pub mod axes;

@@ -8,9 +8,10 @@ use super::axes::{Axis, Values};
 /// error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refine {
-    /// Measures whose interpolation error is limited; at least one.
+    /// Measures whose interpolation error is limited; at least one measure.
     pub measures: Vec<Limit>,
-    /// Indices of the refined axes, ascending; at least one. Every combination of the other axes is a separate map.
+    /// Indices of the refined axes, in ascending order; at least one axis. Every combination of the other axes is a
+    /// separate map.
     pub along: Vec<usize>,
     /// Largest number of points, including the points of the axes.
     pub max_points: u64,
@@ -19,10 +20,10 @@ pub struct Refine {
 }
 
 impl Refine {
-    /// Largest accepted number of points. All points are held in memory.
+    /// Largest accepted number of points. The number of points is limited because all points are held in memory.
     pub const MOST_POINTS: u64 = 1_000_000;
 
-    /// Largest number of refined axes: a box between axes has 2^6 corners.
+    /// Largest number of refined axes: with six axes, a box has 2^6 corners.
     pub const MOST_AXES: usize = 6;
 
     /// Largest accepted number of halvings.

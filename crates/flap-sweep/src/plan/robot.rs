@@ -1,4 +1,4 @@
-//! Simulator of a plan's points: a model or a vehicle, and the choice between several designs of it.
+//! Simulator of a plan's points: a model or a vehicle, with one or several designs.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use self_cell::self_cell;
 
 use crate::notation::expression::of_choice;
 
-/// Simulator of a plan's points: a model of one wing, a vehicle, or one of these with several designs.
+/// Simulator of a plan's points: a model of one wing or a vehicle, with one or several designs.
 #[derive(Clone)]
 pub enum Robot {
     /// A model.
@@ -44,8 +44,7 @@ impl Robot {
         }
     }
 
-    /// Returns the robot with one more parameter after the others: a choice called `name` between designs with these
-    /// labels.
+    /// Returns the robot with one more parameter at the end: a choice called `name` between designs with these labels.
     pub(crate) fn with_designs(self, name: &'static str, labels: Vec<String>) -> Robot {
         let doc = if name == "preset" { PRESET_DOC } else { DEVICE_DOC };
         let labels = Labels::new(labels, |labels| labels.iter().map(String::as_str).collect());
@@ -97,7 +96,8 @@ self_cell!(
 
 /// A model or a vehicle with one more parameter, which is the name of the design.
 ///
-/// The parameter labels points. It has no effect on rows, because points contain the values of their design.
+/// The additional parameter only labels the points. The additional parameter has no effect on rows, because points
+/// contain the values of their design.
 pub struct Designs {
     table: Table,
 }
@@ -174,7 +174,7 @@ pub(crate) struct Differences {
 }
 
 impl Differences {
-    /// Returns the value of a parameter in each design, if the designs differ in it.
+    /// Returns the value of a parameter in each design, if the values differ between the designs.
     pub(crate) fn of(&self, parameter: usize) -> Option<&[f64]> {
         self.values.iter().find(|(differing, _)| *differing == parameter).map(|(_, values)| values.as_slice())
     }
@@ -187,7 +187,7 @@ impl Differences {
         }
     }
 
-    /// Removes a parameter that has the same value in all designs from now on.
+    /// Removes a parameter that has the same value in all designs.
     pub(crate) fn remove(&mut self, parameter: usize) {
         self.values.retain(|(differing, _)| *differing != parameter);
     }

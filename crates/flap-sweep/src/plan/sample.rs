@@ -35,7 +35,7 @@ pub struct Design {
     kind: Kind,
 }
 
-/// Data of each method, for each dimension.
+/// Data that each method requires, for each dimension.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Sobol(Vec<Sobol>),
@@ -124,8 +124,8 @@ const ROUNDS: u64 = 6;
 
 /// A random permutation of the numbers below `count`, which is not stored.
 ///
-/// A Feistel cipher permutes the numbers with an even number of bits, enough for `count`. Numbers that are too large
-/// are encrypted again. A few repetitions give a number in range.
+/// A Feistel cipher permutes the numbers with an even number of bits, enough for `count`. Numbers that are not below
+/// `count` are encrypted again. A few such repetitions give a number below `count`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Permutation {
     count: u64,
@@ -140,7 +140,7 @@ impl Permutation {
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }
     }
 
-    /// Returns the image of `index`, which must be less than `count`.
+    /// Returns the number to which the permutation maps `index`, which must be less than `count`.
     pub(super) fn get(&self, index: u64) -> u64 {
         let mut number = self.once(index);
         while number >= self.count {
@@ -160,8 +160,7 @@ impl Permutation {
     }
 }
 
-/// Returns the finaliser of SplitMix64 (Steele, Lea and Flood 2014) of `x`: each output bit depends on all input
-/// bits.
+/// Applies the finaliser of SplitMix64 (Steele, Lea and Flood 2014) to `x`: each output bit depends on all input bits.
 fn mix(mut x: u64) -> u64 {
     x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
     x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// The points that are run, in the order of the plan. Rows keep the indices of the whole plan.
+/// The points that are run, in the order of the plan. The rows of a selection keep the indices of the whole plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
     /// All points.
@@ -66,7 +66,7 @@ impl fmt::Display for Selection {
 
 /// One of several equal parts of a plan: the points whose index modulo `of` equals `number - 1`.
 ///
-/// Neighbouring points take similar time, so parts of this kind also take similar time.
+/// Neighbouring points take similar time, so the shards of a plan also take similar time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u64,

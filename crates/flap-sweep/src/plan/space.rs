@@ -25,17 +25,18 @@ use crate::vehicle::BodyRows;
 /// A checked design space, and the settings for running its points.
 ///
 /// [`crate::grid`] makes plans from grid files. Methods that change a plan keep the plan valid: values are in range,
-/// and each parameter is set, varied or derived in one place. The selected points are points of the plan.
+/// and each parameter is set, varied or derived in one place. The selected points of a plan are points of the plan,
+/// with valid indices.
 #[derive(Clone)]
 pub struct Plan {
     pub(super) space: Space,
     pub(super) selection: Selection,
     pub(super) followed: Option<Along>,
-    /// The initial state of each point; `None` for a motion from rest. Empty if all motions begin at rest.
+    /// The initial state of each point; `None` for a motion from rest. The list is empty if all motions begin at rest.
     pub(super) begins: Vec<Option<Vec<f64>>>,
     /// Names of the state's components in rows; empty if rows contain no state.
     pub(super) states: Vec<String>,
-    /// Points after the points of the axes. A point is given as a position along each axis.
+    /// Points that a refinement has added after the points of the axes. A point is given as a position along each axis.
     pub(super) added: Arc<Vec<Vec<f64>>>,
 }
 
@@ -141,7 +142,7 @@ impl Plan {
         self.resonance().is_none() && self.body().is_none()
     }
 
-    /// Returns the name of the preset; empty if the plan has none.
+    /// Returns the name of the preset; empty if the plan has no preset.
     pub fn preset(&self) -> &'static str {
         self.space.preset
     }
@@ -156,7 +157,8 @@ impl Plan {
         matches!(self.robot(), Robot::Designs(_)).then(|| self.parameters().len() - 1)
     }
 
-    /// Returns the values of a parameter in the designs of the plan, if the plan has several and they differ in it.
+    /// Returns the values of a parameter in the designs of the plan, if the plan has several designs with different
+    /// values of the parameter.
     pub fn in_designs(&self, parameter: usize) -> Option<&[f64]> {
         self.space.differences.of(parameter)
     }
@@ -187,7 +189,8 @@ impl Plan {
         self.space.refine.as_ref().filter(|_| self.followed().is_none())
     }
 
-    /// Returns the points after the points of the axes. A point is given as a position along each axis.
+    /// Returns the points that a refinement has added after the points of the axes. A point is given as a position
+    /// along each axis.
     ///
     /// For example, position 1.5 is between the second and the third value.
     pub fn added(&self) -> &[Vec<f64>] {
@@ -298,8 +301,8 @@ impl Plan {
         values
     }
 
-    /// Writes the values in which the designs of the plan differ: the values of the design that `values` names, except
-    /// parameters that vary and parameters in `set`.
+    /// Writes the values in which the designs of the plan differ: the values of the design that `values` names.
+    /// Parameters that vary and parameters in `set` keep their values.
     pub fn fill_design(&self, values: &mut [f64], set: &[usize]) {
         let is_set =
             |parameter| set.contains(&parameter) || self.axes().varied().any(|varied| varied == parameter);
@@ -311,7 +314,7 @@ impl Plan {
         self.selection.len(self.len())
     }
 
-    /// Returns number `position` of the points to run, which must be less than [`Plan::selected`].
+    /// Returns the point at `position` among the points to run; `position` must be less than [`Plan::selected`].
     pub fn selected_point(&self, position: u64) -> Point {
         self.point(self.selection.index(position))
     }

@@ -61,7 +61,7 @@ impl Uncertainty {
     /// Returns the lower triangle L of the correlation matrix R = L Lᵀ, with a row for each of
     /// [`Uncertainty::errors`].
     ///
-    /// `None` if R is not positive definite: the correlations then contradict each other.
+    /// `None` if the correlation matrix R is not positive definite, because the correlations contradict each other.
     pub(crate) fn factor(&self) -> Option<Vec<Vec<f64>>> {
         let n = self.errors.len();
         let mut matrix = DMatrix::identity(n, n);

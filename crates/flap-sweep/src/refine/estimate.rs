@@ -29,11 +29,12 @@ impl Edge {
     ///
     /// The estimate is the error of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two
     /// such parabolas, and the estimate is the mean of both errors. Beside a jump or a kink, only one parabola contains
-    /// the jump or kink. The larger error therefore counts up to [`MOST_APART`] times the smaller. For whole edges
-    /// the larger error counts, because nothing between the ends is known.
+    /// the jump or kink. The larger error therefore counts as at most [`MOST_APART`] times the smaller error. For an
+    /// edge between neighbouring values of the axis, the larger error counts, because nothing between the ends is
+    /// known.
     ///
-    /// If the measure changes more than twice as much as beside the edge, the measure may jump. The estimate is then
-    /// half of the change.
+    /// If the measure changes more than twice as much as beside the edge, the measure may jump. For such a jump, the
+    /// estimate is half of the change.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }
@@ -74,11 +75,11 @@ impl Edge {
     }
 }
 
-/// Returns the axis along which a box is halved, from its `errors` along the axes relative to the allowed error;
-/// `None` if the box is not halved.
+/// Returns the axis along which a box is halved; `None` if the box is not halved. `errors` contains the errors along
+/// the axes, relative to the allowed error.
 ///
-/// Halving leaves a quarter of the error along the halved axis. The error of a jump stays. A box is therefore also
-/// halved along the other axes that a jump crosses: each earlier halving counts as half of the error.
+/// Halving leaves a quarter of the error along the halved axis. Halving does not decrease the error of a jump. A box is
+/// therefore also halved along the other axes that a jump crosses: each earlier halving counts as half of the error.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));

@@ -8,7 +8,7 @@ use super::estimate::{self, Edge, Tolerance};
 /// Coordinates along a refined axis, in which rows are interpolated.
 #[derive(Clone, Debug)]
 pub(super) enum Side {
-    /// Equidistant coordinates, also for values with a constant ratio. Contains the number of coordinates.
+    /// Equidistant coordinates, also for values with a constant ratio. The variant contains the number of coordinates.
     Even(u64),
     /// Listed values.
     Listed(Vec<f64>),
@@ -41,7 +41,7 @@ impl Side {
 /// Place of a point in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Place {
-    /// Number of the combination of the axes that are not refined.
+    /// Number of the combination of values of the axes that are not refined.
     pub(super) map: u64,
     /// Along each refined axis, the number of smallest steps from the first value of the axis.
     pub(super) at: Vec<u64>,
@@ -85,8 +85,8 @@ pub(super) struct Mesh {
 struct Halving {
     /// Estimated error times the mean side of the box.
     ///
-    /// With the error alone as the criterion, all points would be added at jumps, where the error does not decrease.
-    /// With the error times the volume, the mean error would decrease fastest, and the largest error slowly.
+    /// With the error alone as the criterion, all points would be added at jumps, where the error does not decrease. If
+    /// the gain were the error times the volume, the mean error would decrease fastest, but the largest error slowly.
     gain: f64,
     cell: usize,
     axis: usize,
@@ -169,8 +169,8 @@ impl Mesh {
         }
     }
 
-    /// Returns the number of boxes, of boxes with too large an estimated error, and of boxes with too large an error
-    /// that can be halved.
+    /// Returns three numbers: all boxes, boxes with too large an error estimate, and boxes with too large an error that
+    /// can be halved.
     pub(super) fn count(&self, tolerances: &[Tolerance]) -> [u64; 3] {
         let errors = self.cells.iter().map(|cell| self.errors(cell, tolerances).iter().sum::<f64>());
         let above = errors.filter(|error| *error > 1.0).count();

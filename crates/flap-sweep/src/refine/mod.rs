@@ -1,8 +1,9 @@
-//! Refinement of a grid: the points that follow the points of the axes.
+//! Refinement of a grid: points that are added after the points of the axes.
 //!
-//! Points of the axes are the corners of boxes. When their rows exist, the error of a multilinear interpolation within
-//! each box is estimated (`estimate`). Boxes with large errors are halved, and the middles of their edges are the next
-//! points (`mesh`). Points are added in rounds until all estimates are small enough or there are enough points.
+//! Points of the axes are the corners of boxes. When the rows of these points exist, flap estimates the error of a
+//! multilinear interpolation within each box (`estimate`). Boxes with large errors are halved, and the middles of their
+//! edges are the next points (`mesh`). Points are added in rounds until all estimates are small enough or there are
+//! enough points.
 //!
 //! A round depends on the settings and on the written rows of earlier rounds. A resumed run reads the rows from its
 //! file and gets the same points.
@@ -48,7 +49,7 @@ pub struct Refined {
     pub added: u64,
     /// Number of boxes between points.
     pub boxes: u64,
-    /// Number of boxes whose estimated error is too large.
+    /// Number of boxes of the refinement whose estimated error is too large.
     pub above: u64,
     /// True if the refinement ended early because of `max_points`.
     pub is_limited: bool,
@@ -88,7 +89,7 @@ impl Refinement {
 
     /// Returns the points of the next round, each as a position along each axis.
     ///
-    /// There are no points if the refinement has ended, or a row of the earlier points is missing.
+    /// The result is empty if the refinement has ended, or if a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {
         if !self.waiting.is_empty() {
             return Vec::new();
@@ -164,16 +165,16 @@ fn side(axis: &Axis) -> Side {
     }
 }
 
-/// Returns the plan with the points of all rounds that begin within the first `done` points. Also returns the
-/// refinement after the first `done` points.
+/// Returns the plan with the points of all rounds that begin within the first `done` points. The function also returns
+/// the refinement after the first `done` points.
 ///
 /// `rows` are the written rows of the plan, in their order.
 ///
 /// `None` if the plan has no refinement.
 ///
 /// # Errors
-/// - [`io::ErrorKind::InvalidData`] if a row is not the next row of the plan, or rows are missing
-/// - the error of reading a row
+/// - [`io::ErrorKind::InvalidData`] if a row is not the next row of the plan, or rows are missing.
+/// - The error of reading a row.
 pub fn replay(
     plan: &Plan,
     done: u64,

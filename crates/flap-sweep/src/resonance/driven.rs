@@ -56,8 +56,8 @@ pub struct Gap {
 /// Stroke and pitch of a peak belong to the motion from rest. `range.of` is ignored.
 ///
 /// # Errors
-/// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible
-/// - another [`SearchError`] if the search is impossible
+/// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible.
+/// - Another [`SearchError`] if the search is impossible.
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
@@ -148,7 +148,7 @@ impl LargeImpulse {
 /// pass through the body.
 ///
 /// # Errors
-/// [`LargeImpulse`] for a larger amplitude.
+/// [`LargeImpulse`] if the magnitude of the amplitude is larger than π.
 pub fn impulse(amplitude: f64) -> Result<f64, LargeImpulse> {
     if amplitude.abs() <= PI { Ok(amplitude) } else { Err(LargeImpulse { amplitude }) }
 }

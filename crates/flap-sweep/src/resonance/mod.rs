@@ -1,11 +1,11 @@
 //! Resonances of designs: drive frequencies at which stroke, lift or efficiency is largest.
 //!
-//! - [`AtResonance`]: rows of designs, each at its own resonance
+//! - [`AtResonance`]: rows of designs, each at its own resonance.
 //! - [`driven`]: highest peaks of one design, and with [`impulse()`] the size of an impulse for the analysis of free
-//!   motions
-//! - `search`: search for the resonance and for all peaks, and for the maximum of one peak
-//! - `target`: quantity to maximise, and range of the search
-//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier points
+//!   motions.
+//! - `search`: search for the resonance and for all peaks, and for the maximum of one peak.
+//! - `target`: quantity to maximise, and range of the search.
+//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier points.
 
 pub mod driven;
 mod rows;

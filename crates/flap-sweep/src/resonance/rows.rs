@@ -11,7 +11,7 @@ use super::target::{Objective, Range, Target, places};
 /// A model whose rows are computed at the resonance of each design. The drive frequency of a point is ignored.
 ///
 /// A row is the model's row at [`RESONANCE_HZ`], except `cycles` and `rhs_evals`, which count the whole search. After
-/// the model's measures it contains measures about the resonance.
+/// the model's measures, the row contains measures about the resonance.
 #[derive(Clone)]
 pub struct AtResonance {
     target: Target,
@@ -94,7 +94,7 @@ impl Rows for AtResonance {
     }
 }
 
-/// Designs in progress, from the jobs of a sweep to their rows.
+/// Designs of a sweep whose rows are being computed.
 struct Designs<'a> {
     at: &'a AtResonance,
     jobs: &'a mut dyn Jobs,

@@ -3,9 +3,9 @@
 //! Points on a grid over the range show the peaks. [`Maximum`] locates the highest peaks. Each probe begins at the
 //! orbit of its nearest neighbour, which takes half the time of a start from rest.
 //!
-//! The row belongs to the motion from rest, like every row. If this motion differs from the motion that the search
-//! found at the same frequency, the design has more than one orbit. The peaks are then located again with all probes
-//! from rest.
+//! The row at a resonance belongs to the motion from rest, like every row of a sweep. If this motion differs from the
+//! motion that the search found at the same frequency, the design has more than one orbit. For a design with more than
+//! one orbit, the peaks are located again with all probes from rest.
 
 use flap_core::simulate::{Point, Row, Status};
 
@@ -70,13 +70,13 @@ enum Stage {
     Grid,
     /// Locating peaks. Each peak with an index in `asking` waits for one value.
     Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
-    /// Running the highest of these peaks, each `[frequency, value]`, from rest.
+    /// The search runs the highest of the peaks `tops`, each `[frequency, value]`, from rest.
     Last { tops: Vec<[f64; 2]>, from_rest: bool },
     /// The search has ended.
     Done { tops: Vec<[f64; 2]> },
 }
 
-/// A point of the search that was run.
+/// A point that the search has run.
 pub(super) struct Seen {
     pub(super) frequency: f64,
     /// Quantity to maximise; minus infinity if the motion is not periodic.
@@ -144,8 +144,8 @@ impl<'a> Search<'a> {
     /// Returns the result of the search and all points that were run.
     ///
     /// # Errors
-    /// - [`SearchError::Impossible`] if the design is impossible, or has no range of frequencies to search
-    /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range
+    /// - [`SearchError::Impossible`] if the design is impossible, or has no range of frequencies to search.
+    /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range.
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
         let ends = self.ends?;
         let peaks = match self.stage {
@@ -305,23 +305,24 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Search for a maximum between two bounds.
 ///
-/// Steps go to the vertex of the parabola through the three best points while the steps shrink fast enough, otherwise
-/// by golden sections (R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
+/// Steps go to the vertex of the parabola through the three best points, as long as the steps shrink fast enough. Other
+/// steps are golden sections (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
 /// are minus infinity.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {
     bounds: [f64; 2],
     /// The best, second best and third best point: position and value.
     best: [[f64; 2]; 3],
-    /// The latest step, and the step before the latest step.
+    /// The latest step of the search, and the step before the latest step.
     steps: [f64; 2],
     tolerance: f64,
 }
 
 impl Maximum {
-    /// Returns a search from three points `[place, value]` in ascending order. The middle point has the highest value.
+    /// Returns a search from three points `[place, value]` in ascending order. The middle one of the three points has
+    /// the highest value.
     ///
-    /// At an end of the range, the best point is one of the other two points.
+    /// At an end of the search range, the best point is the first or the last of the three points.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {
         let [low, top, high] = points;
         let [second, third] = if low[1] > high[1] { [low, high] } else { [high, low] };
@@ -370,7 +371,7 @@ impl Maximum {
         (inside && step.abs() < 0.5 * self.steps[1].abs()).then_some(step)
     }
 
-    /// Adds the value at the position from [`Maximum::next`].
+    /// Receives the value at the position that [`Maximum::next`] returned.
     pub(super) fn take(&mut self, place: f64, value: f64) {
         let [x, w, v] = self.best;
         let tried = [place, value];

@@ -7,7 +7,7 @@ use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Points that are run step by step.
 pub trait PointSequence {
-    /// Returns the points to run next, with any indices; none if the sequence has ended.
+    /// Returns the points to run next, with any indices; the list is empty if the sequence has ended.
     ///
     /// The function is called again after [`PointSequence::take`] has received the rows of these points.
     fn probes(&mut self) -> Vec<Point>;
@@ -29,7 +29,7 @@ pub trait SequenceSource {
     /// Receives a finished sequence.
     fn done(&mut self, sequence: Self::Sequence);
 
-    /// Returns true to end at once, see [`Jobs::interrupted`]. Open sequences are dropped.
+    /// Returns true to end at once, see [`Jobs::interrupted`]. Open sequences are discarded.
     fn interrupted(&self) -> bool;
 }
 
@@ -70,7 +70,7 @@ struct Interleaved<'a, D: SequenceSource> {
 /// A sequence whose points wait or are running.
 struct Open<S> {
     sequence: S,
-    /// Points that have not begun, the next one last, each with its index among the probes.
+    /// Points that have not begun, with the next point last, each with its index among the probes.
     waiting: Vec<(usize, Point)>,
     /// Rows of the points that were received so far.
     rows: Vec<Option<Row>>,
@@ -78,7 +78,7 @@ struct Open<S> {
 }
 
 impl<S: PointSequence> Open<S> {
-    /// Returns the sequence with its next points, or as an error the sequence, if the sequence has ended.
+    /// Returns the sequence with its next points; returns the sequence as an error if the sequence has ended.
     fn begin(mut sequence: S) -> Result<Open<S>, S> {
         let probes = sequence.probes();
         if probes.is_empty() {

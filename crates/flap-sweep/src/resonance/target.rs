@@ -67,7 +67,7 @@ pub(super) struct Target {
     pub(super) range: Range,
     /// Index of the drive frequency in the parameters.
     pub(super) frequency: usize,
-    /// Index of the quantity in the columns.
+    /// Index of the maximised quantity in the columns.
     pub(super) objective: usize,
 }
 
@@ -125,7 +125,7 @@ pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) ->
 /// Reason for an impossible or failed search for resonances.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SearchError {
-    /// The search is impossible, or no motion of the design is periodic. Contains the reason.
+    /// The search is impossible, or no motion of the design is periodic. The error contains the reason.
     #[error("{0}")]
     Impossible(String),
     /// The natural frequencies cannot be computed, or the search was interrupted.
@@ -134,7 +134,7 @@ pub enum SearchError {
 }
 
 impl SearchError {
-    /// Returns the error of a prescribed stroke. `end` is the end of the message.
+    /// Returns the error of a prescribed stroke. `end` is the last part of the error message.
     pub(super) fn prescribed(end: &str) -> SearchError {
         let begin = "stroke_mode is \"prescribed\": the stroke is the same at every frequency";
         SearchError::Impossible(format!("{begin}, {end}"))

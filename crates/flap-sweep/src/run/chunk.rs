@@ -73,11 +73,11 @@ impl Chunk {
         }
     }
 
-    /// Returns the outcomes of the points of the chunk. The points must be points of `plan` beginning at position
-    /// `next`.
+    /// Returns the outcomes of the points of the chunk. The points of the chunk must be points of `plan` beginning at
+    /// position `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the points are different points.
+    /// [`RunError::Chunk`] if the chunk contains other points.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

@@ -36,7 +36,7 @@ pub struct Identity {
     pub devices: Option<String>,
     /// Hash of the file that lists the points of the sample, if there is such a file.
     pub points_file: Option<String>,
-    /// Selected points, in words.
+    /// Description of the selected points.
     pub selection: String,
     /// Followed parameter, in words with a hash of its values and of the parameters of all designs; `None` if the
     /// rows belong to points.
@@ -66,7 +66,7 @@ impl Identity {
         self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
-    /// Returns the differences to `other` in words. The list is empty if the rows are equal.
+    /// Returns descriptions of the differences to `other`. The list is empty if the rows are equal.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
@@ -111,7 +111,7 @@ pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     (!hashes.is_empty()).then(|| hashes.join(" "))
 }
 
-/// Returns the followed parameter, in words.
+/// Returns a description of the followed parameter.
 ///
 /// The command line may set parameters that the grid file does not set, so the hash also contains these parameters.
 fn followed(plan: &Plan, along: &Along) -> String {

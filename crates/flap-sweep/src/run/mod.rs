@@ -1,10 +1,11 @@
-//! The parallel runner, which runs units on all cores and returns the outcomes of the units in order.
+//! The parallel runner, which runs units of work on all cores and returns their outcomes in order.
 //!
-//! A unit is a point of a plan with its row, or a design with the rows of its response. Each worker is one lane
-//! ensemble for the whole run, so its lanes stay full until the end of the run. Units finish in any order.
+//! A unit of work is a point of a plan with its row, or a design with the rows of its response. Each worker integrates
+//! one set of lanes for the whole run, so its lanes stay full until the end of the run. Units of work finish in any
+//! order.
 //!
-//! A bounded window puts the outcomes back in order. Memory therefore does not grow with the number of units, and the
-//! output does not depend on the number of threads.
+//! A window of limited size brings the outcomes into order. Memory therefore does not grow with the number of units of
+//! work, and the output does not depend on the number of threads.
 //!
 //! ```no_run
 //! # use flap_sweep::{files::csv_sink::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
@@ -18,11 +19,11 @@
 //! # }
 //! ```
 //!
-//! - [`rows`]: the rows of a plan as a [`Run`], on threads (`workers`) with a `queue`
-//! - [`alone`]: the rows of a plan on the calling thread
-//! - [`Chunk`]: rows computed by another process
-//! - [`RowWriter`]: writes rows to a [`Sink`] and counts them in a [`Summary`]
-//! - [`identity`]: settings and build that determine the bytes of rows
+//! - [`rows`]: the rows of a plan as a [`Run`], on threads (`workers`) with a `queue`.
+//! - [`alone`]: the rows of a plan on the calling thread.
+//! - [`Chunk`]: rows computed by another process.
+//! - [`RowWriter`]: writes rows to a [`Sink`] and counts them in a [`Summary`].
+//! - [`identity`]: settings and build that determine the bytes of rows.
 
 use std::io;
 use std::num::NonZeroUsize;
@@ -46,7 +47,8 @@ pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink, Written};
 
-/// Options of a run. Only the arithmetic class of the instruction set changes the output; all other options do not.
+/// Options of a run. Only the arithmetic class of the instruction set changes the output; all other options have no
+/// effect on the output.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
     /// Instruction set of the lanes.
@@ -55,10 +57,10 @@ pub struct RunOptions {
     pub threads: NonZeroUsize,
     /// Largest number of rows between the last returned row and the last started point.
     ///
-    /// A slow point delays the rows after it. With a wider window, the other points can continue longer while the slow
+    /// A slow point delays the rows after it. With a wider window, the other points can continue longer while a slow
     /// point runs. A row of 40 measures takes about half a kilobyte.
     pub window: usize,
-    /// Time for running points after the run is stopped. Points that take longer are dropped.
+    /// Time for running points after the run is stopped. Points that take longer than this time are discarded.
     pub grace: Duration,
 }
 
@@ -75,8 +77,8 @@ impl RunOptions {
 }
 
 impl Default for RunOptions {
-    /// Returns the best instruction set of the machine, a thread per core, a window of a few megabytes, and 0.4 s of
-    /// grace.
+    /// Returns the best instruction set of the machine, one thread per core, a window of a few megabytes, and a grace
+    /// time of 0.4 s.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }

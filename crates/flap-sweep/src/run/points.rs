@@ -45,8 +45,8 @@ pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) 
 
 /// Returns the rows of the selected points of `plan`, computed one after another on the calling thread, on scalars.
 ///
-/// The rows equal the rows of [`rows`]. For a few points, scalars are faster, because no thread starts and no lanes
-/// stay empty. The iterator ends when the run is `interrupted`.
+/// The rows equal the rows of [`rows`]. For a few points, computation without lanes is faster, because flap starts no
+/// threads and no lanes stay empty. The iterator ends when the run is `interrupted`.
 pub fn alone<'a>(
     plan: &'a Plan,
     options: &'a RunOptions,
@@ -212,8 +212,8 @@ fn add_gradient(
     true
 }
 
-/// Returns the size to which relative changes of a parameter refer; `None` if the size is unknown. Zero has no relative
-/// change.
+/// Returns the size to which relative changes of a parameter refer; `None` if the size is unknown. A parameter with the
+/// value zero has no relative change.
 fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;

@@ -1,14 +1,14 @@
-//! Queue between workers and the thread that collects outcomes: units to run, outcomes in order, and the end of the
-//! run.
+//! Queue between workers and the thread that collects outcomes: units of work to run, outcomes in order, and the end of
+//! the run.
 //!
-//! The queue cannot deadlock. A worker waits only while it has no unit and the window is full. If the next outcome is
-//! then present, collecting this outcome makes room. Otherwise the unit of the next outcome is running on another
-//! worker, which does not wait. A worker leaves the queue when it ends, also after a panic. If a worker ends with
-//! unfinished units, the run fails.
-//! Collecting waits only while there are workers, and a dropped run aborts its workers.
+//! The queue cannot deadlock, for the following reasons. A worker waits only while it has no unit of work and the
+//! window is full. If the next outcome is present, collecting this outcome makes room in the window. If the next
+//! outcome is missing, its unit of work is running on another worker, which does not wait. A worker leaves the queue
+//! when it ends, also after a panic. If a worker ends with unfinished units of work, the run fails. Collecting waits
+//! only while there are workers, and a dropped run aborts its workers.
 //!
-//! After a stop, workers have a short time to finish their units. Units that still run after the short time are
-//! dropped.
+//! After a stop, workers have a short time to finish their units of work. Units of work that still run after the short
+//! time are discarded.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -24,16 +24,16 @@ const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(10
 /// Number of available outcomes at which the collection of a batch ends early.
 const BATCH: usize = 64;
 
-/// Largest number of outcomes in a batch. The number is limited so that the window gets room in time.
+/// Largest number of outcomes in a batch. The number is limited so that the window soon has room for new units of work.
 const MOST_AT_ONCE: usize = 1024;
 
-/// Units to run, and their outcomes.
+/// Units of work to run, and their outcomes.
 pub(super) struct Queue<T> {
-    /// True if no further units are assigned to workers.
+    /// True if no further units of work are assigned to workers.
     stop: AtomicBool,
     /// Time for running units after a stop.
     grace: Duration,
-    /// True if running units are dropped.
+    /// True if running units of work are discarded.
     cancelled: AtomicBool,
     state: Mutex<State<T>>,
     /// Signals workers that the window has room, or that the run has ended.
@@ -45,15 +45,15 @@ pub(super) struct Queue<T> {
 struct State<T> {
     window: Window<T>,
     workers: usize,
-    /// True if the run was aborted: no units are assigned, and outcomes are dropped.
+    /// True if the run was aborted: no units of work are assigned, and outcomes are discarded.
     aborted: bool,
-    /// Time at which the stop was noticed.
+    /// Time at which the request to stop was detected.
     stopped: Option<Instant>,
     failure: Option<RunError>,
 }
 
 impl<T> Queue<T> {
-    /// Returns the queue of `units` with the given options.
+    /// Returns the queue of the units of work `units` with the given options.
     pub(super) fn new(units: Range<u64>, options: &RunOptions, workers: usize) -> Queue<T> {
         let (window, grace) = (Window::new(units, options.window), options.grace);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };
@@ -72,7 +72,7 @@ impl<T> Queue<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the next unit to run. If `may_wait` is false, returns `None` for a full window.
+    /// Returns the next unit of work to run. If `may_wait` is false, returns `None` for a full window.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -91,7 +91,7 @@ impl<T> Queue<T> {
         }
     }
 
-    /// Receives the outcome of a unit.
+    /// Receives the outcome of a unit of work.
     pub(super) fn done(&self, index: u64, outcome: T) {
         let mut state = self.lock();
         if state.aborted {
@@ -121,7 +121,7 @@ impl<T> Queue<T> {
         self.outcomes.notify_one();
     }
 
-    /// Returns true if running units are to be dropped without outcomes.
+    /// Returns true if running units of work must be discarded without outcomes.
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
@@ -131,7 +131,7 @@ impl<T> Queue<T> {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Ends the workers: no units are assigned, and outcomes are dropped.
+    /// Ends the workers: no units of work are assigned, and outcomes are discarded.
     pub(super) fn abort(&self) {
         self.lock().aborted = true;
         self.cancelled.store(true, Ordering::Relaxed);
@@ -140,8 +140,8 @@ impl<T> Queue<T> {
 
     /// Records that the last batch is processed, and waits for more outcomes, at most for [`TURN`].
     ///
-    /// Returns the outcomes and the number of units that have run; `None` if all workers have ended and every outcome
-    /// in order was returned.
+    /// Returns the outcomes and the number of finished units of work; `None` if all workers have ended and all outcomes
+    /// were returned.
     pub(super) fn next_batch(&self) -> Option<(Vec<T>, u64)> {
         let mut batch = Vec::new();
         let mut state = self.lock();
@@ -170,7 +170,7 @@ impl<T> Queue<T> {
 }
 
 impl<T> State<T> {
-    /// Returns true if no further units are assigned to workers.
+    /// Returns true if no further units of work are assigned to workers.
     fn ends(&self, stop: &AtomicBool) -> bool {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }
@@ -181,7 +181,7 @@ impl<T> State<T> {
     }
 }
 
-/// Units after the last written unit, up to the last assigned unit: at most `capacity` units.
+/// Units of work after the last written unit, up to the last assigned unit: at most `capacity` units.
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
@@ -189,8 +189,8 @@ impl<T> State<T> {
 ///      │ written    │ still running      │ begun
 /// ```
 ///
-/// Units are numbered in the order of assignment. For points, the number is the position among the selected points, not
-/// the index in the plan.
+/// Units of work are numbered in the order of assignment. For points, the number of a unit of work is its position
+/// among the selected points, not its index in the plan.
 pub(super) struct Window<T> {
     capacity: u64,
     total: u64,
@@ -198,12 +198,12 @@ pub(super) struct Window<T> {
     taken: u64,
     handed_out: u64,
     units: VecDeque<Option<T>>,
-    /// Number of `units` with an outcome.
+    /// Number of units of work with an outcome that was not taken.
     waiting: usize,
 }
 
 impl<T> Window<T> {
-    /// Returns a window over `units`. Earlier units have been written.
+    /// Returns a window over the units of work `units`. The units of work before this range have been written.
     pub(super) fn new(units: Range<u64>, capacity: usize) -> Window<T> {
         Window {
             capacity: capacity.max(1) as u64,
@@ -216,12 +216,12 @@ impl<T> Window<T> {
         }
     }
 
-    /// Returns true if every unit has been assigned.
+    /// Returns true if every unit of work has been assigned.
     pub(super) fn is_exhausted(&self) -> bool {
         self.handed_out == self.total
     }
 
-    /// Returns the next unit to run, unless no unit is left or the window is full.
+    /// Returns the next unit of work to run, unless no unit is left or the window is full.
     pub(super) fn hand_out(&mut self) -> Option<u64> {
         if self.is_exhausted() || self.is_full() {
             return None;
@@ -231,7 +231,8 @@ impl<T> Window<T> {
         Some(self.handed_out - 1)
     }
 
-    /// Stores the outcome of an assigned unit. Returns false if the unit was not assigned or already has an outcome.
+    /// Stores the outcome of an assigned unit of work. Returns false if the unit of work was not assigned or already
+    /// has an outcome.
     pub(super) fn insert(&mut self, index: u64, outcome: T) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
         match place.and_then(|place| self.units.get_mut(place)) {
@@ -265,12 +266,12 @@ impl<T> Window<T> {
         }
     }
 
-    /// Records that all taken outcomes are written, which makes room for as many units.
+    /// Records that all taken outcomes are written, which makes room for the same number of new units of work.
     pub(super) fn mark_written(&mut self) {
         self.written = self.taken;
     }
 
-    /// Returns the number of units that have run, including units whose outcomes are already taken.
+    /// Returns the number of finished units of work, including units whose outcomes are already taken.
     pub(super) fn finished(&self) -> u64 {
         self.taken + self.waiting as u64
     }

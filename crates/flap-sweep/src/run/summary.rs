@@ -10,7 +10,7 @@ use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
-/// Number of rows with each status. In files, the numbers are a table.
+/// Number of rows with each status. In files, the numbers are stored as a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
@@ -48,7 +48,8 @@ pub struct Warnings {
     pub negative_power: u64,
     /// Rows whose resonance is at an end of the range of the search.
     pub at_range_end: u64,
-    /// Rows at hover whose unbalanced force or torque exceeds 1 % of the weight. The lever of torques is 1 mm.
+    /// Rows at hover whose unbalanced force or torque exceeds 1 % of the weight. Torques are divided by a lever of 1
+    /// mm.
     pub unbalanced: u64,
 }
 
@@ -190,14 +191,14 @@ impl Summary {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     accuracy: f64,
-    /// Indices in the measures.
+    /// Indices of columns in the measures of a row.
     power: Option<usize>,
     margin: Option<usize>,
     residual: Option<usize>,
 }
 
 impl Limits {
-    /// Returns the limits for the rows of `plan`.
+    /// Returns the limits above which rows of `plan` need care.
     pub(super) fn of(plan: &Plan) -> Limits {
         let columns: &[Column] = plan.rows().columns();
         let position = |name: &str| columns.iter().position(|column| column.name == name);

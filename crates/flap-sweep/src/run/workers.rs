@@ -1,4 +1,4 @@
-//! Runner of units: workers on all threads, whose outcomes are collected in order.
+//! Runner of units of work: workers on all threads, whose outcomes are collected in order.
 
 use std::any::Any;
 use std::ops::Range;
@@ -11,13 +11,14 @@ use super::queue::Queue;
 use super::{Progress, RunError, RunOptions};
 use crate::notation::text::count;
 
-/// Work of one thread, which runs units until the queue is empty.
+/// Work of one thread, which runs units of work until the queue is empty.
 type Work<T> = dyn Fn(&mut Worker<'_, T>) + Send + Sync;
 
-/// Outcomes of units, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
+/// Outcomes of units of work, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
 ///
-/// Threads start when the first outcome is requested. The threads run at most [`RunOptions::window`] units ahead, and
-/// end when the run is dropped. The iterator ends after an error. The outcomes before it belong to the first units.
+/// Threads start when the first outcome is requested. The threads run at most [`RunOptions::window`] units of work
+/// ahead, and end when the run is dropped. The iterator ends after an error. The outcomes before the error belong to
+/// the first units of work.
 pub struct Run<T> {
     queue: Arc<Queue<T>>,
     work: Arc<Work<T>>,
@@ -29,7 +30,7 @@ pub struct Run<T> {
 }
 
 impl<T: Send + 'static> Run<T> {
-    /// Returns a run of the units at `positions`. Each worker thread calls `work` once.
+    /// Returns a run of the units of work at `positions`. Each worker thread calls `work` once.
     pub(crate) fn new(
         positions: Range<u64>,
         options: &RunOptions,
@@ -75,7 +76,7 @@ impl<T: Send + 'static> Run<T> {
 
     /// Stops assigning units.
     ///
-    /// Running units are dropped after [`RunOptions::grace`], so the run ends within a second.
+    /// Running units of work are discarded after [`RunOptions::grace`], so the run ends within a second.
     pub fn stop(&mut self) {
         self.queue.stop();
     }
@@ -120,18 +121,18 @@ impl<T> Drop for Run<T> {
     }
 }
 
-/// Access of a worker to the queue. The access requests units, passes on the outcomes of units, and counts missing
+/// Access of a worker to the queue. The access requests units of work, passes on their outcomes, and counts missing
 /// outcomes.
 pub(crate) struct Worker<'a, T> {
     queue: &'a Queue<T>,
-    /// Number of assigned units without an outcome.
+    /// Number of assigned units of work without an outcome.
     missing: u64,
-    /// Description of the model's mistake.
+    /// Description of the mistake in the program of the model.
     fault: Option<String>,
 }
 
 impl<T> Worker<'_, T> {
-    /// Returns the position of the next unit to run, or `None` if no unit is available at present.
+    /// Returns the position of the next unit of work to run, or `None` if no unit is available at present.
     ///
     /// If `idle` is true, the worker runs nothing: the call may wait, and `None` ends the work.
     pub(crate) fn next(&mut self, idle: bool) -> Option<u64> {
@@ -144,18 +145,18 @@ impl<T> Worker<'_, T> {
         Some(position)
     }
 
-    /// Passes on the outcome of the unit at `position`.
+    /// Passes on the outcome of the unit of work at `position`.
     pub(crate) fn done(&mut self, position: u64, outcome: T) {
         self.missing = self.missing.saturating_sub(1);
         self.queue.done(position, outcome);
     }
 
-    /// Ends the work because the model violated its contract. `fault` is the description.
+    /// Ends the work because the model violated its contract. `fault` is the description of the violation.
     pub(crate) fn fail(&mut self, fault: String) {
         self.fault = Some(fault);
     }
 
-    /// Returns true if running units are to be dropped without rows.
+    /// Returns true if running units of work must be discarded without rows.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.queue.is_cancelled()
     }

@@ -14,8 +14,8 @@ use crate::table::layout::{Cell, Layout};
 
 /// A table that receives rows in order.
 ///
-/// The order of calls is `begin`, then any number of `write`, `done` and `flush`, then `finish`. There are no calls
-/// after an error.
+/// The order of calls is `begin`, then any number of `write`, `done` and `flush`, then `finish`. After an error, the
+/// caller calls no more functions of the sink.
 pub trait Sink {
     /// Writes the header, if the sink has a header.
     ///
@@ -161,8 +161,8 @@ impl<'a> RowWriter<'a> {
         }
     }
 
-    /// Writes the rows of the next unit, except rows that an earlier run has written. `index` is the unit's index in
-    /// the plan.
+    /// Writes the rows of the next unit of work, except rows that an earlier run has written. `index` is the index of
+    /// the point or design in the plan.
     pub(crate) fn write_rows<'r>(
         &mut self,
         index: u64,
@@ -183,7 +183,8 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.done(&self.summary)?)
     }
 
-    /// Counts the next unit as excluded by the conditions with the given indices. An excluded unit has no row.
+    /// Counts the next unit of work as excluded by the conditions with the given indices. An excluded unit of work has
+    /// no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
         Ok(self.sink.done(&self.summary)?)

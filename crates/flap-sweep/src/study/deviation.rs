@@ -104,13 +104,13 @@ fn extremes(list: &[f64]) -> Vec<f64> {
 }
 
 impl Deviation<'_> {
-    /// Returns the value in words, or the first and the last value.
+    /// Returns the value as text, or the first and the last value of an axis as text.
     pub fn shown(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();
         values.join(" to ")
     }
 
-    /// Returns the preset's value in words.
+    /// Returns the preset's value as text.
     pub fn preset_shown(&self) -> String {
         self.text(self.preset)
     }
@@ -122,7 +122,7 @@ impl Deviation<'_> {
         ratios.join(" to ")
     }
 
-    /// Returns a warning if a value is far from the preset's value. The warning has the value that was probably
+    /// Returns a warning if a value is far from the preset's value. The warning contains the value that was probably
     /// intended.
     ///
     /// A value with a unit causes no warning.
@@ -163,7 +163,7 @@ impl Deviation<'_> {
     }
 }
 
-/// Returns a ratio with three digits.
+/// Returns a ratio as text with three digits.
 fn short(ratio: f64) -> String {
     units::prefixed(format!("{ratio:.2e}").parse().unwrap_or(ratio), "")
 }

@@ -4,7 +4,7 @@ use flap_core::parameter::{Parameter, Preset};
 
 use crate::plan::{Plan, Value};
 
-/// A parameter that stays the same, although a parameter varies with which this parameter should scale.
+/// A parameter that stays the same, although it should scale with a parameter that varies.
 #[derive(Clone, Debug)]
 pub struct Linked<'p> {
     /// The parameter that stays the same.

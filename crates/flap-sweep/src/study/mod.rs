@@ -1,7 +1,7 @@
 //! Studies of a plan: response curves, deviations of parameters, linked parameters.
 //!
-//! Further studies are most important parameters, effects of terms, surveys, optima, and quadratic maps of vehicles.
-//! The module also contains experiments on single points.
+//! Further studies are the most important parameters, effects of terms, surveys, optima, and quadratic maps of
+//! vehicles. The module also contains experiments on single points.
 
 pub mod deviation;
 pub mod experiment;

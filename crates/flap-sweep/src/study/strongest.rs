@@ -9,8 +9,8 @@ use crate::plan::Plan;
 /// Derivatives of a measure with respect to all parameters that can change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slopes {
-    /// Indices of parameters in falling order of the effect. Each index has the change of the measure, in its unit, per
-    /// relative change of the parameter.
+    /// Indices of parameters in descending order of the effect. For each index, the change of the measure per relative
+    /// change of the parameter, in the unit of the measure.
     pub known: Vec<(usize, f64)>,
     /// Indices of parameters with missing derivatives, each with the reason.
     pub unknown: Vec<(usize, NoSlope)>,

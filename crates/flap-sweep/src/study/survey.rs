@@ -16,8 +16,8 @@ pub struct Exclusions {
 
 /// Counts the points that the conditions of `plan` exclude.
 ///
-/// The survey examines all points. If there are more than `most` points, the survey examines `most` points that are
-/// spread over the plan.
+/// The survey examines all points, if there are at most `most` points. If there are more than `most` points, the survey
+/// examines `most` points that are spread over the plan.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let conditions = plan.conditions().iter();
     let unsatisfied =
@@ -37,7 +37,8 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
 
 /// Returns the index of point `number` of an endless sequence spread over a plan of `points` points.
 ///
-/// The indices are multiples of the golden ratio. Such indices leave no large gaps and are not periodic along any axis.
+/// The indices are fractional parts of multiples of the golden ratio, times `points`. Such indices leave no large gaps
+/// and are not periodic along any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
     let share = number.wrapping_mul(GOLDEN);

@@ -1,4 +1,4 @@
-//! Effects of the terms that the papers leave out on the measures of a design.
+//! Effects on the measures of a design, caused by terms that the papers leave out.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Row, Status};

@@ -16,10 +16,10 @@ use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
 use crate::vehicle::control::{COMPONENTS, Input, because, places};
 
-/// Number of rows of which one row is left out of the fit.
+/// Number of rows in a group from which one row is left out of the fit.
 const LEFT_OUT: usize = 5;
 
-/// Smallest number of samples, so that at least two rows are left out.
+/// Smallest number of samples, so that at least two rows are left out of the fit.
 const FEWEST_SAMPLES: usize = 10;
 
 /// Smallest singular value of the fit, relative to the largest singular value.
@@ -77,7 +77,7 @@ impl MapInput {
 /// Reason why a map cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum WrenchMapError {
-    /// The plan has one wing.
+    /// The plan describes one wing, not a vehicle.
     #[error("a wrench map needs a vehicle, not one wing")]
     NoVehicle,
     /// The map has no inputs, or too many inputs.
@@ -89,7 +89,8 @@ pub enum WrenchMapError {
     /// The parameter is computed from other parameters.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
-    /// The range of an input is empty, or its first value is above its last value. Contains the name and the mistake.
+    /// The range of an input is empty, or its first value is above its last value. The error contains the name of the
+    /// input and the mistake.
     #[error("the range of `{0}` {1}")]
     Range(String, &'static str),
     /// The number of samples is too small for the map.
@@ -104,7 +105,7 @@ pub enum WrenchMapError {
         /// Smallest number of samples.
         needed: usize,
     },
-    /// The number of periodic rows is too small for the map. Contains the numbers of rows.
+    /// The number of periodic rows is too small for the map. The error contains the numbers of rows.
     #[error("{0}")]
     FewRows(String),
     /// The periodic rows do not determine all coefficients.
@@ -181,12 +182,12 @@ impl WrenchMap {
     /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. All other parameters have the `values` of
     /// a point.
     ///
-    /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is called
-    /// now and then. If it returns true, there is no map.
+    /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is
+    /// called repeatedly during the computation. If `stops` returns true, the computation ends without a map.
     ///
     /// # Errors
-    /// - [`WrenchMapError`] for a mistake in inputs and samples
-    /// - [`WrenchMapError::FewRows`] or [`WrenchMapError::Undetermined`] if too few points have a periodic motion
+    /// - [`WrenchMapError`] for a mistake in inputs and samples.
+    /// - [`WrenchMapError::FewRows`] or [`WrenchMapError::Undetermined`] if too few points have a periodic motion.
     pub fn of(
         plan: &Plan,
         values: &[f64],
@@ -377,7 +378,7 @@ impl WrenchMap {
 /// Returns the terms of a quadratic polynomial in this number of inputs. A term is given as the inputs that are
 /// multiplied.
 ///
-/// The order is 1, s1, s2 and so on, s1², s1 s2, s1 s3 and so on, s2², s2 s3 and so on.
+/// The terms are in the order 1, s1, s2, ..., s1², s1 s2, s1 s3, ..., s2², s2 s3, ...
 pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
     let linear = (0..inputs).map(|j| vec![j]);
     let quadratic = (0..inputs).flat_map(|j| (j..inputs).map(move |k| vec![j, k]));

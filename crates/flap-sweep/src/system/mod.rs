@@ -1,4 +1,4 @@
-//! Operations that differ between operating systems. Each system has a file with the same functions.
+//! Operations that differ between operating systems. Each operating system has its own file with the same functions.
 
 #[cfg(unix)]
 mod unix;

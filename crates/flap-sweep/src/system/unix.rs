@@ -1,4 +1,4 @@
-//! Linux, macOS and other Unix systems.
+//! Operations of Linux, macOS and other Unix systems.
 
 use std::fs::{self, File, Metadata};
 use std::io;
@@ -25,7 +25,8 @@ fn id(metadata: &Metadata) -> (u64, u64) {
     (metadata.dev(), metadata.ino())
 }
 
-/// Returns true for a pipe or a device without storage. A disk has storage.
+/// Returns true for a pipe or a device without storage. A disk is a device with storage, so the result for a disk is
+/// false.
 pub(crate) fn is_stream(metadata: &Metadata) -> bool {
     metadata.file_type().is_fifo() || metadata.file_type().is_char_device()
 }

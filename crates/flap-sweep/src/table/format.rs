@@ -23,10 +23,11 @@ impl Format {
     pub const ENDINGS: &str =
         if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
-    /// Returns the format for the ending of a file's name, in upper or lower case. Devices and pipes are always CSV.
+    /// Returns the format for the ending of a file's name, in upper or lower case. Rows that are written to a device or
+    /// a pipe are always CSV.
     ///
     /// # Errors
-    /// If the ending belongs to no format, or to a format that is not part of this build.
+    /// Returns an error if the ending belongs to no format, or to a format that is not part of this build.
     pub fn of(path: &Path) -> Result<Format, FormatError> {
         match Format::named(path) {
             Some(Format::Parquet) if !cfg!(feature = "parquet") => {
@@ -38,8 +39,8 @@ impl Format {
         }
     }
 
-    /// Returns true if a file contains whole columns. The rows wait in another file, as compressed text, until all rows
-    /// are present.
+    /// Returns true if the format stores rows as columns, as Parquet does. Until all rows are present, another file
+    /// contains the rows as compressed text.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
     }
@@ -47,7 +48,7 @@ impl Format {
     /// Checks the name of a table that can only be written as CSV.
     ///
     /// # Errors
-    /// An error if the ending is not `.csv`.
+    /// An error if the ending of the file's name is not `.csv`.
     pub fn require_csv(path: &Path) -> Result<(), FormatError> {
         let is_csv = Format::named(path) == Some(Format::Csv) || is_stream(path);
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
@@ -66,7 +67,7 @@ impl Format {
     }
 }
 
-/// Error of a file name whose ending belongs to no format. Contains the message.
+/// Error of a file name whose ending belongs to no format. The error contains the message.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct FormatError(String);

@@ -23,9 +23,9 @@ pub struct Label {
 /// Preferred direction of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// A benefit, such as lift.
+    /// Larger values of the measure are better: a benefit, such as lift.
     Larger,
-    /// A cost, such as power.
+    /// Smaller values of the measure are better: a cost, such as power.
     Smaller,
 }
 
@@ -36,8 +36,8 @@ impl Label {
     }
 }
 
-/// Returns the label of a column whose values have `unit`, as in tables of parameters: `N*m/rad`; empty for a column
-/// without a unit.
+/// Returns the label of a column whose values have `unit`, written as in tables of parameters (`N*m/rad`). An empty
+/// `unit` belongs to a column without a unit.
 ///
 /// ```
 /// use flap_sweep::table::labels::{self, Direction};
@@ -73,12 +73,14 @@ fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'sta
     })
 }
 
-/// Returns the words of the label. If there is a unit, the printed unit follows in parentheses.
+/// Returns the text of a label, which begins with the words. If there is a unit, the printed unit follows in
+/// parentheses.
 pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// First words of names of measures that are benefits or costs. Longer matches precede shorter matches.
+/// First words of names of measures that are benefits or costs. If two entries match a name, the longer entry is first
+/// in the list.
 const BETTER: [(&str, Direction); 10] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),
@@ -219,8 +221,7 @@ const PREFIXES: [(&str, i32); 8] =
 /// Units that take a prefix. Units of measures, such as mN, already have a prefix.
 const SYMBOLS: [&str; 13] = ["m", "s", "N", "Pa", "V", "F", "kg", "Hz", "W", "A", "J", "Ohm", "C"];
 
-/// Returns the scale for values in `unit` whose largest magnitude is `largest`, with the prefix that brings it to
-/// between 1 and 1000.
+/// Returns the scale for values in `unit`, whose prefix brings the largest magnitude `largest` to between 1 and 1000.
 ///
 /// Values from 0.1 to 10 000 keep their unit; radians become degrees.
 pub fn scale(unit: &str, largest: f64) -> Scale {

@@ -1,4 +1,4 @@
-//! Columns of a result file: order, description and cells. Also the columns that all models have.
+//! Columns of a result file: order, description and cells. This module also contains the columns that all models have.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -51,12 +51,12 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// Returns the value in the measures of a row; NaN if the row has no measures.
+    /// Returns the value of this measure in the measures of a row; NaN if the row has no measures.
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
     }
 
-    /// Returns the cell for a row's measures.
+    /// Returns the cell of this measure for the measures of a row.
     pub(crate) fn cell(&self, measures: &[f64]) -> Cell<'static> {
         let value = self.value(measures);
         match self.column.kind {
@@ -203,8 +203,8 @@ pub fn fixed_columns() -> Vec<Column> {
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
 }
 
-/// Returns the columns that rows of every model may have: `branch` and `bistable` for curves, `gradient_gap` for
-/// derivatives.
+/// Returns the columns that rows of every model may have. The columns are `branch` and `bistable` for curves, and
+/// `gradient_gap` for derivatives.
 pub fn special_columns() -> [Column; 3] {
     [branch(), bistable(), gradient_gap()]
 }
@@ -254,7 +254,7 @@ impl<'p> Entry<'p> {
     }
 }
 
-/// Endings of names, each with its unit in words. Longer matches precede shorter matches.
+/// Endings of names, each with its unit in words. If two entries match a name, the longer entry is first in the list.
 const ENDINGS: [(&str, &str); 30] = [
     ("_gf_per_w", "gf/W"),
     ("_deg_per_v", "deg/V"),
@@ -315,7 +315,7 @@ pub struct Column {
 /// Type of the cells of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellKind {
-    /// Whole numbers, 0 or more.
+    /// Cells with whole numbers, 0 or more.
     Whole,
     /// Numbers.
     Number,

@@ -1,7 +1,7 @@
 //! Rows as lines of comma-separated values.
 //!
 //! Nearly all cells are numbers, which need no quotes. Appending numbers directly takes half the instructions of the
-//! csv crate, which checks every byte. Only reading uses the csv crate.
+//! csv crate, which checks every byte. The csv crate is used only for reading.
 
 use std::io::{self, BufWriter, Write};
 

@@ -1,4 +1,5 @@
-//! Control effectiveness of a vehicle: the change of mean force and torque with each input. Also trims.
+//! Control effectiveness of a vehicle: the change of mean force and torque with each input. The module also contains
+//! trims.
 
 use core::iter::successors;
 
@@ -25,7 +26,7 @@ pub const WORDS: [(&str, &[&str]); 6] = [
     ("third_harmonic", &["drive_third_harmonic"]),
 ];
 
-/// Last part of the names of differences in words.
+/// Last part of the names of inputs that are differences between wings.
 const DIFFERENCE: &str = "_difference";
 
 /// Input of a vehicle: one of its parameters.
@@ -55,8 +56,8 @@ pub enum ControlInputError {
 impl Input {
     /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
     ///
-    /// A word alone applies to all wings. After the name of a wing, a word applies to this wing (`left_bias`), and
-    /// before `_difference` to the left-right difference.
+    /// A word without the name of a wing applies to all wings. After the name of a wing, a word applies to this wing
+    /// (`left_bias`), and before `_difference` to the left-right difference.
     ///
     /// # Errors
     /// An error if the vehicle has no input with the given name.
@@ -82,8 +83,8 @@ impl Input {
 
     /// Returns the default inputs of a vehicle: amplitude, bias and, if the drive has harmonics, the second harmonic.
     ///
-    /// Each word applies to all wings and, if there are wings on both sides, also to the difference. `values` are values of
-    /// the vehicle's parameters.
+    /// Each word for an input applies to all wings and, if there are wings on both sides, also to the difference.
+    /// `values` are values of the vehicle's parameters.
     pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
         let parameters = vehicle.parameters();
         let shape = Parameter::index(parameters, "drive_shape");
@@ -171,7 +172,8 @@ pub struct Trim {
 /// inputs.
 ///
 /// # Errors
-/// An error if there are fewer inputs than targets, the initial motion is not periodic, or the targets are not reached.
+/// An error if there are fewer inputs than targets, if the initial motion is not periodic, or if the targets are not
+/// reached.
 pub fn trim(
     flight: &Flight<'_>,
     values: &[f64],
@@ -249,7 +251,8 @@ fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>, tolerance: f64) -> bool {
 /// Components of force and torque: columns of rows.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
 
-/// Smallest effect of an input, relative to the largest effect of an input. A smaller effect counts as no effect.
+/// Effect below which an input is left out, relative to the largest effect of an input. A smaller effect counts as no
+/// effect.
 const IDLE: f64 = 1e-9;
 
 /// Reason why a control effectiveness or a trim cannot be computed.
@@ -284,7 +287,7 @@ pub enum ControlError {
         /// Names of the inputs.
         inputs: String,
     },
-    /// Further iterations do not reduce the distance from the targets. Contains the nearest values.
+    /// Further iterations do not reduce the distance from the targets. The error contains the nearest values.
     #[error("the targets are not reached: {0}")]
     NotReached(String),
     /// The motion cannot be computed.
@@ -327,7 +330,7 @@ pub struct Effectiveness {
 pub struct Mode {
     /// Singular value: force (mN) and torque (uN·m, which is mN at 1 mm) per unit of the combination.
     pub size: f64,
-    /// Components as a unit vector.
+    /// Components of force and torque as a unit vector.
     pub components: [f64; 6],
     /// Inputs as a unit vector.
     pub inputs: Vec<f64>,
@@ -344,7 +347,7 @@ impl Flight<'_> {
     /// Returns the row of a periodic motion. [`Flight::row`] has the same arguments.
     ///
     /// # Errors
-    /// If the motion is not periodic, or the computation is interrupted.
+    /// Returns an error if the motion is not periodic, or if the computation is interrupted.
     pub(super) fn settled(&self, values: &[f64], begin: Option<&[f64]>) -> Result<Row, ControlError> {
         let row = self.row(values, begin);
         if (self.interrupted)() {
@@ -366,7 +369,7 @@ impl Flight<'_> {
     /// An unset parameter of one wing has the value of all wings.
     ///
     /// # Errors
-    /// If the motion is not periodic, or a derivative is missing.
+    /// Returns an error if the motion is not periodic, or if a derivative is missing.
     pub fn effectiveness(
         &self,
         values: &[f64],
@@ -413,7 +416,8 @@ impl Flight<'_> {
         })
     }
 
-    /// Returns the derivatives of the components, if all are known. `ahead` is the point after a change of the input.
+    /// Returns the derivatives of the components, if all derivatives are known. `ahead` is the point after a change of
+    /// the input.
     fn slopes(
         &self,
         ahead: &[f64],
@@ -441,7 +445,8 @@ impl Flight<'_> {
 
     /// Returns the central differences of the components with respect to an input.
     ///
-    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps strip by strip.
+    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps at one blade element
+    /// after the other.
     fn differences(
         &self,
         values: &[f64],
@@ -471,7 +476,7 @@ pub(crate) fn places(vehicle: &Vehicle) -> [usize; 6] {
     COMPONENTS.map(|name| columns.iter().position(|column| column.name == name).unwrap_or_default())
 }
 
-/// Returns the values, with the values of all wings in place of unset parameters of one wing.
+/// Returns the values, in which each unset parameter of one wing has the value of all wings.
 pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {
@@ -490,7 +495,7 @@ impl Effectiveness {
         values
     }
 
-    /// Returns the effectiveness without inputs of negligible effect, unless no input would be left.
+    /// Returns the control effectiveness without inputs that have a negligible effect, unless no input would be left.
     pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
             let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
@@ -509,7 +514,7 @@ impl Effectiveness {
 
     /// Returns the combinations of inputs that produce force and torque, beginning with the strongest combination.
     ///
-    /// The combinations are the singular value decomposition of the matrix.
+    /// The combinations and their effects are the singular value decomposition of the matrix.
     pub fn modes(&self) -> Vec<Mode> {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };

@@ -34,10 +34,10 @@ pub struct FlightRequest {
     pub disturbance: [f64; FED_BACK],
     /// Inputs, which are columns of the record.
     pub inputs: Vec<Input>,
-    /// Gains K of a feedback: the inputs are the values at the point minus K x. Shape: inputs × [`FED_BACK`], in SI
-    /// units.
+    /// Gains K of a feedback: the inputs are the values at the point minus K x. The shape of the gains is inputs ×
+    /// [`FED_BACK`], in SI units.
     pub gains: Option<DMatrix<f64>>,
-    /// True for the linear model about hover in place of the coupled motion.
+    /// True if the flight uses the linear model about hover instead of the coupled motion.
     pub is_averaged: bool,
     /// Number of samples in each beat. Without samples, each row contains means over a beat.
     pub samples: Option<u32>,
@@ -57,7 +57,7 @@ pub struct FlightRecord {
 /// Reason why a flight cannot be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
-    /// The request is impossible. Contains the mistake and the allowed values.
+    /// The request is impossible. The error contains the mistake and the allowed values.
     #[error("{0}")]
     Request(String),
     /// The hover model, or the settled motion of the wings, cannot be computed.
@@ -68,7 +68,7 @@ pub enum FlightError {
 /// Simulates the flight from the settled motion of the wings at these values of the vehicle's parameters.
 ///
 /// # Errors
-/// If the request is impossible, mass properties are missing, the point has a moving body, or the motion of the wings is
+/// Returns an error for an impossible request, missing mass properties, a moving body, or a motion of the wings that is
 /// not periodic. If a flight fails later, its record ends early.
 pub fn fly(
     flight: &Flight<'_>,
@@ -254,8 +254,7 @@ impl<'a> Coupled<'a> {
 
     /// Returns the part of the mean velocities, rates and angles over the first beat that vibration alone causes.
     ///
-    /// The part is a difference of two means: over a beat that begins at rest, minus over a linear change to the same
-    /// end.
+    /// This part is the mean over a beat that begins at rest, minus the mean of a linear change to the same end.
     fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
         let period = self.period();
         self.advance(0.0, period)?;
@@ -484,7 +483,7 @@ impl Motion for Averaged {
         1.0 / self.frequency
     }
 
-    /// Advances by the exponential of the matrix of states, their integrals, and a constant.
+    /// Advances the linear model by a matrix exponential, which includes the integrals of the states and a constant.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
         let hover = &self.hover;
         let mut matrix = DMatrix::zeros(2 * N + 1, 2 * N + 1);

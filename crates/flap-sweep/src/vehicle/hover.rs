@@ -1,4 +1,4 @@
-//! Linear model of a vehicle near hover: state matrices, eigenvalues, and modes of motion in words.
+//! Linear model of a vehicle near hover: state matrices, eigenvalues, and modes of motion with their names.
 //!
 //! The wings are quasi-static: the mean wrench of a drive period depends on the velocity and the rates of the body
 //! and on the inputs. The reference point of the torques must be the centre of mass. Velocities and rates are in body
@@ -68,7 +68,7 @@ const NEUTRAL: f64 = 1e-10;
 /// Largest residual of a trim, as a fraction of the weight.
 pub(crate) const TRIM_LIMIT: f64 = 1e-2;
 
-/// Lever that turns the limit of forces into the limit of torques (m).
+/// Lever arm (m): the limit of torques is the limit of forces times this length.
 const TRIM_LEVER: f64 = 1e-3;
 
 /// Returns the force (N) or torque (N·m) to which each residual refers: the weight, or the weight times 1 mm.
@@ -93,7 +93,7 @@ pub enum HoverError {
     /// Some mass properties are not set.
     #[error("the hover model requires {}: set {}", .0.join(", "), if .0.len() == 1 { "it" } else { "them" })]
     Missing(Vec<&'static str>),
-    /// No body has these mass properties. Contains the condition that they violate.
+    /// No body has these mass properties. The error contains the condition that the mass properties violate.
     #[error("{0}")]
     Impossible(String),
     /// The model has no parameters of a body's motion.
@@ -161,7 +161,7 @@ fn at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<(), HoverError> {
 /// Returns the mass properties of a vehicle at rest.
 ///
 /// # Errors
-/// If mass properties are missing or impossible, or the body moves.
+/// Returns an error if mass properties are missing or impossible, or if the body moves.
 pub(super) fn body_at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<MassProperties, HoverError> {
     let body = vehicle.mass_properties(values);
     check(&body)?;
@@ -174,7 +174,8 @@ pub(super) fn body_at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<MassProp
 /// `begin` is the state of the settled motion at the operating point.
 ///
 /// # Errors
-/// If the model has no motion of the body, the motion is not periodic, or a derivative is missing.
+/// Returns an error if the model has no motion of the body, if the motion is not periodic, or if a derivative is
+/// missing.
 pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Matrix6<f64>, HoverError> {
     let motions = BodyParameters::MOTION.into_iter().map(|name| Input::of(flight.vehicle, name));
     let motions: Vec<Input> = motions.collect::<Result<_, _>>().map_err(|_| HoverError::NoBodyMotion)?;
@@ -182,8 +183,8 @@ pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Mat
     Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
 }
 
-/// Returns the targets of a trim to hover: the upward force is the weight, and all torques are zero; `None` if the mass
-/// is not set.
+/// Returns the targets of a trim to hover: the upward force is the weight, and all torques are zero. Returns `None` if
+/// the mass is not set.
 pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let weight = body.mass * body.gravity;
     let torques = (3..6).map(|component| Target { component, value: 0.0 });
@@ -194,8 +195,8 @@ pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
 /// Returns the control effectiveness at hover, with inputs near `values`. Inputs without effect keep their values.
 ///
 /// # Errors
-/// If the mass is not set, the mass properties are impossible, the body moves, or there is no trim. The moments of inertia
-/// may be missing.
+/// Returns an error if the mass is not set, the mass properties are impossible, the body moves, or no trim exists. The
+/// moments of inertia may be missing.
 pub fn trim(flight: &Flight<'_>, values: &[f64], inputs: &[Input]) -> Result<Effectiveness, HoverError> {
     let body = flight.vehicle.mass_properties(values);
     let targets = targets(&body).ok_or_else(|| HoverError::Missing(vec!["total_mass"]))?;
@@ -220,7 +221,7 @@ pub struct HoverMode {
     pub eigenvalue: Complex<f64>,
     /// Participation of each state; the sum is one. Participations do not depend on units.
     ///
-    /// Source: Pérez-Arriaga, Verghese and Schweppe, IEEE Trans. Power Apparatus and Systems 101 (1982) 3117.
+    /// Source: Pérez-Arriaga, Verghese and Schweppe, IEEE Transactions on Power Apparatus and Systems 101 (1982) 3117.
     pub participation: Vec<f64>,
 }
 
@@ -229,7 +230,8 @@ pub struct HoverMode {
 pub struct HoverModel {
     /// Mass properties.
     pub body: MassProperties,
-    /// Derivatives of the wrench with respect to velocity and rates: N s/m, N s, N s, N m s.
+    /// Derivatives of force and torque (rows) with respect to velocity and rates (columns). The units of the four
+    /// blocks are N·s/m, N·s, N·s and N·m·s.
     pub damping: Matrix6<f64>,
     /// Derivatives of force (N) and torque (N·m) with respect to the inputs (SI): 6 × inputs.
     pub control: DMatrix<f64>,
@@ -239,17 +241,17 @@ pub struct HoverModel {
     pub a: DMatrix<f64>,
     /// Input matrix: one column for each input.
     pub b: DMatrix<f64>,
-    /// Modes, in falling order of the real part.
+    /// Modes, in descending order of the real part of the eigenvalue.
     pub modes: Vec<HoverMode>,
 }
 
 impl HoverModel {
     /// Returns the linear model about an operating point.
     ///
-    /// The arguments are fields of the model. With `has_position`, the states include positions.
+    /// The arguments are fields of the linear model. With `has_position`, the states include positions.
     ///
     /// # Errors
-    /// If mass properties are missing or impossible, or the eigenvalues cannot be computed.
+    /// Returns an error if mass properties are missing or impossible, or if the eigenvalues cannot be computed.
     pub fn new(
         body: MassProperties,
         damping: Matrix6<f64>,
@@ -280,7 +282,7 @@ impl HoverModel {
     /// Returns the linear model at an operating point with these inputs and values of the vehicle's parameters.
     ///
     /// # Errors
-    /// If mass properties are missing or impossible, the body moves, or a derivative is missing.
+    /// Returns an error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
     pub fn at(
         flight: &Flight<'_>,
         values: &[f64],
@@ -301,7 +303,7 @@ impl HoverModel {
         &STATES[..self.a.nrows()]
     }
 
-    /// Returns all eigenvalues in falling order of the real part, with the eigenvalues of a pair together.
+    /// Returns all eigenvalues in descending order of the real part, with the eigenvalues of a pair together.
     pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
         let each = self.modes.iter().flat_map(|mode| {
             let pair = (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.conj());
@@ -322,12 +324,13 @@ impl HoverModel {
         residual
     }
 
-    /// Returns the largest residual of each force (N) and torque (N·m) at which a point counts as hover.
+    /// Returns the largest residual of each force (N) and torque (N·m) that is accepted as hover.
     pub fn residual_limits(&self) -> [f64; 6] {
         residual_sizes(&self.body).map(|size| TRIM_LIMIT * size)
     }
 
-    /// Returns the reasons to doubt the model, from the drive frequency (Hz) and the largest Floquet multiplier.
+    /// Returns the reasons why the linear model may be inaccurate, from the drive frequency (Hz) and the largest
+    /// Floquet multiplier.
     ///
     /// If a Floquet multiplier is NaN, the decay rate of the wings is not checked.
     pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<String> {
@@ -386,8 +389,8 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverE
 
 /// Returns the modes of the state matrix.
 ///
-/// Heading and position do not act back on the other states. Each of these states adds an eigenvalue of zero, in which
-/// the state takes part alone, so only the other eight states need eigenvectors.
+/// Heading and position have no effect on the other states. Each of these states adds an eigenvalue of zero, whose mode
+/// contains only this state. Only the other eight states therefore need eigenvectors.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;
@@ -419,7 +422,7 @@ fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     Ok(modes)
 }
 
-/// Returns the participation of the states in the mode of an eigenvalue, with the sum one.
+/// Returns the participation of each state in the mode of an eigenvalue; the sum is one.
 ///
 /// The singular vectors of the smallest singular value of A − λ are the left and right eigenvectors.
 fn participation(a: &SMatrix<f64, DYNAMIC, DYNAMIC>, eigenvalue: Complex<f64>) -> Option<Vec<f64>> {
@@ -452,8 +455,8 @@ impl HoverMode {
 
     /// Returns the moving states and the kind of motion, such as `pitch and forward velocity (longitudinal oscillation)`.
     ///
-    /// A motion is listed if the participation of its states is at least a fifth. A real negative eigenvalue is a
-    /// subsidence, a positive one a divergence, and an eigenvalue of zero is neutral.
+    /// A motion is listed if the participation of its states is at least a fifth. A real eigenvalue belongs to a
+    /// subsidence if it is negative, and to a divergence if it is positive. A mode with the eigenvalue zero is neutral.
     pub fn name(&self) -> String {
         let share = |states: &[usize]| -> f64 {
             states.iter().filter_map(|&state| self.participation.get(state)).sum()
@@ -484,7 +487,7 @@ impl HoverMode {
     }
 }
 
-/// Returns names as a list in words: `a`, `a and b`, or `a, b and c`.
+/// Returns names as a list in words, such as `a`, `a and b`, or `a, b and c`.
 fn listed(names: &[&str]) -> String {
     match names {
         [] => String::new(),

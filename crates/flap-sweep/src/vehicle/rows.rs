@@ -26,8 +26,8 @@ pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
 /// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
 ///
-/// After the measures of the vehicle, a row at hover contains the growth rate and the period of the fastest-growing mode.
-/// The residual of the trim, the values of the inputs and the damping matrix follow.
+/// After the measures of the vehicle, a row at hover contains the growth rate and the period of the fastest-growing
+/// mode. The next measures are the residual of the trim, the values of the inputs and the damping matrix.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,
@@ -38,7 +38,8 @@ pub struct BodyRows {
 }
 
 impl BodyRows {
-    /// Returns the rows of `vehicle` at hover, reached with `inputs`, or at the given inputs if they are `None`.
+    /// Returns the rows of `vehicle` at hover, found by a trim with `inputs`; if `inputs` is `None`, the rows at the
+    /// given inputs.
     pub fn new(vehicle: Arc<Vehicle>, inputs: Option<Vec<Input>>, has_damping: bool) -> BodyRows {
         let mut columns = vehicle.columns().to_vec();
         let mut add = |name: String, unit, doc: String| {
@@ -72,7 +73,7 @@ impl BodyRows {
     /// Returns the trim to hover from these values of the vehicle's parameters, if rows are computed at hover.
     ///
     /// # Errors
-    /// If the mass is not set, the body moves, or there is no trim.
+    /// Returns an error if the mass is not set, if the body moves, or if there is no trim.
     pub fn trim(
         &self,
         solver: &SolverSettings,
@@ -146,7 +147,7 @@ impl Rows for BodyRows {
         }
     }
 
-    /// The search for hover begins at rest, so `begin` is ignored there.
+    /// The search for hover begins at rest, so it ignores `begin`.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
         let Some(inputs) = &self.inputs else { return self.row_at(run, begin) };
         let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };

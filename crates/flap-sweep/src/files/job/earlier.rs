@@ -15,7 +15,7 @@ use crate::run::Summary;
 use crate::run::identity::Identity;
 
 impl<'a> Job<'a> {
-    /// Begins after the finished points.
+    /// Begins the job after its finished points.
     pub(super) fn resume(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
@@ -41,7 +41,7 @@ impl<'a> Job<'a> {
         Ok(begun)
     }
 
-    /// Begins after the finished points of the results at `place`.
+    /// Begins the job after the finished points of the results at `place`.
     fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
             replacement::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
@@ -77,11 +77,10 @@ impl<'a> Job<'a> {
         Ok(Writing { lost: Some(lost), locks, ..self.writing(target, before) }.into())
     }
 
-    /// Ends the job if the sidecar of the results at `place` has the state complete.
+    /// Ends the job if the sidecar of the results at `place` records complete results.
     ///
-    /// `has_journal` is true only for a run that was killed at its very end. The last steps of the run are then
-    /// repeated;
-    /// otherwise nothing is written.
+    /// `has_journal` is true only for a run that was killed at its very end. In this case, the last steps of the run
+    /// are repeated; in all other cases, the function writes nothing.
     fn is_complete<'b>(
         &self,
         place: &Path,
@@ -100,8 +99,8 @@ impl<'a> Job<'a> {
         Ok(outcome)
     }
 
-    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. Otherwise the
-    /// function returns an error.
+    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. If the results
+    /// contain other rows or are damaged, the function returns an error.
     fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
@@ -116,7 +115,7 @@ impl<'a> Job<'a> {
 
     /// Returns true if these complete results contain the points of the axes only, although the grid is refined.
     ///
-    /// Merged shards are results without such points, because no shard contains points of the refinement.
+    /// Merged shards are results without points of the refinement, because no shard contains such points.
     fn lacks_refinement(&self, sidecar: &Sidecar) -> bool {
         let is_refined = sidecar.summary.as_ref().is_some_and(|summary| summary.refined.is_some());
         self.plan.refine().is_some() && *self.plan.selection() == Selection::All && !is_refined
@@ -128,8 +127,8 @@ impl<'a> Job<'a> {
         (sidecar.state == State::Complete && self.lacks_refinement(&sidecar)).then_some(sidecar)
     }
 
-    /// Begins at the first point of the refinement, after the rows of complete results that contain the points of the
-    /// axes.
+    /// Begins the job at the first point of the refinement, after the rows of complete results that contain the points
+    /// of the axes.
     ///
     /// The rows are copied into a file that replaces the results when it is complete.
     fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
@@ -162,7 +161,7 @@ impl<'a> Job<'a> {
         JobError::Resume { error, changed, continues }
     }
 
-    /// Returns the first line of the grid file that differs from the sidecar's grid, in words.
+    /// Returns a description of the first line of the grid file that differs from the sidecar's grid.
     fn changed_line(&self, before: &Sidecar) -> Option<String> {
         let of_devices = before.devices.iter().zip(self.plan.devices());
         let mut of_devices = of_devices.map(|(before, now)| difference(&before.text, &now.text, &now.name));
@@ -177,7 +176,7 @@ fn has_checkpoint(place: &Path) -> bool {
     past.is_some_and(|past| !past.checkpoints.is_empty())
 }
 
-/// Returns the first line that differs in the file called `name`, in words.
+/// Describes the first line in which two versions of the file called `name` differ.
 fn difference(before: &str, now: &str, name: &str) -> Option<String> {
     let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
     let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;

@@ -42,7 +42,8 @@ pub struct Job<'a> {
 /// Treatment of existing results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Begin {
-    /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Other rows are an error.
+    /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Existing results with other
+    /// rows are an error.
     Continue,
     /// Existing results are replaced when the new results are complete. Until the new results are complete, they have
     /// [another name](replacement::unfinished).
@@ -98,13 +99,13 @@ pub struct Done {
 /// Begins the job.
 ///
 /// # Errors
-/// - [`JobError::Overlap`] if the results would overwrite one of the input files
-/// - [`JobError::Format`] if the ending of the name belongs to no format
-/// - [`JobError::Exists`] if a file of this name contains other rows
-/// - [`JobError::Create`] if the results cannot be created
-/// - [`JobError::Resume`] if the run cannot be resumed
-/// - [`JobError::Open`] if the results are complete but damaged
-/// - [`JobError::Write`] if a file beside the results cannot be written
+/// - [`JobError::Overlap`] if the results would overwrite one of the input files.
+/// - [`JobError::Format`] if the ending of the name belongs to no format.
+/// - [`JobError::Exists`] if a file of this name contains other rows.
+/// - [`JobError::Create`] if the results cannot be created.
+/// - [`JobError::Resume`] if the run cannot be resumed.
+/// - [`JobError::Open`] if the results are complete but damaged.
+/// - [`JobError::Write`] if a file beside the results cannot be written.
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     match job.begin {
@@ -139,7 +140,7 @@ impl<'a> Job<'a> {
         Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into())
     }
 
-    /// Begins with an empty file beside the earlier results. When the file is complete, it gets the name of the
+    /// Begins the job with an empty file beside the earlier results. When the file is complete, it gets the name of the
     /// results. Adds the lock of the file to `locks`.
     fn start_beside(&self, format: Format, locks: &mut Vec<Lock>) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
@@ -153,8 +154,8 @@ impl<'a> Job<'a> {
         self.start_at((&new, format), file, true)
     }
 
-    /// Begins with the empty `file` at `place`. If the file `replaces` earlier results, it gets the name of the results
-    /// when it is complete.
+    /// Begins the job with the empty `file` at `place`. If `replaces` is true, the file gets the name of the earlier
+    /// results when the file is complete.
     fn start_at(
         &self,
         (place, format): (&Path, Format),
@@ -219,8 +220,8 @@ impl Writing<'_> {
     /// Completes the results and their sidecar. `ended` is the result of the run.
     ///
     /// # Errors
-    /// - [`JobError::Run`] with the error of the run; the written rows are kept with their journal
-    /// - [`JobError::Write`] if a file beside the results cannot be written
+    /// - [`JobError::Run`] with the error of the run; the written rows are kept with their journal.
+    /// - [`JobError::Write`] if a file beside the results cannot be written.
     pub fn finish(self, ended: Result<Summary, RunError>) -> Result<Done, JobError> {
         let rows_before = self.before.rows;
         let seconds = self.begun.elapsed().as_secs_f64();
@@ -285,7 +286,7 @@ pub enum JobError {
         path: PathBuf,
         /// Differences between the rows of the file and the rows of the job, in words; empty if unknown.
         changes: Vec<String>,
-        /// First line of the grid file that differs, in words.
+        /// Description of the first line of the grid file that differs.
         changed: Option<String>,
     },
     /// The run cannot be resumed.
@@ -293,7 +294,7 @@ pub enum JobError {
     Resume {
         /// The reason.
         error: ResumeError,
-        /// First line of the grid file that has changed, in words.
+        /// Description of the first line of the grid file that has changed.
         changed: Option<String>,
         /// True if the sweep that began the rows can be continued from its sidecar.
         continues: bool,

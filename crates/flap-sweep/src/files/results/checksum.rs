@@ -1,7 +1,7 @@
 //! Checksums of rows, which detect and locate damage.
 //!
 //! The checksums are computed from the rows as text. The text is the same in every format, so a converted file keeps
-//! its checksums. Lines are counted from the first one of the file, so threads and interruptions do not change
+//! its checksums. Lines are counted from the first line of the file, so threads and interruptions do not change
 //! checksums.
 
 use std::fmt::Write as _;
@@ -20,8 +20,8 @@ use crate::notation::text::digits;
 /// would hardly make files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
-/// Number of checksums in one line of a sidecar. Ten million rows take 3,300 lines of checksums, a ten-thousandth of
-/// the rows.
+/// Number of checksums in one line of a sidecar. The checksums of ten million rows take 3,300 lines, about a
+/// ten-thousandth of the bytes of the rows.
 const PER_LINE: usize = 12;
 
 /// Checksums of a result file: of its rows as text, and of its bytes.
@@ -31,7 +31,7 @@ pub struct Checksums {
     pub text: String,
     /// Lower half of the XXH3 of the header.
     pub header: String,
-    /// Number of rows in each block except the last.
+    /// Number of rows in each block except the last block.
     pub block_rows: u32,
     /// Lower half of the XXH3 of every block of rows. The lower half is sufficient, because these checksums only locate
     /// damage that the checksum `text` detects.
@@ -53,7 +53,7 @@ impl FileSum {
     /// Returns the checksum of all bytes of `source`.
     ///
     /// # Errors
-    /// The error of `source`.
+    /// The error of reading `source`.
     pub(crate) fn of(mut source: impl Read) -> io::Result<FileSum> {
         let mut hash = Xxh3Default::new();
         let bytes = io::copy(&mut source, &mut hash)?;
@@ -124,7 +124,7 @@ impl TextDigest {
         digits(self.whole.digest())
     }
 
-    /// Returns the checksums of header and blocks. The last block may have fewer rows than the others.
+    /// Returns the checksums of header and blocks. The last block may have fewer rows than the other blocks.
     pub(crate) fn parts(&self) -> Vec<u32> {
         let mut parts = self.parts.clone();
         if self.is_begun {

@@ -1,8 +1,8 @@
 //! Result files: formats, and reading and writing rows as text.
 //!
 //! Rows are the same text in every format. A cell is the text of
-//! [`Layout::cells`](crate::table::layout::Layout::cells), both for a model and for a file. A file that is converted
-//! or merged from parts therefore has the same bytes as a file that was written at once.
+//! [`Layout::cells`](crate::table::layout::Layout::cells), whether the row comes from a model or from a file. A file
+//! that is converted or merged from parts therefore has the same bytes as a file that was written at once.
 
 mod checksum;
 #[cfg(feature = "parquet")]

@@ -26,7 +26,7 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the origin of the rows of `plan`. `identity` contains version and arithmetic.
+    /// Returns the origin of the rows of `plan`. `identity` contains the version and the arithmetic of flap.
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
@@ -73,7 +73,7 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the parameters before the axes are applied, without parameters that follow others.
+/// Returns the parameters before the axes are applied, without parameters that have their values from other parameters.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),

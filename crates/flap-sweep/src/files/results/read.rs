@@ -11,8 +11,8 @@ use crate::files::csv_sink::cause;
 use crate::files::record::repeated;
 use crate::notation::text::count;
 
-/// Longest line, or lines without a row: 16 MiB. A usual line of results has some hundred bytes. A line with ten
-/// thousand columns has less than 1 MiB.
+/// Largest size of a line, or of lines without a row: 16 MiB. A typical line of results has a few hundred bytes. A line
+/// with ten thousand columns has less than 1 MiB.
 const LONGEST_LINE: usize = 16 << 20;
 
 /// A reader that returns an error if a line is too long. A few compressed bytes can expand to a line of any length.
@@ -64,7 +64,7 @@ pub struct Missed {
 }
 
 impl Missed {
-    /// Returns true if nothing was left out.
+    /// Returns true if the reader left out no rows.
     pub fn is_none(&self) -> bool {
         *self == Missed::default()
     }
@@ -94,9 +94,9 @@ impl Reader {
     /// Returns a reader at the beginning of `file`.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the file does not have the expected format
-    /// - [`io::ErrorKind::Other`] if flap was built without Parquet
-    /// - the error of the operating system if the file cannot be read
+    /// - [`io::ErrorKind::InvalidData`] if the file does not have the expected format.
+    /// - [`io::ErrorKind::Other`] if flap was built without Parquet.
+    /// - The error of the operating system if the file cannot be read.
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
         match format {
             #[cfg(feature = "parquet")]
@@ -146,8 +146,8 @@ impl Reader {
         &self.names
     }
 
-    /// Returns the metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). Empty
-    /// for other formats.
+    /// Returns the metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). The
+    /// list is empty for other formats.
     pub fn entries(&self) -> &[(String, String)] {
         match &self.rows {
             Rows::Text(_) => &[],
@@ -159,8 +159,8 @@ impl Reader {
     /// Reads the next row into `row`. Returns false after the last row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the row does not match the header, or is damaged
-    /// - the error of the operating system if the file cannot be read
+    /// - [`io::ErrorKind::InvalidData`] if the row does not match the header, or is damaged.
+    /// - The error of the operating system if the file cannot be read.
     pub fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         loop {
             match (self.read(row), &mut self.missed) {

@@ -18,7 +18,7 @@ pub struct RowCheck {
     points: u64,
     /// Number of written rows; `None` if unknown.
     rows: Option<u64>,
-    /// First position among the selected points that the next row may have.
+    /// First position among the selected points that the point of the next row may have.
     next: u64,
     seen: u64,
     /// True if every point must have a row.
@@ -27,7 +27,7 @@ pub struct RowCheck {
     is_repeated: bool,
 }
 
-/// Error of a row that is not the next row of the plan. Contains the message, in which rows count from 1.
+/// Error of a row that is not the next row of the plan. The error contains the message, in which rows count from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RowError(String);
@@ -168,8 +168,8 @@ impl<'a> Checked<'a> {
     /// Reads the next row and returns its point; `None` after the last row.
     ///
     /// # Errors
-    /// - [`RowsError::Read`] if the file cannot be read
-    /// - [`RowsError::Row`] if the row is not the next row of the plan, or rows are missing at the end
+    /// - [`RowsError::Read`] if the file cannot be read.
+    /// - [`RowsError::Row`] if the row is not the next row of the plan, or rows are missing at the end.
     pub(crate) fn next(&mut self) -> Result<Option<u64>, RowsError> {
         while self.reader.next(&mut self.row)? {
             match self.check.row(&self.row) {

@@ -11,7 +11,7 @@ use crate::notation::text::digits;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Compression level: Zstandard's default. Higher levels take longer and hardly reduce the size.
+/// Compression level: Zstandard's default. Higher compression levels take longer and hardly reduce the size.
 const LEVEL: i32 = 3;
 
 /// Binary logarithm of the memory for reading a compressed file (bytes): the limit of the command `zstd`.
@@ -113,8 +113,8 @@ impl TextRows {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
-    /// Returns number and checksum of the written bytes. If the file may be cut here, the bytes contain all rows after
-    /// [`TextRows::flush`].
+    /// Returns number and checksum of the written bytes. Call [`TextRows::flush`] first if the file may be cut after
+    /// these bytes, so that the bytes contain all rows.
     pub(crate) fn extent(&self) -> FileSum {
         self.lines.target().file.sum()
     }
@@ -171,7 +171,7 @@ impl Write for Frames {
 
 /// Returns the digest of the text of rows in `source`, which must not be Parquet.
 ///
-/// Also returns an error if the digest ends where the text cannot be decompressed.
+/// The function also returns an error if the digest ends where the text cannot be decompressed.
 pub(crate) fn text_sum(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = decoded(source, format).and_then(|mut text| io::copy(&mut text, &mut digest));

@@ -40,8 +40,8 @@ impl Writer {
     /// Writes a row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if a cell does not match the type of its column
-    /// - the error of the operating system if the file cannot be written
+    /// - [`io::ErrorKind::InvalidData`] if a cell does not match the type of its column.
+    /// - The error of the operating system if the file cannot be written.
     pub fn row(&mut self, cells: &StringRecord) -> io::Result<()> {
         match &mut self.0 {
             Rows::Text(rows) => rows.row(cells),
@@ -82,8 +82,8 @@ pub enum ConvertError {
 /// out. Returns the number of rows, and the checksums of the rows and of the file.
 ///
 /// # Errors
-/// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`
-/// - [`ConvertError::Write`] if `to` cannot be written
+/// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`.
+/// - [`ConvertError::Write`] if `to` cannot be written.
 pub fn convert(
     from: &mut Reader,
     to: (File, Format),

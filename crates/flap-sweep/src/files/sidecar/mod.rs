@@ -2,7 +2,7 @@
 //!
 //! The sidecar is written when a sweep starts, with `state = "running"`, and again when the sweep ends. Each time, the
 //! sidecar is replaced as a whole, so a reader never gets an incomplete sidecar. The sidecar contains everything for
-//! running the sweep again and checking the results. The first line is the checksum of the other lines.
+//! running the sweep again and checking the results. The first line of a sidecar is the checksum of the other lines.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -142,7 +142,7 @@ impl Unit {
 impl Sidecar {
     /// Returns the contents for a sweep of `plan` that starts at the time `started`.
     ///
-    /// `origin` are the earlier results that contain the points of a rerun.
+    /// `origin` names the earlier results that contain the points of a rerun.
     pub fn new(plan: &Plan, started: String, options: &RunOptions, origin: Option<Origin>) -> Sidecar {
         let layout = Layout::of(plan);
         let (shard, rerun) = match plan.selection() {
@@ -217,7 +217,7 @@ fn followed(plan: &Plan) -> Option<Followed> {
     Some(Followed { parameter, values, tolerance, unstable })
 }
 
-/// Beginning of the first line. The first line is valid TOML, so other TOML readers need no special code.
+/// Beginning of the first line of a sidecar. The first line is valid TOML, so other TOML readers need no special code.
 const CHECKSUM: &str = "checksum = \"";
 
 /// Error of a file that cannot be used as a sidecar.
@@ -244,7 +244,7 @@ pub enum SidecarError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Description of the change.
+        /// Description of the change of the grid.
         reason: &'static str,
     },
 }
@@ -262,9 +262,9 @@ impl Sidecar {
     /// Reads the file.
     ///
     /// # Errors
-    /// - [`SidecarError::Io`] if the file cannot be read
-    /// - [`SidecarError::Format`] if the file is not a sidecar
-    /// - [`SidecarError::Damaged`] if the file does not match its checksum
+    /// - [`SidecarError::Io`] if the file cannot be read.
+    /// - [`SidecarError::Format`] if the file is not a sidecar.
+    /// - [`SidecarError::Damaged`] if the file does not match its checksum.
     pub fn read(path: &Path) -> Result<Sidecar, SidecarError> {
         Sidecar::parse(path, &bytes(path)?)
     }
@@ -272,8 +272,8 @@ impl Sidecar {
     /// Reads the file without requiring a correct checksum.
     ///
     /// # Errors
-    /// - [`SidecarError::Io`] if the file cannot be read
-    /// - [`SidecarError::Format`] if the file is not a sidecar
+    /// - [`SidecarError::Io`] if the file cannot be read.
+    /// - [`SidecarError::Format`] if the file is not a sidecar.
     pub fn read_damaged(path: &Path) -> Result<Sidecar, SidecarError> {
         Sidecar::parse_damaged(path, &bytes(path)?)
     }
@@ -281,8 +281,8 @@ impl Sidecar {
     /// Parses the bytes of the file at `path`, which is named in errors.
     ///
     /// # Errors
-    /// - [`SidecarError::Format`] if the bytes are not a sidecar
-    /// - [`SidecarError::Damaged`] if the bytes do not match their checksum
+    /// - [`SidecarError::Format`] if the bytes are not a sidecar.
+    /// - [`SidecarError::Damaged`] if the bytes do not match their checksum.
     pub fn parse(path: &Path, bytes: &[u8]) -> Result<Sidecar, SidecarError> {
         let damaged = |reason| SidecarError::Damaged { path: path.to_owned(), reason };
         if let Some(rest) = bytes.strip_prefix(CHECKSUM.as_bytes())
@@ -315,7 +315,7 @@ impl Sidecar {
         self.prepare(path)?.commit()
     }
 
-    /// Writes the file under a temporary name. [`disk::Whole::commit`] gives it its final name.
+    /// Writes the file under a temporary name. [`disk::Whole::commit`] gives the sidecar its final name.
     pub(crate) fn prepare(&self, path: &Path) -> io::Result<disk::Whole> {
         let text = self.text().map_err(io::Error::other)?;
         let whole = disk::Whole::begin(path)?;

@@ -22,10 +22,10 @@ pub enum PlanError {
     /// The recorded grid file and the recorded hash differ.
     #[error("the recorded grid was edited after the sweep")]
     GridText,
-    /// The file of points has changed.
+    /// The file that lists the points of the sample has changed.
     #[error("{} has changed since the points were run", .0.as_deref().unwrap_or("its file of points"))]
     PointsFile(Option<String>),
-    /// The grid file does not have the recorded points, solver settings or parameters. Contains the reason.
+    /// The grid file does not have the recorded points, solver settings or parameters. The error contains the reason.
     #[error("the recorded {0}")]
     Changed(&'static str),
 }
@@ -38,12 +38,12 @@ impl Sidecar {
     /// Returns the plan of the recorded rows, with the presets of `models`.
     ///
     /// # Errors
-    /// - [`PlanError::GridText`] if the recorded grid file was edited
-    /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap
-    /// - [`PlanError::PointsFile`] if the file of points has changed
-    /// - [`PlanError::Changed`] if the solver settings exceed the limits of a grid file
-    /// - [`PlanError::Changed`] if the model of a response lacks a recorded parameter or option
-    /// - [`PlanError::Changed`] if the grid does not contain the recorded points
+    /// - [`PlanError::GridText`] if the recorded grid file was edited.
+    /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap.
+    /// - [`PlanError::PointsFile`] if the file of points has changed.
+    /// - [`PlanError::Changed`] if the solver settings exceed the limits of a grid file.
+    /// - [`PlanError::Changed`] if the model of a response lacks a recorded parameter or option.
+    /// - [`PlanError::Changed`] if the grid does not contain the recorded points.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Result<Plan, PlanError> {
         let Identity { grid, devices, points_file, solver, .. } = &self.identity;
         if *grid != text::hash(&self.grid.text) || *devices != identity::devices(&self.devices) {

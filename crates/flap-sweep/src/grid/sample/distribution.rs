@@ -16,7 +16,7 @@ const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// Returns the distribution of `parameter`. `None`, with a report, if there are mistakes.
+/// Returns the distribution of `parameter`. If there are mistakes, reports the mistakes and returns `None`.
 ///
 /// `base` is the value of the parameter without a sample.
 pub(super) fn read(
@@ -150,7 +150,7 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Returns the distribution, if the distribution has values.
+    /// Returns the distribution, if values can be drawn from the distribution.
     fn sound(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }

@@ -16,10 +16,10 @@ use crate::notation::value::{self, UnitOf};
 use crate::plan::axes::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
-/// Largest number of reported cells. A file with more mistakes has the wrong columns.
+/// Largest number of reported cells. A file with more mistakes probably has the wrong columns.
 const MOST_CELLS: usize = 10;
 
-/// Largest number of bytes in a line. A usual line of headings or numbers is much shorter.
+/// Largest number of bytes in a line. A typical line of headings or numbers is much shorter.
 const LONGEST_LINE: usize = 1 << 20;
 
 /// Returns the points of the file that the section names.
@@ -65,8 +65,8 @@ struct Column<'t, 'p> {
     unit: Option<&'t str>,
 }
 
-/// Returns the values of the parameters, each with true if the heading of its column has a unit. Also returns true if
-/// there are no mistakes.
+/// Returns the values of the parameters, each with a flag that is true if the heading of its column has a unit. The
+/// function also returns true if there are no mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
         let begin = line.as_ptr().addr() - source.text.as_ptr().addr();

@@ -114,7 +114,7 @@ fn meaning(parameter: &Parameter) -> String {
     capitalized(parameter.doc.trim_end_matches('.')) + "."
 }
 
-/// Returns unit and range in words.
+/// Returns a description of the unit and the range.
 fn numbers(unit: &str, range: Range) -> String {
     let form = if unit.is_empty() {
         "A number, or text such as \"5 %\"".to_owned()
@@ -364,7 +364,7 @@ fn output(column: &Value) -> Value {
     sections::table(about("output"), keys)
 }
 
-/// Returns the schema of a known name or any other name, because the user may define it.
+/// Returns a schema that accepts known names and any other name, because the user may define other names.
 fn or_own(known: &Value) -> Value {
     json!({"anyOf": [known, {"type": "string"}]})
 }

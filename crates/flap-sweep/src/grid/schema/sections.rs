@@ -10,7 +10,7 @@ use crate::grid::{refine, resonance};
 use crate::plan::refine::Refine;
 use crate::resonance::{Objective, Range};
 
-/// Returns a reference to a definition.
+/// Returns a JSON reference to a definition of the schema.
 pub(super) fn to(definition: &str) -> Value {
     json!({"$ref": format!("#/$defs/{definition}")})
 }

@@ -51,12 +51,12 @@ impl ExpressionError {
         ExpressionError { mistake: Mistake::Mismatch, help, ..ExpressionError::new(span, message) }
     }
 
-    /// Returns the mistake with this help.
+    /// Returns the mistake with the help text `help`.
     pub(super) fn helps(self, help: impl Into<String>) -> ExpressionError {
         ExpressionError { help: Some(help.into()), ..self }
     }
 
-    /// Returns the mistake as a mistake of this kind.
+    /// Returns an error of this kind with the given mistake.
     pub(super) fn of(self, mistake: Mistake) -> ExpressionError {
         ExpressionError { mistake, ..self }
     }

@@ -27,8 +27,8 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     pop(&mut stack)
 }
 
-/// Returns the operations of both operands of a binary operator that follows `operations`; `None` if there are not two
-/// operands.
+/// Returns the operations of the two operands of a binary operator, if `operations` end with these operands; `None`
+/// otherwise.
 pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
     // Operands that are still to be found on the way back to the beginning of the right one.
     let mut missing = 1;
@@ -109,9 +109,9 @@ pub(super) enum Operation {
     Push(f64),
     /// Pushes one of the values onto the stack.
     Read(usize),
-    /// Pushes the number that belongs to the option of a choice, which is one of the values.
+    /// Pushes the number that belongs to the chosen option of a choice onto the stack.
     ReadOf(usize, Arc<[f64]>),
-    /// Replaces the topmost number.
+    /// Replaces the topmost number on the stack by a function of this number.
     Unary(Unary),
     /// Replaces the two topmost numbers on the stack.
     Binary(Binary),

@@ -12,7 +12,7 @@ use crate::notation::{nearest, text};
 /// overflow the stack.
 const MOST_NESTED: usize = 100;
 
-/// Precedence of operators, in rising order.
+/// Precedence of operators, in ascending order.
 mod power {
     pub(super) const ANY: u8 = 0;
     pub(super) const OR: u8 = 1;
@@ -113,7 +113,7 @@ impl<'a> Parser<'a> {
         self.expected("an operator").helps(help).of(Mistake::NoOperator)
     }
 
-    /// Records a mistake in an operand, which then has no kind.
+    /// Records a mistake in an operand, so that the operand has no kind.
     fn note(&mut self, error: ExpressionError, span: Range<usize>) -> Operand {
         self.errors.push(error);
         Operand { kind: None, span }
@@ -314,7 +314,8 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// Returns the known name most similar to `name`, or else all known names, as help.
+/// Returns the known name most similar to `name`, for the help of a message; without a similar name, returns all known
+/// names.
 fn nearest_or_all(name: &str, known: &[&str], what: &str) -> String {
     let all = || format!("{what}: {}", known.join(", "));
     nearest(name, known.iter().copied()).map_or_else(all, did_you_mean)
@@ -357,7 +358,7 @@ fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'t> {
     Number(f64),
-    /// A name, which may contain dots: `preset.wing_area`. The words `and`, `or` and `not` are names here.
+    /// A name, which may contain dots: `preset.wing_area`. In tokens, the words `and`, `or` and `not` are names.
     Name(&'t str),
     /// Text in quotes, without the quotes.
     Text(&'t str),
@@ -366,7 +367,7 @@ pub(super) enum Token<'t> {
     End,
 }
 
-/// Signs. A longer sign precedes the signs that are its prefixes.
+/// Signs. In the list, a longer sign such as `<=` precedes a shorter sign with which it begins, such as `<`.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
 /// Operators of other languages, with the operators to use instead.
@@ -409,7 +410,7 @@ impl<'t> Tokens<'t> {
     }
 }
 
-/// A token and its length. Positions of mistakes are in the rest of the text.
+/// A token and its length. Positions of mistakes are counted from the beginning of the rest of the text.
 type Found<'t> = Result<(Token<'t>, usize), ExpressionError>;
 
 fn is_name(character: char) -> bool {

@@ -14,18 +14,20 @@ pub enum Kind {
 /// Meaning of a name in an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning<'a> {
-    /// A number. Contains the index in the values.
+    /// A number. The variant contains the index in the values.
     Number(usize),
-    /// A condition. Contains the index in the values, as returned by [`Expression::value`](super::Expression::value).
+    /// A condition. The variant contains the index in the values, as returned by
+    /// [`Expression::value`](super::Expression::value).
     Condition(usize),
-    /// A choice. Contains the index in the values, and the options. The value is the index of an option.
+    /// A choice. The variant contains the index in the values, and the options. The value is the index of an option.
     Choice(usize, &'a [&'a str]),
     /// Constant.
     Constant(f64),
     /// Number that depends on the choice with this index in the values: a number for each option.
     OfChoice(usize, Arc<[f64]>),
-    /// Number that is not set. The first text describes the parameters that it follows. The second text names the
-    /// designs without the number, such as "the device `long`", or is empty if all designs lack the number.
+    /// Number of a parameter that is not set. The first text describes the parameters from which the number is
+    /// computed. The second text names the designs without the number, such as "the device `long`", or is empty if all
+    /// designs lack the number.
     Unset(&'static str, String),
 }
 

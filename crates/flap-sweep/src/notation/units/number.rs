@@ -37,7 +37,7 @@ pub enum UnitProblem {
     },
     /// The unit is unknown.
     UnknownUnit {
-        /// Unit in the text.
+        /// Unit in the text of the quantity.
         unit: String,
         /// Most similar known unit.
         nearest: Option<String>,
@@ -48,16 +48,16 @@ pub enum UnitProblem {
     BadUnit(&'static str),
     /// The expected unit is not a unit of flap, and the unit in the text is a different unit.
     NotConverted {
-        /// Unit in the text.
+        /// Unit in the text of the quantity.
         unit: String,
         /// Expected unit.
         wanted: String,
     },
-    /// The unit has another dimension.
+    /// The unit in the text has a different dimension from the expected unit.
     Mismatch {
-        /// Unit in the text.
+        /// Unit in the text of the quantity.
         unit: String,
-        /// The quantity in words that the expected unit measures, such as `a time`.
+        /// Name of the quantity that the expected unit measures, such as `a time`.
         measures: String,
         /// Expected SI unit; empty for a pure number.
         wanted: String,
@@ -137,7 +137,7 @@ impl std::error::Error for UnitError {}
 pub(crate) struct Number<'t> {
     /// Whole text of the number.
     text: &'t str,
-    /// Sign, digits and point.
+    /// Sign, digits and decimal point of the number.
     mantissa: &'t str,
     exponent: i64,
 }
@@ -186,7 +186,7 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
-/// Returns the exponent. A value beyond `i64` overflows a float like any other large value.
+/// Returns the exponent. An exponent beyond `i64` overflows a float, as any other large exponent does.
 fn read_exponent(text: &str) -> i64 {
     const BEYOND: i64 = 1_000_000_000_000;
     let limit = if text.starts_with('-') { -BEYOND } else { BEYOND };
@@ -198,7 +198,7 @@ impl Number<'_> {
     ///
     /// # Errors
     /// An error if the result is too large for a float, or if a result other than zero is too small for a float. The
-    /// span is the whole number.
+    /// span of the error covers the whole number.
     pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitError> {
         let refused = |problem| Err(UnitError { span: 0..self.text.len(), problem });
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));

@@ -16,8 +16,8 @@ pub fn prefixed(value: f64, si_unit: &str) -> String {
     format!("{} {unit}", digits(value)).trim_end().to_owned()
 }
 
-/// Returns `value` in `si_unit` with the same prefix and all digits. [`parse_as`] reads it back as exactly the same
-/// float.
+/// Returns `value` in `si_unit` with the same prefix and all digits. [`parse_as`] reads the text back as exactly the
+/// same float.
 pub fn exact(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let scientific = format!("{value:e}");
@@ -50,7 +50,7 @@ fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
 
 /// Returns `value` with the prefix that brings the value closest to `usual`: 0.017 for 17 m if 0.0165 m is usual.
 ///
-/// `None` if no prefix brings the value within a factor of ten.
+/// `None` if no prefix brings the value within a factor of ten of `usual`.
 pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" {
@@ -63,7 +63,7 @@ pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     (nearest / usual > 0.0 && distance(&nearest) < 1.0).then_some(nearest)
 }
 
-/// Returns the first symbol of a unit, and the rest.
+/// Returns the first symbol of a unit, and the rest of the unit.
 fn split(unit: &str) -> (&str, &str) {
     unit.split_at(unit.find(|letter: char| !letter.is_alphabetic()).unwrap_or(unit.len()))
 }

@@ -37,7 +37,7 @@ impl Unit {
 /// Products and quotients associate to the left: `N/m*s` is `(N/m)*s`.
 ///
 /// # Errors
-/// Mistakes with spans within `text`.
+/// Mistakes, each with its position within `text`.
 pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     let mut reader = Reader { text, at: 0 };
     let mut unit = Unit::ONE;
@@ -171,8 +171,8 @@ impl<'t> Reader<'t> {
 
 /// Exponents of the SI base units that models need: metre, kilogram, second, ampere.
 ///
-/// An angle is a pure number, so a torsional stiffness may be given in N*m/rad or N*m. Radians and hertz are
-/// nevertheless counted, because 100 Hz and 100 rad/s are different frequencies.
+/// An angle is a pure number, so a torsional stiffness may be given in N*m/rad or N*m. The powers of radians and hertz
+/// are nevertheless counted, because 100 Hz and 100 rad/s are different frequencies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Dimension {
     base: [i32; 4],
@@ -235,7 +235,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Dimensions with a name. Angles and frequencies precede pure numbers and rates.
+/// Dimensions with a name. In the list, angles and frequencies precede pure numbers and rates.
 const NAMES: &[(Dimension, &str)] = &[
     (Dimension::ANGLE, "an angle"),
     (Dimension { base: [0, 0, -1, 0], radian: 1, hertz: 0 }, "an angular rate"),

@@ -81,7 +81,7 @@ pub(super) fn cumulative(z: f64) -> f64 {
 
 /// Returns the value below which the fraction `p` of the standard normal distribution lies, to about 16 digits.
 ///
-/// Wichura, "The percentage points of the normal distribution", Appl. Statist. 37, 477 (1988), algorithm AS 241,
+/// Wichura, "The percentage points of the normal distribution", Applied Statistics 37, 477 (1988), algorithm AS 241,
 /// function PPND16.
 pub(crate) fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
@@ -125,7 +125,7 @@ const CENTRE: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Coefficients for the tails, down to fractions of about 1e-11.
+/// Coefficients for the tails of the normal distribution, down to fractions of about 1e-11.
 const NEAR: [[f64; 8]; 2] = [
     [
         1.423_437_110_749_683_577_34,
@@ -149,7 +149,7 @@ const NEAR: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Coefficients for the far tails.
+/// Coefficients for the far tails of the normal distribution.
 const FAR: [[f64; 8]; 2] = [
     [
         6.657_904_643_501_103_777_2,

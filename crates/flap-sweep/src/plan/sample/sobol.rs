@@ -57,8 +57,9 @@ fn directions(dimension: usize) -> [u32; BITS] {
 /// Returns digits with Owen's nested uniform scrambling by a hash: each binary digit is flipped depending on the
 /// digits before it.
 ///
-/// The hash is by Laine and Karras with Vegdahl's constants, as in Burley, "Practical Hash-based Owen Scrambling",
-/// JCGT 9(4) (2020). In this hash a bit depends on lower bits only, hence the reversals.
+/// The hash is by Laine and Karras with Vegdahl's constants, as in Burley, "Practical Hash-based Owen Scrambling", JCGT
+/// 9(4) (2020). In this hash, each bit depends on lower bits only, so the order of the bits is reversed before and
+/// after the hash.
 fn scrambled(digits: u32, key: u32) -> u32 {
     let mut x = digits.reverse_bits();
     x ^= x.wrapping_mul(0x3D20_ADEA);
@@ -72,7 +73,8 @@ fn scrambled(digits: u32, key: u32) -> u32 {
 /// Primitive polynomials and first direction numbers of the second and later dimensions.
 ///
 /// A polynomial over the field of two elements is given by its coefficients as bits, from the highest power to the
-/// constant. The direction numbers m1, m2 and so on follow. Their number is the degree of the polynomial.
+/// constant. The direction numbers m1, m2 and so on follow. The number of direction numbers is the degree of the
+/// polynomial.
 #[rustfmt::skip]
 pub(super) const DIRECTIONS: [(u32, &[u32]); 127] = [
     (3, &[1]), (7, &[1, 3]), (11, &[1, 3, 1]), (13, &[1, 1, 1]), (19, &[1, 1, 3, 3]), (25, &[1, 3, 5, 13]),

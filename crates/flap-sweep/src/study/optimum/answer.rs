@@ -7,8 +7,8 @@ use flap_core::simulate::{NoSlope, Row};
 pub enum Status {
     /// The derivatives show that no small change of the design is better.
     Optimal,
-    /// The best point that was found. The derivatives do not confirm this point, because some are missing or the search
-    /// ended early.
+    /// The best point that was found. The derivatives do not confirm this point, because some derivatives are missing
+    /// or the search ended early.
     Approximate,
     /// No point satisfies all conditions. The point has the smallest violation of the conditions.
     Infeasible,
@@ -18,7 +18,7 @@ impl Status {
     /// All statuses.
     pub const ALL: [Status; 3] = [Status::Optimal, Status::Approximate, Status::Infeasible];
 
-    /// The word for the value in results.
+    /// The name of this variant in results.
     pub fn name(self) -> &'static str {
         match self {
             Status::Optimal => "optimal",
@@ -40,7 +40,7 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// The word for the value in results.
+    /// The name of this variant in results.
     pub fn name(self) -> &'static str {
         match self {
             Edge::Limit => "limit",

@@ -13,7 +13,7 @@ use crate::run::{Outcome, RunError, RunOptions, alone};
 /// The step of the differences, in coordinates, that replace a missing derivative of a row.
 const STEP: f64 = 2e-3;
 
-/// The same for designs at their resonance or at hover, because both searches have an error.
+/// The step of the differences for designs at their resonance or at hover, because the searches for both have errors.
 const STEP_OF_SEARCH: f64 = 2e-2;
 
 /// A point of the region with its row.
@@ -25,7 +25,8 @@ pub(super) struct Trial {
     pub(super) goal: f64,
     /// Both sides of each limit: first the side that must be smaller, then the side that must be larger.
     pub(super) sides: Vec<[f64; 2]>,
-    /// The largest relative excess over a limit. Zero if all limits hold, infinite if the point has no periodic motion.
+    /// The largest relative excess over a limit. The excess is zero if all limits hold, and infinite if the point has
+    /// no periodic motion.
     pub(super) excess: f64,
     /// Derivatives with respect to each coordinate: of the goal, then of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,
@@ -52,7 +53,8 @@ impl Trial {
         Trial { coordinates, row, goal, sides, excess, slopes: Vec::new() }
     }
 
-    /// True if the point is better than another point: the point is feasible with a better goal, or closer to feasible.
+    /// True if the point is better than another point: it is feasible with a better goal, or closer to a feasible
+    /// point.
     pub(super) fn is_better(&self, problem: &Problem, other: &Trial) -> bool {
         if self.excess > 0.0 || other.excess > 0.0 {
             return self.excess < other.excess;
@@ -60,7 +62,8 @@ impl Trial {
         problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
     }
 
-    /// The order of two points: the smaller excess first, and of equal excesses the better goal.
+    /// The order of two points: the point with the smaller excess is first; for equal excesses, the point with the
+    /// better goal is first.
     pub(super) fn order(&self, problem: &Problem, other: &Trial) -> Ordering {
         let goal = |trial: &Trial| problem.aim.sign() * trial.goal;
         self.excess.total_cmp(&other.excess).then(goal(self).total_cmp(&goal(other)))
@@ -74,7 +77,7 @@ impl Trial {
     }
 }
 
-/// The rows of one refinement, which all belong to the same choice.
+/// The rows of one refinement, in which all rows have the same options of the choices.
 pub(super) struct Evaluator<'p> {
     pub(super) problem: &'p Problem,
     options: &'p RunOptions,

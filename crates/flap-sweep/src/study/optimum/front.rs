@@ -38,7 +38,7 @@ pub struct FrontPoint {
 /// The reason why there is no Pareto front.
 #[derive(Debug, thiserror::Error)]
 pub enum FrontError {
-    /// A goal or a condition has a mistake. Contains the index of the goal.
+    /// A goal or a condition has a mistake. The variant contains the index of the goal.
     #[error("{1}")]
     Problem(usize, ProblemError),
     /// The rows of the problem could not be computed.
@@ -46,10 +46,10 @@ pub enum FrontError {
     Run(#[from] RunError),
 }
 
-/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. The limits
-/// of the points on the second goal are evenly spaced. The search for a point starts from the neighbouring points of
-/// the front. `stops` gets the number of finished points of the front and the number of all points. If `stops`
-/// returns true, the search ends.
+/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. The points
+/// of the front have limits on the second goal, which are evenly spaced. The search for a point starts from the
+/// neighbouring points of the front. `stops` receives the number of finished points of the front and the number of all
+/// points. If `stops` returns true, the search ends.
 ///
 /// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///

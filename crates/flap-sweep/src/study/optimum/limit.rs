@@ -27,7 +27,8 @@ impl Limit {
         Some(limits.collect())
     }
 
-    /// True if the side that must be larger is the limit of the other side: that side is a constant, or stands on the right.
+    /// True if the side that must be larger is the limit of the other side. In this case, the larger side is a constant
+    /// or is on the right.
     pub(super) fn is_upper(&self) -> bool {
         let is_constant = |side: &Expression| side.reads().next().is_none();
         match [&self.comparison.more, &self.comparison.less].map(is_constant) {

@@ -2,8 +2,8 @@
 //!
 //! The best design has the largest or smallest value of an expression, among all points that satisfy the conditions.
 //!
-//! The points of the plan are the starts. The best starts are refined by sequential quadratic programming with the
-//! exact derivatives of the rows. Every row belongs to a motion from rest, as in a sweep.
+//! The points of the plan are the starts of the searches. The best starts are refined by sequential quadratic
+//! programming with the exact derivatives of the rows. Every row belongs to a motion from rest, as in a sweep.
 //!
 //! ```
 //! use flap_sweep::grid;

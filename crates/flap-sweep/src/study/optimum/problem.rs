@@ -38,7 +38,7 @@ pub enum Which {
     Plan,
     /// The goal: the number that must be largest or smallest.
     Goal,
-    /// A condition. Contains the index of the condition.
+    /// A condition. The variant contains the index of the condition.
     Condition(usize),
 }
 
@@ -60,10 +60,10 @@ pub struct Problem {
     /// The user's plan.
     pub(super) plan: Plan,
     /// The plan whose rows contain, after the measures, the goal and both sides of each limit. This plan has no
-    /// conditions that are limits.
+    /// conditions that are limits of the problem.
     pub(super) measured: Plan,
-    /// The same plan with derivatives of these measures with respect to the parameters of the region; `None` if rows have
-    /// no derivatives.
+    /// The plan `measured` with derivatives of the measures with respect to the parameters of the region; `None` if
+    /// rows have no derivatives.
     pub(super) sloped: Option<Plan>,
     pub(super) region: Region,
     pub(super) aim: Aim,
@@ -85,13 +85,13 @@ impl Problem {
 
     /// Returns the number to which changes of the goal are compared: the magnitude of the goal, but at least `least_size`.
     ///
-    /// At the best point of a squared difference, the goal is zero.
+    /// At the best point of a goal that is a squared difference, the goal is zero.
     pub(super) fn size(&self, goal: f64) -> f64 {
         let size = goal.abs().max(self.least_size);
         if size == 0.0 { 1.0 } else { size }
     }
 
-    /// The problem of the point of `plan` with the best value of the expression `goal`, among the points that satisfy the
+    /// The problem of the point of `plan` with the best value of the expression `goal`. The point must satisfy the
     /// `conditions` and the conditions of the plan.
     ///
     /// # Errors
@@ -173,7 +173,8 @@ impl Problem {
         self.sloped.is_some()
     }
 
-    /// The index of the goal among the measures of rows. Both sides of each limit follow the goal.
+    /// The index of the goal among the measures of rows. In the measures, the expressions of both sides of each limit
+    /// follow the expression of the goal.
     pub(super) fn place(&self) -> usize {
         self.plan.rows().columns().len() + self.plan.measures().len()
     }

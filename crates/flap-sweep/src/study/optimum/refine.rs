@@ -10,12 +10,12 @@ use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::sensitivity::{CONVERGED, active};
 
-/// Distance that the search keeps from a limit, as a fraction of the limit's size. The optimum then satisfies the limit
-/// in spite of rounding.
+/// Distance that the search keeps from a limit, as a fraction of the limit's size. With this distance, the optimum
+/// satisfies the limit in spite of rounding.
 const KEPT_AWAY: f64 = 1e-6;
 
-/// Allowed error of the distance that the search keeps from a limit, as a fraction of the limit's size. Rows have
-/// errors of about the allowed size.
+/// Allowed error of the distance that the search keeps from a limit, as a fraction of the limit's size. The errors of
+/// rows are about as large as this allowed error.
 const MISSED: f64 = 5e-7;
 
 /// The relative change of the goal below which a refinement ends.
@@ -27,7 +27,7 @@ const SMALL_STEP: f64 = 1e-5;
 /// Largest number of points in one run of sequential quadratic programming.
 const MOST_TRIALS: usize = 60;
 
-/// Largest number of runs of sequential quadratic programming. Each run begins at the end of the run before.
+/// Largest number of runs of sequential quadratic programming. Each run begins at the end point of the previous run.
 const MOST_RUNS: usize = 4;
 
 /// The first and the smallest step of the pattern search, in coordinates.
@@ -137,8 +137,8 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Tri
     (best.into_inner(), last.into_inner())
 }
 
-/// The point that exceeds its limits least, searched from a point that exceeds some limits. The search minimises the
-/// number by which all limits must be moved.
+/// The point that exceeds its limits least, searched from a point that exceeds some limits. The search minimises one
+/// number: the distance by which all limits must be moved so that the point satisfies the limits.
 fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let dimensions = begin.coordinates.len();

@@ -7,8 +7,8 @@ use crate::plan::Plan;
 use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::Distribution;
 
-/// The distance from 0 and 1 within which a coordinate counts as the end of its range, because searches miss the end by
-/// rounding.
+/// The distance from 0 and 1 within which a coordinate is treated as an end of its range, because searches miss the end
+/// by rounding.
 const AT_END: f64 = 1e-9;
 
 /// A parameter that varies continuously between two values, with a coordinate from 0 to 1.
@@ -22,7 +22,7 @@ pub(super) struct Variable {
 }
 
 impl Variable {
-    /// The value at a coordinate.
+    /// Returns the parameter's value at a coordinate.
     pub(super) fn value(&self, coordinate: f64) -> f64 {
         let Variable { from, to, is_log, .. } = *self;
         let value = match coordinate {
@@ -34,7 +34,7 @@ impl Variable {
         value.clamp(from, to)
     }
 
-    /// The coordinate of a value.
+    /// Returns the coordinate of a parameter's value.
     pub(super) fn coordinate(&self, value: f64) -> f64 {
         let Variable { from, to, is_log, .. } = *self;
         let share = if is_log {
@@ -45,7 +45,7 @@ impl Variable {
         share.clamp(0.0, 1.0)
     }
 
-    /// The change of the value per coordinate.
+    /// Returns the derivative of the parameter's value with respect to the coordinate.
     pub(super) fn slope(&self, coordinate: f64) -> f64 {
         let Variable { from, to, is_log, .. } = *self;
         if is_log { self.value(coordinate) * libm::log(to / from) } else { to - from }
@@ -119,7 +119,7 @@ impl Region {
         self.enumerated.iter().map(|&parameter| values[parameter]).collect()
     }
 
-    /// The varied parameters with the values at the given coordinates of a choice.
+    /// The varied parameters with their values at the given coordinates and the given options of the choices.
     pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
         let continuous = self.variables.iter().zip(coordinates);
         let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));

@@ -21,7 +21,8 @@ use crate::run::{RunError, RunOptions};
 /// Largest relative difference of the values, and largest difference of the coordinates, between ends of searches that
 /// count as one optimum.
 ///
-/// One of the pairs of limits must hold. If the value hardly changes, the coordinates of the ends differ more.
+/// Two ends of searches count as one optimum if they satisfy one of the pairs of limits. If the values of the goal are
+/// closer to each other, the coordinates may differ more.
 const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// The time between two checks for a request to stop.
@@ -96,7 +97,7 @@ pub fn optimise(
     Ok(answer(problem, &ends, computed))
 }
 
-/// The best point of a problem from the designs of answers to other problems of the same plan; see [`optimise`].
+/// The best point of a problem, searched from the best designs of other problems of the same plan; see [`optimise`].
 ///
 /// # Errors
 /// As [`optimise`].

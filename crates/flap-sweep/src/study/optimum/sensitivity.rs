@@ -9,7 +9,7 @@ use super::problem::Problem;
 /// The distance from a limit, divided by the limit's size, below which the limit may be active.
 const NEAR: f64 = 1e-4;
 
-/// The distance from a limit, for an end point that a pattern search found.
+/// The distance from a limit below which the limit may be active, if a pattern search found the end point.
 const NEAR_PATTERN: f64 = 5e-3;
 
 /// The distance from a bound, in coordinates, below which the bound may be active.
@@ -22,7 +22,7 @@ pub(super) const CONVERGED: f64 = 0.02;
 #[derive(Clone, Copy)]
 enum Holder {
     Limit(usize),
-    /// The variable, and true for the largest value of the variable.
+    /// The index of the variable, and a flag that is true for the largest value of the variable.
     Bound(usize, bool),
 }
 

@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::run::{Outcome, Run, RunError, RunOptions, rows};
 use crate::study::survey::spread;
 
-/// The distance in coordinates from which two starts of the same choice count as distinct.
+/// The smallest distance in coordinates between distinct starts with the same options of the choices.
 const DISTINCT: f64 = 0.2;
 
 /// A point of the grid.
@@ -83,7 +83,7 @@ pub(super) fn best(problem: &Problem, mut starts: Vec<Start>, most: usize) -> Ve
     chosen
 }
 
-/// The largest difference of coordinates.
+/// The largest difference between the coordinates of two points.
 pub(super) fn distance(one: &Trial, other: &Trial) -> f64 {
     let pairs = one.coordinates.iter().zip(&other.coordinates);
     pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)

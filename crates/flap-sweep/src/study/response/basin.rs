@@ -46,7 +46,8 @@ impl Basin {
 /// Returns the basins at all values at which both branches have different orbits, in ascending order.
 ///
 /// The initial states are uniformly distributed over a box: the smallest and largest value of each state component on
-/// both orbits. Motions settle by marching, because Newton's iteration may leave a basin.
+/// both orbits. The motions are integrated period by period until they settle, because Newton's iteration may leave a
+/// basin.
 pub(super) fn basins(
     plan: &Plan,
     along: &Along,

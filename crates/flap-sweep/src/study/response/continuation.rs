@@ -3,7 +3,7 @@
 //! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end of the band, the
 //! branch turns again and joins the other stable branch.
 //!
-//! Pseudo-arclength continuation follows the branch (H. B. Keller, 1977). The unknowns are the state at the beginning
+//! Pseudo-arclength continuation follows the branch (Keller, 1977). The unknowns are the state at the beginning
 //! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two
 //! orbits.
 
@@ -14,25 +14,25 @@ use nalgebra::{DMatrix, DVector};
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use crate::plan::{Along, Plan};
 
-/// Initial, shortest and longest distance between neighbouring orbits. 1 is the width of the band, and the largest
-/// magnitude of a state component.
+/// Initial, shortest and longest distance between neighbouring orbits. A distance of 1 corresponds to the width of the
+/// band, and to the largest magnitude of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
 /// Largest number of orbits of a branch.
 const MOST: usize = 2000;
 
-/// Number of Newton iterations above which a step is repeated with a shorter step length. With fewer iterations, the
-/// length grows.
+/// Number of Newton iterations above which a step is repeated with a shorter step length. If Newton's method needs
+/// fewer than `QUICK` iterations, the next step is longer.
 const SLOW: usize = 8;
 const QUICK: usize = 3;
 
 /// Change of the parameter for the derivative with respect to the parameter, relative to the width of the band.
 const CHANGE: f64 = 1e-3;
 
-/// Tolerances for the integration of periods, relative to the usual tolerances.
+/// Tolerances for the integration of drive periods, relative to the usual tolerances.
 ///
-/// The final states must change smoothly along the branch, far below `settle_tol`. Otherwise a plane may contain no
-/// orbit.
+/// The final states must change smoothly along the branch, so their errors must be far below `settle_tol`. With larger
+/// errors, a plane may contain no orbit.
 const FINER: f64 = 1e-2;
 
 /// Returns the unstable orbits of all bistable bands of a curve. If the computation is interrupted, some orbits are
@@ -71,8 +71,8 @@ pub(super) fn unstable(
     found
 }
 
-/// A branch of orbits as points of a space. The coordinates are the state relative to its sizes, then the parameter in
-/// widths of the band.
+/// A branch of orbits, as a curve in the space of the state and the parameter. The coordinates are the state relative
+/// to its sizes, then the parameter in widths of the band.
 struct Branch<'a> {
     plan: &'a Plan,
     backend: Backend,
@@ -140,7 +140,7 @@ impl Branch<'_> {
         place.iter().zip(self.sizes).map(|(y, size)| y * size).collect()
     }
 
-    /// Returns one drive period from a position on the branch.
+    /// Returns the motion over one drive period, from a position on the branch.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.along.values_at(self.plan, self.design, self.value(place));
         let state = self.state(place);

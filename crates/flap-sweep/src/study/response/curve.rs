@@ -25,7 +25,8 @@ pub struct Curve {
     /// Motions on the downward branch at the values of `up`, also in ascending order.
     pub down: Vec<Step>,
     /// Unstable orbits, if computed. For each bistable band, the orbits lead from the end of the upward branch to the
-    /// end of the downward branch. The values of the parameter decrease and may turn.
+    /// end of the downward branch. Along these orbits, the parameter decreases, and may increase again where the branch
+    /// turns back.
     pub unstable: Vec<Step>,
 }
 
@@ -86,7 +87,7 @@ impl Curve {
 /// motions.
 const DIFFERENT: f64 = 1e-2;
 
-/// Relative change of a state component across a step above which the response counts as steep.
+/// Relative change of a state component in one step, above which the response is steep.
 const STEEP: f64 = 0.1;
 
 /// Comparison of two motions at the same drive.
@@ -100,7 +101,7 @@ pub(super) enum Comparison {
     Irregular,
 }
 
-/// Returns the sizes of the state's components: the largest magnitude of each in the motions of a curve.
+/// Returns the sizes of the state's components: the largest magnitude of each component in the motions of a curve.
 pub(super) fn sizes<'a>(motions: impl Iterator<Item = &'a Row>) -> Vec<f64> {
     let mut sizes: Vec<f64> = Vec::new();
     for row in motions.filter(|row| row.status == Status::Periodic) {

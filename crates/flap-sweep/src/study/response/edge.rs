@@ -10,7 +10,7 @@ use super::verdict::at;
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, CellKind, Column, Layout, Measure};
 
-/// Largest magnitude of the multipliers of an orbit that loses its stability.
+/// Largest magnitude of the Floquet multipliers of an orbit that loses its stability.
 pub(super) const CRITICAL: f64 = 1.001;
 
 /// Largest number of points of an edge in each direction.
@@ -38,7 +38,7 @@ impl EdgeRange {
     ///
     /// - The parameter is a choice, or the followed parameter.
     /// - The value of the parameter comes from an axis, a formula or other parameters.
-    /// - The first value is not below the last, or the value of the plan is outside of the range.
+    /// - The first value is not below the last value, or the value of the plan is outside of the range.
     /// - The step is not more than zero, or the range has more than 10,000 steps.
     pub fn new(
         plan: &Plan,
@@ -86,7 +86,7 @@ pub struct Edges {
 /// A curve in the plane of two parameters on which an orbit loses its stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Kind of the critical multiplier.
+    /// Kind of the critical Floquet multiplier.
     pub kind: EdgeKind,
     /// Points in the order of the curve.
     pub points: Vec<EdgePoint>,
@@ -97,11 +97,11 @@ pub struct Edge {
 /// Kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeKind {
-    /// A multiplier of +1: a stable and an unstable orbit meet.
+    /// A Floquet multiplier of +1: a stable and an unstable orbit meet.
     Fold,
-    /// A multiplier of −1: the motion begins to repeat after two drive periods.
+    /// A Floquet multiplier of −1: the motion begins to repeat after two drive periods.
     PeriodDoubling,
-    /// A complex pair of multipliers of modulus 1: the motion begins to have a second frequency.
+    /// A complex pair of Floquet multipliers of modulus 1: the motion begins to have a second frequency.
     Torus,
 }
 
@@ -116,15 +116,15 @@ pub struct EdgePoint {
     pub state: Vec<f64>,
     /// Measures of the orbit.
     pub measures: Vec<f64>,
-    /// Largest magnitude of the multipliers. The magnitude exceeds 1 if the orbit is unstable on both sides of the
-    /// edge.
+    /// Largest magnitude of the Floquet multipliers. The magnitude exceeds 1 if the orbit is unstable on both sides of
+    /// the edge.
     pub floquet_max: f64,
 }
 
 /// Special point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeMark {
-    /// Cusp: both folds of a band meet, and the edge turns back in the plane.
+    /// Cusp: both folds of a band meet, and the edge turns back in the plane of the two parameters.
     Cusp,
     /// Turn: the second parameter has a local minimum or maximum along the edge.
     Turn,
@@ -133,11 +133,11 @@ pub enum EdgeMark {
 /// Reason for the end of an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EdgeEnd {
-    /// The edge leaves the range of a parameter. Contains the index of the parameter.
+    /// The edge leaves the range of a parameter. The variant contains the index of the parameter.
     Range(usize),
     /// The edge is a closed curve.
     Closed,
-    /// The pair of multipliers of a torus becomes real.
+    /// The pair of complex Floquet multipliers of a torus edge becomes real.
     Resonance,
     /// Newton's iteration does not converge for the shortest step.
     Unconverged,
@@ -148,7 +148,7 @@ pub enum EdgeEnd {
 }
 
 impl EdgeMark {
-    /// Returns the name that results use.
+    /// Returns the name of this variant in result files.
     pub fn name(self) -> &'static str {
         match self {
             EdgeMark::Cusp => "cusp",
@@ -161,7 +161,7 @@ impl EdgeKind {
     /// All kinds.
     pub const ALL: [EdgeKind; 3] = [EdgeKind::Fold, EdgeKind::PeriodDoubling, EdgeKind::Torus];
 
-    /// Returns the name that results use.
+    /// Returns the name of this variant in result files.
     pub fn name(self) -> &'static str {
         match self {
             EdgeKind::Fold => "fold",
@@ -211,7 +211,7 @@ impl Edges {
     }
 }
 
-/// Returns the measures of a plan without derivatives, which points of edges do not have.
+/// Returns the measures of a plan without the derivatives, because points of edges have no derivatives.
 fn measures(plan: &Plan) -> Vec<Measure> {
     let known = plan.rows().columns().len() + plan.measures().len();
     Layout::of(plan).measures().filter(|measure| measure.index < known).cloned().collect()

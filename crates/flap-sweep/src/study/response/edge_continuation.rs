@@ -1,16 +1,16 @@
 //! Continuation of the edges of hysteresis: curves in the plane of two parameters on which an orbit loses its
 //! stability.
 //!
-//! A bistable band of the first parameter p ends where a Floquet multiplier is +1. If a second parameter q changes,
-//! such ends form curves in the plane of p and q. A point of an edge solves these equations:
+//! A bistable band of the first parameter p ends where a Floquet multiplier is +1. If a second parameter q changes, the
+//! ends of the bistable bands form curves in the plane of p and q. A point of an edge solves these equations:
 //!
 //! ```text
 //! P(x; p, q) − x = 0    P: map of a drive period, x: state at its beginning
 //! test(M) = 0           M = ∂P/∂x: monodromy matrix
 //! ```
 //!
-//! The test function is zero if a multiplier has its critical value (Yu. A. Kuznetsov, Elements of Applied
-//! Bifurcation Theory, section 10.2):
+//! The test function is zero if a Floquet multiplier has its critical value (Kuznetsov, Elements of
+//! Applied Bifurcation Theory, section 10.2):
 //!
 //! | kind | multipliers | test(M) |
 //! |---|---|---|
@@ -18,9 +18,9 @@
 //! | period doubling | −1 | det(M + 1) |
 //! | torus | a pair of modulus 1 | det(C − 1), with the second compound matrix C of M |
 //!
-//! Pseudo-arclength continuation follows the solutions in the space of x, p and q.
+//! Pseudo-arclength continuation follows the solutions in the space of the state x and the parameters p and q.
 //!
-//! Both folds of a band meet in a cusp, where the curve turns back in the plane of p and q.
+//! Both folds of a band meet in a cusp, where the curve turns back in the plane of the parameters p and q.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, SolverSettings, Status, Unfinished};
@@ -31,15 +31,15 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges, MOST};
 use crate::plan::{Along, Plan};
 
-/// Initial, shortest and longest distance between neighbouring points of an edge. 1 is about the range of a parameter,
-/// and the largest magnitude of a state component.
+/// Initial, shortest and longest distance between neighbouring points of an edge. A distance of 1 corresponds to about
+/// the range of a parameter, and to the largest magnitude of a state component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 
 /// Smallest cosine of the angle between tangents of neighbouring points.
 const STRAIGHT: f64 = 0.95;
 
-/// Largest number of iterations for a point from its neighbour, and number of iterations below which the distance to
-/// the next point grows.
+/// Largest number of iterations to compute a point from its neighbour, and number of iterations below which the
+/// distance to the next point increases.
 const SLOW: usize = 8;
 const QUICK: usize = 4;
 
@@ -49,20 +49,19 @@ const FIRST: usize = 20;
 /// Largest number of iterations for a cusp or a turn.
 const MARKED: usize = 50;
 
-/// Change of state and parameters for derivatives, in the units of [`STEPS`].
+/// Change of the state and the parameters for computing derivatives by differences, in the units of [`STEPS`].
 const CHANGE: f64 = 1e-3;
 
-/// Tolerances for the integration of periods, relative to the usual tolerances.
+/// Tolerances for the integration of drive periods, relative to the usual tolerances.
 ///
 /// The test functions must change smoothly along an edge. At kinks of a force, the responses of a motion have larger
 /// errors than the motion. With a hundredth of the usual tolerances, the test functions of a bimorph have errors of 5e-6.
 const FINER: f64 = 1e-4;
 
-/// Last step of Newton's iteration, relative to the usual relative tolerance of the integration.
+/// Size of the last step of Newton's iteration, relative to the usual relative tolerance of the integration.
 const CONVERGED: f64 = 0.1;
 
-/// Largest distance of a point from the chord between two points of the edge to which it belongs, relative to the
-/// length of the chord.
+/// Largest distance of a point from the chord between two points of the same edge, relative to the length of the chord.
 const ON_CHORD: f64 = 0.2;
 
 /// Returns the edges that begin at the ends of the bands of a curve. If `interrupted` returns true, the computation
@@ -138,8 +137,8 @@ fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     })
 }
 
-/// The space of an edge. The coordinates are the state relative to its sizes, then the two parameters relative to about
-/// their ranges.
+/// The space in which an edge is a curve. The coordinates are the state relative to its sizes, then the two parameters
+/// relative to about the widths of their ranges.
 struct Plane<'a> {
     plan: &'a Plan,
     backend: Backend,
@@ -160,7 +159,7 @@ struct Plane<'a> {
 struct Solution {
     place: DVector<f64>,
     period: Period,
-    /// Derivatives of the equations with respect to state and parameters. The matrix has one row less than columns.
+    /// Derivatives of the equations with respect to state and parameters. The matrix has one more column than rows.
     jacobian: DMatrix<f64>,
     tangent: DVector<f64>,
     iterations: usize,
@@ -197,7 +196,7 @@ impl Plane<'_> {
         values
     }
 
-    /// Returns the residuals of the equations at a place, with the drive period that begins at this place.
+    /// Returns the residuals of the equations at a point of the edge, with the drive period that begins at this point.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
         let values = self.parameter_values(place);
         let run = PointRun::new(self.backend, &self.solver, &values).until(self.interrupted);
@@ -213,7 +212,7 @@ impl Plane<'_> {
         Ok((residual, period))
     }
 
-    /// Returns the monodromy matrix in units of the sizes.
+    /// Returns the monodromy matrix in units of the sizes of the states.
     fn monodromy(&self, period: &Period) -> DMatrix<f64> {
         let n = self.states();
         DMatrix::from_fn(n, n, |i, j| period.responses[j][i] * self.sizes[j] / self.sizes[i])
@@ -235,7 +234,7 @@ impl Plane<'_> {
         Ok(jacobian)
     }
 
-    /// Returns the solution at a place that solves the equations, with a tangent that points along `direction`.
+    /// Returns the solution at a point that solves the equations, with a tangent that points along `direction`.
     fn solution(
         &self,
         place: DVector<f64>,
@@ -271,7 +270,7 @@ impl Plane<'_> {
 
     /// Returns the solution at a distance along the tangent of `last`, on the plane perpendicular to this tangent.
     ///
-    /// Newton's iteration keeps the derivatives at `last`.
+    /// All steps of Newton's iteration use the derivatives at `last`.
     fn solve_beside(&self, last: &Solution, distance: f64) -> Result<Solution, EdgeEnd> {
         let guess = &last.place + &last.tangent * distance;
         let lu = bordered(&last.jacobian, &last.tangent);
@@ -312,7 +311,7 @@ impl Plane<'_> {
 
     /// Follows the edge from a point in both directions.
     ///
-    /// Returns the edge, and the places of the continuation.
+    /// Returns the edge, and all points of the continuation.
     fn trace(&self, start: &Solution, second: &EdgeRange) -> (Edge, Vec<DVector<f64>>) {
         let back = Solution { tangent: -&start.tangent, ..start.clone() };
         let (mut points, before) = self.follow(&back);
@@ -390,8 +389,8 @@ impl Plane<'_> {
 
     /// Returns the cusp or turn between two neighbouring points, by regula falsi (Illinois).
     ///
-    /// At a turn, the tangent has no component along the second parameter. At a cusp of a fold, the tangent has no
-    /// components along both parameters, and both components change their sign.
+    /// If the edge turns back along the second parameter, the tangent has no component along this parameter. At a cusp
+    /// of a fold, the tangent has no components along both parameters, and both components change their sign.
     fn marked(&self, last: &Solution, next: &Solution) -> Option<(Solution, EdgeMark)> {
         let n = self.states();
         let parameters = |solution: &Solution| solution.tangent.rows(n, 2).into_owned();
@@ -428,7 +427,7 @@ impl Plane<'_> {
     }
 
     /// Returns the first and the last point, the marked points, and points at equal steps of the second parameter. The
-    /// steps begin at its first value.
+    /// steps begin at the first value of the second parameter.
     fn at_steps(
         &self,
         points: &[(Solution, Option<EdgeMark>)],
@@ -469,7 +468,7 @@ impl Plane<'_> {
     }
 }
 
-/// Returns the test function of a monodromy matrix: zero if a multiplier has the critical value of this kind.
+/// Returns the test function of a monodromy matrix: zero if a Floquet multiplier has the critical value of this kind.
 fn test(kind: EdgeKind, m: &DMatrix<f64>) -> f64 {
     let one = |n| DMatrix::<f64>::identity(n, n);
     match kind {
@@ -493,7 +492,7 @@ fn second_compound(m: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Returns the decomposition of a matrix of derivatives with a last row.
+/// Returns the decomposition of a matrix of derivatives to which a last row is added.
 fn bordered(jacobian: &DMatrix<f64>, last: &DVector<f64>) -> LU<f64, Dyn, Dyn> {
     let rows = jacobian.nrows();
     let mut matrix = jacobian.clone().insert_row(rows, 0.0);
@@ -502,7 +501,7 @@ fn bordered(jacobian: &DMatrix<f64>, last: &DVector<f64>) -> LU<f64, Dyn, Dyn> {
     matrix.lu()
 }
 
-/// Returns true if the multiplier nearest to modulus 1 is not real.
+/// Returns true if the Floquet multiplier nearest to modulus 1 is not real.
 fn has_pair_of_modulus_one(monodromy: &DMatrix<f64>) -> bool {
     let Some(schur) = Schur::try_new(monodromy.clone(), f64::EPSILON, 200) else { return false };
     let eigenvalues = schur.complex_eigenvalues();

@@ -1,10 +1,11 @@
 //! The upward and the downward branch of a curve.
 //!
-//! Both branches advance step by step at the same time. Two kinds of steps are then halved until the steps are short.
-//! Each half starts from its neighbour on the same branch:
+//! The upward and the downward branch advance step by step at the same time. Afterwards, two kinds of steps are halved
+//! until the steps are short. Each half of a step starts from the neighbouring motion on the same branch. The two
+//! kinds of steps are:
 //!
-//! - steps with equal motions of both branches at one end only
-//! - steps in which the response is steep, because such steps may contain a narrow band of hysteresis
+//! - Steps with equal motions of both branches at one end only.
+//! - Steps in which the response is steep, because such steps may contain a narrow band of hysteresis.
 
 use flap_core::simulate::{Point, Row, Status};
 
@@ -23,9 +24,9 @@ pub(super) struct Follow<'a> {
     stage: Stage,
 }
 
-/// Stage of the work.
+/// Stage of the computation of a curve.
 enum Stage {
-    /// Advancing along both branches.
+    /// The computation advances along both branches.
     Steps,
     /// Halving steps.
     Halves(Vec<Interval>),
@@ -119,7 +120,7 @@ impl Interval {
         low < middle && middle < high && high - low > tolerance
     }
 
-    /// Returns both halves, given the motions in the middle.
+    /// Returns the two halves of the step, given the motions in the middle of the step.
     fn halves(self, up: &Step, down: &Step, sizes: &[f64]) -> [Interval; 2] {
         let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
         let [below, above] = self.same;

@@ -4,15 +4,15 @@
 //! branch's end. At values where the upward and the downward branch differ, the design has two motions at the same
 //! drive.
 //!
-//! - `along`: values of the parameter
-//! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive
-//! - `follow`: one curve, up and down, with the ends of the bistable bands
-//! - `continuation`: unstable orbits that connect the branches of a bistable band
-//! - `basin`: fractions of initial states whose motions settle on each branch
-//! - `edge`: ends of bands in the plane of two parameters, with rows and a summary
-//! - `edge_continuation`: continuation of the ends of bands
-//! - `verdict`: one-line summary of a curve
-//! - `run`: curves of all designs of a plan, in order
+//! - `along`: values of the parameter that rises and falls.
+//! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive.
+//! - `follow`: one curve, with the upward and the downward branch and the ends of the bistable bands.
+//! - `continuation`: unstable orbits that connect the branches of a bistable band.
+//! - `basin`: fractions of initial states whose motions settle on each branch.
+//! - `edge`: ends of bands in the plane of two parameters, with rows and a summary.
+//! - `edge_continuation`: continuation of the ends of bands.
+//! - `verdict`: one-line summary of a curve.
+//! - `run`: curves of all designs of a plan, in order.
 
 mod along;
 mod basin;

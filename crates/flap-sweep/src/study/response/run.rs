@@ -17,7 +17,7 @@ use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
 /// Smallest and largest number of curves per thread ahead of the last returned curve.
 ///
-/// These numbers of curves keep the lanes full and fit into memory.
+/// These numbers of curves, which are computed at the same time, keep the lanes full and fit into memory.
 const AHEAD: [usize; 2] = [16, 128];
 
 /// Responses of the designs of a plan: of its selected points, except points that are excluded at all values of the
@@ -59,8 +59,8 @@ impl<'a> Responses<'a> {
         self.complete(follow.finish(), backend, &never)
     }
 
-    /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and of
-    /// `second`. `curve` is a response of the same plan.
+    /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and the
+    /// parameter `second`. `curve` is a response of the same plan.
     ///
     /// If the computation is interrupted, the edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
@@ -112,7 +112,7 @@ impl RowWriter<'_> {
     }
 }
 
-/// Designs in progress, from the queue to their curves.
+/// Designs from the queue whose curves are being computed.
 struct Designs<'a, 'w, 'q> {
     responses: Responses<'a>,
     backend: Backend,

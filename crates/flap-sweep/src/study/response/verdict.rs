@@ -36,7 +36,7 @@ pub struct Verdict {
 pub struct Band {
     /// First and last value.
     pub range: [f64; 2],
-    /// Kind of the motions.
+    /// Kind of the motions in the band.
     pub kind: BandKind,
 }
 

@@ -22,7 +22,7 @@ use crate::notation::text;
 use crate::table::lines;
 
 /// Reads rows as the text from which the file was written. Files of other programs are accepted if their cells are
-/// numbers, booleans and text.
+/// numbers, booleans or text.
 pub(crate) struct ParquetReader {
     /// Column names.
     pub(crate) names: Vec<String>,
@@ -202,7 +202,7 @@ impl ChunkReader for Limited {
 
 /// Returns the size of a decompressed page, which is the second field of the page's header.
 ///
-/// `None` if the bytes are no header. The parquet crate then reports the mistake.
+/// `None` if the bytes are no header, so that the parquet crate reports the mistake.
 fn declared(header: &[u8]) -> Option<u64> {
     let (_, rest) = number(header)?;
     let (size, _) = number(rest)?;
@@ -234,7 +234,7 @@ mod tests {
         assert!(panic::catch_unwind(|| panic!("printed again")).is_err());
     }
 
-    /// The header of a page of dictionary values of this size, in Thrift's compact protocol.
+    /// Returns the header of a dictionary page of this size, in Thrift's compact protocol.
     fn header(size: usize) -> Vec<u8> {
         let number = |mut rest: usize| {
             let mut bytes = vec![NEXT_NUMBER];
