@@ -445,7 +445,7 @@ impl Flight<'_> {
 
     /// Returns the central differences of the components with respect to an input.
     ///
-    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps at one blade element
+    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps at one strip
     /// after the other.
     fn differences(
         &self,
