@@ -66,7 +66,8 @@ impl<M: Driven<W>, const W: usize> Kernel for OnLanes<'_, M, W> {
 /// Fails unless the derivatives from the lanes of every backend equal the derivatives of scalars to the last bit.
 pub(crate) fn assert_lanes_equal_scalars<M: Driven<W>, const W: usize>(cases: &[Case<M, W>]) {
     for backend in Backend::available() {
-        assert!(backend.lanes() >= 4, "{backend} has {} lanes", backend.lanes());
+        let lanes = backend.lanes();
+        assert!(lanes >= 4 || backend.name() == "scalar", "{backend} has {lanes} lanes");
         let lanes = backend.dispatch(OnLanes(cases));
         assert_eq!(lanes.len(), cases.len());
         for (case, lane) in cases.iter().zip(lanes) {

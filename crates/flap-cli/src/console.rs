@@ -22,7 +22,7 @@ pub(crate) fn is_quiet() -> bool {
 /// Returns the number of characters in a line of stdout: the width of the terminal, or the value of the variable
 /// COLUMNS without a terminal.
 ///
-/// `None` if both are missing, for example in a pipe, where lines may have any length.
+/// The result is `None` if there is neither a terminal nor COLUMNS, for example in a pipe. Lines may then have any length.
 pub(crate) fn width() -> Option<usize> {
     let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)

@@ -30,7 +30,7 @@ pub struct Balance<R> {
 }
 
 impl<R: Real> Balance<R> {
-    /// Returns the derivative of the state `y` for a moment of the drive about the stroke axis (N·m).
+    /// Returns the time derivative of the state `y` under the torque of the drive about the stroke axis (N·m).
     #[inline(always)]
     pub fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
         let [m11, m12, m22] = self.mass;

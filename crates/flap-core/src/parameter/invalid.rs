@@ -1,4 +1,4 @@
-//! Error of impossible parameters.
+//! Error type for impossible parameters.
 
 use std::borrow::Cow;
 

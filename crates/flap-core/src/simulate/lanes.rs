@@ -270,17 +270,18 @@ where
         let loads = self.solver.loads;
         match kind {
             Kind::States => {
-                let mut periods = self.periods(kind, |size, end| end.largest = *size);
+                let mut periods = self.periods(kind, |size, end, _| end.largest = *size);
                 run(simd, model, &Size, &tolerances, &mut periods)
             }
             Kind::Responses => {
-                let mut periods = self.periods(kind, |(), _| {});
+                let mut periods = self.periods(kind, |(), _, _| {});
                 run_with_responses(simd, model, &Unobserved, &tolerances, &mut periods)
             }
             Kind::Means | Kind::Signals => {
                 let all = SignalObserver::all(model).with_loads(loads);
                 let signals = if kind == Kind::Means { SignalObserver::means(model) } else { all };
-                let mut periods = self.periods(kind, |sums, end| end.sums = Some(Box::new(*sums)));
+                let mut periods =
+                    self.periods(kind, |sums, end, exchange| end.sums = Some(exchange.boxed(*sums)));
                 run(simd, model, &signals, &tolerances, &mut periods)
             }
         }
@@ -290,7 +291,7 @@ where
     fn periods<'d, V>(
         &'d mut self,
         kind: Kind,
-        store: fn(&V, &mut PeriodEnd<SumsOf<M, N>, N>),
+        store: Store<V, SumsOf<M, N>, N>,
     ) -> Periods<'a, 's, 'd, I, M, Q, T, V, N> {
         Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
@@ -355,11 +356,14 @@ where
     }
 }
 
+/// Function that adds the totals `V` of a period to its end. Totals over the signals have the type `T`.
+type Store<V, T, const N: usize> = fn(&V, &mut PeriodEnd<T, N>, &Exchange<T, N>);
+
 /// The periods of one kind, as the queue of an ensemble whose totals over a period have the type `V`.
 struct Periods<'a, 's, 'd, I, M: Model<N>, Q, T, V, const N: usize> {
     driver: &'d mut Driver<'a, 's, I, M, Q, T, N>,
     kind: Kind,
-    store: fn(&V, &mut PeriodEnd<SumsOf<M, N>, N>),
+    store: Store<V, SumsOf<M, N>, N>,
     /// Search of the period in each lane.
     runs: [Option<Run<'a, T, M, N>>; MOST_LANES],
 }
@@ -381,7 +385,7 @@ where
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {
         let run = self.runs[lane].take()?;
         let mut period = PeriodEnd::new(*end.y, end.outcome);
-        (self.store)(end.totals, &mut period);
+        (self.store)(end.totals, &mut period, &run.exchange);
         if self.kind == Kind::Responses {
             period.monodromy = monodromy(end.responses, &run.start.scale);
         }

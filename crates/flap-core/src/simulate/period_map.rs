@@ -34,7 +34,7 @@ pub(super) struct Marched<const N: usize> {
     pub(super) end: [f64; N],
     /// Error of both states, in units of the states' typical sizes.
     pub(super) error: f64,
-    /// Number of applications of the map in between.
+    /// Number of applications of the period map from `begin` to `end`.
     pub(super) maps: i32,
 }
 

@@ -60,17 +60,35 @@ impl<T, const N: usize> PeriodEnd<T, N> {
 pub(super) struct Exchange<T, const N: usize> {
     request: Cell<Option<Request<N>>>,
     end: Cell<Option<PeriodEnd<T, N>>>,
+    /// A box of totals that can be used again.
+    spare: Cell<Option<Box<T>>>,
 }
 
 impl<T, const N: usize> Exchange<T, N> {
     pub(super) fn new() -> Self {
-        Exchange { request: Cell::new(None), end: Cell::new(None) }
+        Exchange { request: Cell::new(None), end: Cell::new(None), spare: Cell::new(None) }
     }
 
     /// For the search: requests a period and waits for its end.
     pub(super) async fn period(&self, request: Request<N>) -> PeriodEnd<T, N> {
         self.request.set(Some(request));
         poll_fn(|_| self.end.take().map_or(Poll::Pending, Poll::Ready)).await
+    }
+
+    /// For the search: returns totals for reuse, so that a repeated measurement does not allocate.
+    pub(super) fn reuse(&self, totals: Option<Box<T>>) {
+        self.spare.set(totals);
+    }
+
+    /// For the driver: returns totals in a box.
+    pub(super) fn boxed(&self, totals: T) -> Box<T> {
+        match self.spare.take() {
+            Some(mut spare) => {
+                *spare = totals;
+                spare
+            }
+            None => Box::new(totals),
+        }
     }
 
     /// For the driver: returns the request of a waiting search.

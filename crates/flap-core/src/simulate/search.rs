@@ -559,6 +559,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                 chord.step(&end.y);
             }
             (residual, presumes) = (confirmed, false);
+            self.exchange.reuse(end.sums);
         }
     }
 

@@ -108,8 +108,8 @@ def impulse(
     Raises
     ------
     ValueError
-        Raised if an argument is invalid (see `run`). Raised if the impulse is zero, or the impulse is more than half a
-        turn, or the duration is zero.
+        Raised if an argument is invalid (see `run`). Raised if `amplitude` is zero or more than half a turn, or if
+        the duration is zero.
     TypeError
         Raised if an argument has the wrong type.
 

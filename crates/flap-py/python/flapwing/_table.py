@@ -270,14 +270,14 @@ class Table:
         of the grid.
 
         Each dimension has the name of the first parameter of an axis. If several parameters change together along an
-        axis, the other parameters are coordinates along this dimension. A table with a motion over time has the
-        dimension ``time_s``. A table with neither axes nor times has the dimension ``row``. For a response, the
-        coordinates along ``row`` are `curve`, the design's parameters, `branch`, and the followed parameter. Columns
-        are variables with the attributes `units`, `long_name` and `description`. Points that the grid excludes have no
-        row. The cells of an excluded point are nan, 0 or empty text, and columns of flags become float64. The column
-        `point`, or the parameters of the axes, determine the cell of each row. If a table has neither `point` nor the
-        parameters of the axes, ValueError is raised. The attributes of the Dataset are the entries of `meta`, as JSON
-        if an entry is not text.
+        axis, the Dataset contains the second and later parameters as coordinates along the dimension of the axis. A
+        table with a motion over time has the dimension ``time_s``. A table with neither axes nor times has the
+        dimension ``row``. For a response, the coordinates along ``row`` are `curve`, the design's parameters, `branch`,
+        and the followed parameter. Columns are variables with the attributes `units`, `long_name` and `description`.
+        Points that the grid excludes have no row. The cells of an excluded point are nan, 0 or empty text, and columns
+        of flags become float64. The column `point`, or the parameters of the axes, determine the cell of each row. If a
+        table has neither `point` nor the parameters of the axes, ValueError is raised. The attributes of the Dataset
+        are the entries of `meta`, as JSON if an entry is not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

@@ -256,7 +256,7 @@ impl Session {
         &self.path
     }
 
-    /// Makes the rows durable, then adds a checkpoint after these rows.
+    /// Writes the rows to the disk (fsync), then adds a checkpoint after these rows.
     fn note(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;

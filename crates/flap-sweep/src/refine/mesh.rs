@@ -75,7 +75,7 @@ pub(super) struct Mesh {
     measured: Vec<f64>,
     /// Number of each point in the mesh.
     numbers: HashMap<Place, usize>,
-    /// For each axis, the lines along the axis. The key of a line is its place at position 0, and the key of a point on
+    /// The lines of points along each axis of the mesh. The key of a line is its place at position 0, and the key of a point on
     /// the line is its position.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,

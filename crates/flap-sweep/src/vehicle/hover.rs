@@ -390,7 +390,8 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverE
 /// Returns the modes of the state matrix.
 ///
 /// Heading and position have no effect on the other states. Each of these states adds an eigenvalue of zero, whose mode
-/// contains only this state. Only the other eight states therefore need eigenvectors.
+/// contains only this state. The function therefore computes eigenvectors of the other eight states
+/// only.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;

@@ -140,7 +140,7 @@ impl<R: Real> Motion<R> {
         (c.air.added_stroke * e_1 - c.air.added_pitch * e_2 + c.moving.added * e_0) * self.pitch[0]
     }
 
-    /// Returns the load of the air. The load of the added mass includes the normal accelerations of
+    /// Returns the force and torque of the air on the wing. The part due to the added mass includes the normal accelerations of
     /// [`Shoulder::accelerations`].
     #[inline(always)]
     fn load(&self, c: &Constants<R>, air: &Aerodynamics<R>, y: &[R; 4], dy: &[R; 4]) -> Load<R> {

@@ -189,8 +189,8 @@ class Comparison:
         Raises
         ------
         ValueError
-            Raised if a name is unknown, or the data have no readings of a measure. Raised if no operating point has
-            settled motions in the two fits.
+            Raised if a name is unknown, or the data have no readings of a measure. Raised if no operating point has a
+            settled motion with the parameters of both fits.
         """
         return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)
 

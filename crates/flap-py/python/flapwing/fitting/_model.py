@@ -97,7 +97,10 @@ class Model:
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
-        """Return the readings of the model at several sets of coordinates. Readings that are not fitted are nan."""
+        """Return the values that the model predicts for the readings, for each vector of free parameters in `xs`.
+
+        Values of readings that are not fitted are nan.
+        """
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}
         known = {key: self._known[key] for key in keys if key not in new}

@@ -35,7 +35,7 @@ class SelectionStep:
         The parameter that the step sets back to the value in the design, because later parameters made the removed
         parameter unnecessary. `removed` is empty in most steps.
     parameters : list of str
-        All free parameters after the step.
+        All free parameters after this step of the selection.
     chi_square : float
         Sum of the squares of (residual / standard error) over all readings. For estimated standard errors,
         chi-square contains no information about the fit.

@@ -160,7 +160,7 @@ def _ends(low: float, high: float, x: Shown) -> str:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the points of a line, with gaps after the rows `after`."""
+    """Return the points of a line, with a gap behind each row in `after`."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 

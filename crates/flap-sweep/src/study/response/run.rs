@@ -59,8 +59,8 @@ impl<'a> Responses<'a> {
         self.complete(follow.finish(), backend, &never)
     }
 
-    /// Returns the edges that begin at the ends of the bands of `curve`, in the plane of the followed parameter and the
-    /// parameter `second`. `curve` is a response of the same plan.
+    /// Returns the edges of the bands of two motions in `curve`. Each edge is a line in the plane of two parameters: the
+    /// parameter of the response, and the parameter `second`. `curve` is a response of the same plan.
     ///
     /// If the computation is interrupted, the edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
