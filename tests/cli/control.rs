@@ -132,9 +132,11 @@ fn usual_inputs_do_something() {
         for (name, _, slopes) in &found[1..] {
             assert!(slopes.iter().any(|slope| slope.abs() > 1e-9), "{name} of {preset}: {slopes:?}");
         }
-        // Whoever names one gets its line.
-        assert_eq!(matrix(&folder, "grid.toml --inputs bias").len(), 2);
     }
+    // The bias of this model follows the voltage until it has a value.
+    folder.refuses("vehicle grid.toml --inputs bias", "`drive_bias`, which is not set");
+    let bias = &matrix(&folder, "grid.toml --set drive_bias=100V --inputs bias")[1];
+    assert!(bias.2[4].abs() > 1e-3, "{bias:?}");
 }
 
 /// If damping is zero, it can only grow, and its change affects force and torque.

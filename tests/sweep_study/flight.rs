@@ -256,3 +256,35 @@ fn wings_on_a_heavy_body_have_the_wrench_of_rows() {
         }
     }
 }
+
+/// A flight begins with the given yaw, also beyond half a turn.
+#[test]
+fn a_flight_begins_with_any_yaw() {
+    let plan = plan(ROBOT);
+    let yaw = |by: f64, is_averaged: bool| {
+        let request = FlightRequest { seconds: 0.02, is_averaged, ..disturbed(8, by) };
+        let record = flown(&plan, &request);
+        let place = record.columns.iter().position(|column| column == "angle_yaw_rad").unwrap();
+        record.rows[0][place]
+    };
+    for by in [0.0, 3.0, 3.5, 4.8, 7.0] {
+        assert!((yaw(by, false) - by).abs() < 0.02, "{by}: {}", yaw(by, false));
+        assert!((yaw(by, true) - by).abs() < 0.02, "{by}: {}", yaw(by, true));
+    }
+}
+
+/// Both kinds of flight end at the first beat for which an input is out of range.
+#[test]
+fn flights_end_where_an_input_leaves_its_range() {
+    let plan = plan(ROBOT);
+    let inputs = vec![Input::of(plan.vehicle().unwrap(), "amplitude").unwrap()];
+    let mut gains = DMatrix::zeros(1, FED_BACK);
+    gains[(0, 0)] = 1e6;
+    for is_averaged in [false, true] {
+        let (inputs, gains) = (inputs.clone(), Some(gains.clone()));
+        let record =
+            try_to_fly(&plan, &FlightRequest { inputs, gains, is_averaged, ..disturbed(0, 0.1) }).unwrap();
+        assert_eq!(record.rows.len(), 1);
+        assert!(record.end.unwrap().contains("drive_voltage_pp is -"));
+    }
+}

@@ -287,6 +287,33 @@ fn a_front_has_optima_under_limits() {
     assert!(is_close(points[2].goals[0], best(ROBOT, "lift_mean_mn", &[&limit]).goal, 1e-4));
 }
 
+/// Among the designs with the best value of the second goal, the last point has the best value of the first goal.
+#[test]
+fn the_last_point_of_a_front_is_not_dominated() {
+    let goals = [
+        Goal { text: "lift_mean_mn", aim: Aim::Largest },
+        Goal { text: "hinge_stiffness", aim: Aim::Smallest },
+    ];
+    let found = front(&plan(ROBOT), goals, &[], 3, &Settings::default(), &|_, _| false);
+    let last = found.unwrap().unwrap().points.pop().unwrap();
+    let softest = ROBOT.replace("{ from = \"1 uN*m/rad\", to = \"4 uN*m/rad\", n = 4 }", "[\"1 uN*m/rad\"]");
+    assert!(is_close(last.goals[1], 1e-6, 1e-9), "{:?}", last.goals);
+    assert!(is_close(last.goals[0], best(&softest, "lift_mean_mn", &[]).goal, 1e-4), "{:?}", last.goals);
+}
+
+/// A lower end of −20 V grows by 1 % if it becomes −20.2 V.
+#[test]
+fn percents_of_negative_limits_have_the_right_sign() {
+    let text = r#"
+        preset = "jafferis2016"
+        [axes]
+        drive_offset = { from = "-20 V", to = "-10 V", n = 3 }
+    "#;
+    let best = best(text, "-drive_offset", &[]);
+    assert!(is_close(best.goal, 20.0, 1e-6) && best.active.len() == 1, "{best:?}");
+    assert!(is_close(best.active[0].percent, 1.0, 1e-3), "{:?}", best.active);
+}
+
 #[test]
 fn a_search_can_be_stopped() {
     let problem = problem(ROBOT, "lift_mean_mn", Aim::Largest, &[STRAIN]);

@@ -153,3 +153,10 @@ fn a_stopped_run_gives_no_map() {
     let found = WrenchMap::of(&plan, &values, inputs(&plan, 1.0), 400, &RunOptions::default(), |_| true);
     assert!(found.unwrap().is_none());
 }
+
+/// The map of a plan that searches for hover is the map of the inputs, not of the trimmed vehicle.
+#[test]
+fn a_map_of_a_vehicle_at_hover_follows_the_inputs() {
+    let at_hover = VEHICLE.replace("about =", "total_mass = \"69 mg\"\ntrim = \"hover\"\nabout =");
+    assert_eq!(map(&plan(&at_hover), 0.5, 2), map(&plan(VEHICLE), 0.5, 2));
+}

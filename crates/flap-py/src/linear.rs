@@ -57,13 +57,19 @@ pub(crate) fn linear<'py>(
 }
 
 pub(crate) fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {
-    let inputs = names.iter().map(|name| {
+    let mut inputs: Vec<Input> = Vec::new();
+    for name in names {
         let refused = |error| {
             PyValueError::new_err(format!("inputs: {error}\n`flap vehicle --help` lists words for inputs"))
         };
-        Input::of(vehicle, name).map_err(refused)
-    });
-    inputs.collect()
+        let input = Input::of(vehicle, name).map_err(refused)?;
+        if let Some(other) = inputs.iter().find(|other| other.parameter == input.parameter) {
+            let message = format!("inputs: `{}` and `{name}` are the same parameter", other.name);
+            return Err(PyValueError::new_err(message));
+        }
+        inputs.push(input);
+    }
+    Ok(inputs)
 }
 
 /// Returns the model as a dictionary; see `flapwing.LinearModel`.

@@ -29,7 +29,7 @@ pub(crate) fn wrench_map<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let options = sweep::options(threads)?;
     let samples = convert::count("samples", samples)?;
-    let chosen = Chosen::new(design, keywords, point, None)?.at_frequency(py)?;
+    let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
     let mut inputs = Vec::new();
     for (name, from, to) in &ranges {
         inputs.push(input(&chosen, name, from, to)?);

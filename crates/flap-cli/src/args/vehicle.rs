@@ -33,7 +33,7 @@ pub(crate) struct VehicleArgs {
     /// Fit a quadratic map of force and torque to rows that are spread over the given ranges of inputs
     ///
     /// Model-predictive controllers use quadratic maps. Inputs have the same names as for --inputs.
-    #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim"])]
+    #[arg(long, value_name = "INPUT=FROM:TO,...", value_delimiter = ',', value_parser = named_range, conflicts_with_all = ["inputs", "trim", "damping", "hover", "export"])]
     pub(crate) wrench_map: Vec<NamedRange>,
 
     /// Number of rows of --wrench-map; every fifth row is left out of the fit, to test the map

@@ -335,6 +335,13 @@ impl Plan {
         self.with_new_axes()
     }
 
+    /// Returns the plan without the search for hover: rows have the inputs of their points.
+    #[must_use]
+    pub(crate) fn without_hover(mut self) -> Plan {
+        self.space.body = None;
+        self.with_new_axes()
+    }
+
     /// Returns the plan that runs all points of changed axes. A refinement of the plan is removed, because the
     /// refinement refers to the earlier axes.
     fn with_new_axes(self) -> Plan {

@@ -225,8 +225,13 @@ impl<'a> Search<'a> {
             Stage::Grid => {
                 let tops = self.tops(asked.len());
                 if tops.is_empty() {
-                    // No motion is periodic. This row gives the status of one of them.
-                    self.rows = rows.into_iter().take(1).collect();
+                    // The row has the status of a motion that is not periodic.
+                    let row = rows.into_iter().find(|row| row.status != Status::Periodic);
+                    self.rows = vec![row.unwrap_or_else(|| {
+                        Row::invalid(
+                            "the quantity whose peak is the resonance is undefined at all frequencies from `from` to `to`",
+                        )
+                    })];
                     return Stage::Done { tops: Vec::new() };
                 }
                 self.locate(tops, false)

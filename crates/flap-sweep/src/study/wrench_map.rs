@@ -199,7 +199,8 @@ impl WrenchMap {
         let places = places(plan.vehicle().ok_or(WrenchMapError::NoVehicle)?);
         check(plan, &inputs, samples)?;
         let axis = sampled(&inputs, samples);
-        let plan = plan.clone().of_point(values).with_measures(Vec::new()).crossed_with(axis.clone())?;
+        let plan = plan.clone().of_point(values).without_hover().with_measures(Vec::new());
+        let plan = plan.crossed_with(axis.clone())?;
         let mut run = rows(&plan, options, 0);
         let mut found: Vec<Row> = Vec::new();
         while let Some(batch) = run.next_batch()? {

@@ -84,7 +84,7 @@ impl Input {
     /// Returns the default inputs of a vehicle: amplitude, bias and, if the drive has harmonics, the second harmonic.
     ///
     /// Each word for an input applies to all wings and, if there are wings on both sides, also to the difference.
-    /// `values` are values of the vehicle's parameters.
+    /// `values` are values of the vehicle's parameters. Inputs without a value are left out.
     pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
         let parameters = vehicle.parameters();
         let shape = Parameter::index(parameters, "drive_shape");
@@ -92,7 +92,8 @@ impl Input {
         let words = ["amplitude", "bias", "second_harmonic"];
         let words = if shape == Some("harmonics") { &words[..] } else { &words[..2] };
         let names = words.iter().flat_map(|word| [(*word).to_owned(), format!("{word}{DIFFERENCE}")]);
-        names.filter_map(|name| Input::of(vehicle, &name).ok()).collect()
+        let inputs = names.filter_map(|name| Input::of(vehicle, &name).ok());
+        inputs.filter(|input| input.unset(vehicle, values).is_none()).collect()
     }
 
     /// Returns all names of inputs, for suggestions.
@@ -105,6 +106,17 @@ impl Input {
         let parameters = vehicle.parameters().iter();
         let numbers = parameters.filter(|parameter| !matches!(parameter.kind, Kind::Choice(_)));
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
+    }
+
+    /// Returns the parameter that the input changes, if this parameter has no value and follows other parameters.
+    fn unset<'v>(&self, vehicle: &'v Vehicle, values: &[f64]) -> Option<&'v str> {
+        let parameters = vehicle.parameters();
+        let name = parameters[self.parameter].name;
+        let index = match name.strip_prefix("difference_") {
+            Some(of_all_wings) => Parameter::index(parameters, of_all_wings)?,
+            None => self.parameter,
+        };
+        standing(parameters, values, index).is_nan().then_some(parameters[index].name)
     }
 
     /// Returns the size (SI) of the input's parameter, to which relative changes refer.
@@ -141,6 +153,9 @@ const MOST_STEPS: usize = 40;
 /// Relative tolerance of a target. If the error of the motion is larger than this tolerance, the tolerance is relative
 /// to the largest component.
 const TOLERANCE: f64 = 1e-6;
+
+/// Largest relative distance from a target that is accepted because of the error of the row.
+const LOOSEST: f64 = 5e-3;
 
 /// Largest change of the inputs in a step, as a multiple of the typical size of each input.
 const LARGEST_STEP: f64 = 0.2;
@@ -222,7 +237,7 @@ pub fn trim(
     }
     let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
     // Newton's iteration cannot reduce a distance below the error of the row.
-    if is_met(&missed_by(&at.wrench, targets), &all, TOLERANCE.max(at.row.error_estimate)) {
+    if is_met(&missed_by(&at.wrench, targets), &all, TOLERANCE.max(at.row.error_estimate.min(LOOSEST))) {
         return Ok(Trim { at, steps });
     }
     let nearest = targets.iter().map(|Target { component, value }| {
@@ -265,6 +280,14 @@ pub enum ControlError {
         status: Status,
         /// Reason of an invalid row.
         reason: Option<String>,
+    },
+    /// A parameter that an input changes has no value.
+    #[error("the input `{input}` changes `{parameter}`, which is not set: set `{parameter}` to a value")]
+    Unset {
+        /// Input.
+        input: String,
+        /// Parameter, which follows other parameters.
+        parameter: String,
     },
     /// An input has the value zero and no typical size.
     #[error("`{0}` is zero and has no typical size: set it to another value")]
@@ -369,13 +392,19 @@ impl Flight<'_> {
     /// An unset parameter of one wing has the value of all wings.
     ///
     /// # Errors
-    /// Returns an error if the motion is not periodic, or if a derivative is missing.
+    /// Returns an error if an input has no value, if the motion is not periodic, or if a derivative is missing.
     pub fn effectiveness(
         &self,
         values: &[f64],
         inputs: &[Input],
         begin: Option<&[f64]>,
     ) -> Result<Effectiveness, ControlError> {
+        for input in inputs {
+            if let Some(parameter) = input.unset(self.vehicle, values) {
+                let (input, parameter) = (input.name.clone(), parameter.to_owned());
+                return Err(ControlError::Unset { input, parameter });
+            }
+        }
         let values = own_values(self.vehicle, values, inputs);
         let row = self.settled(&values, begin)?;
         let mut changes = Vec::with_capacity(inputs.len());

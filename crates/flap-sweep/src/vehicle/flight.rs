@@ -135,12 +135,26 @@ pub fn fly(
         time += period;
         if let Some(gains) = gains {
             now = &point - gains * DVector::from_column_slice(&means.states[..FED_BACK]);
-            if let Err(reason) = motion.set_inputs(&now) {
+            let set = check_ranges(flight, inputs, &now).and_then(|()| motion.set_inputs(&now));
+            if let Err(reason) = set {
                 break Some(reason);
             }
         }
     };
     Ok(record)
+}
+
+/// Checks that the values of the inputs (SI) are in the ranges of their parameters.
+fn check_ranges(flight: &Flight<'_>, inputs: &[Input], values: &DVector<f64>) -> Result<(), String> {
+    for (input, &value) in inputs.iter().zip(values.iter()) {
+        let parameter = &flight.vehicle.parameters()[input.parameter];
+        if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind
+            && !range.contains(value)
+        {
+            return Err(format!("{} is {value}, but must be {}", parameter.name, range.describe()));
+        }
+    }
+    Ok(())
 }
 
 /// Returns the names of the columns of a record.
@@ -235,10 +249,11 @@ impl<'a> Coupled<'a> {
         let inverse = inverse_mass(&body)?.fixed_view::<3, 3>(3, 3).into_owned();
         let equations = Equations { wings, of_wings, body, inertia: inertia(&body), inverse };
         let mut coupled =
-            Coupled { flight, values, inputs, equations, y: Vec::new(), integrator, heading: disturbance[8] };
+            Coupled { flight, values, inputs, equations, y: Vec::new(), integrator, heading: 0.0 };
         coupled.begin(&settled, &[0.0; FED_BACK]);
         let vibration = coupled.vibration().map_err(|_| ControlError::from(Unfinished::Diverged))?;
         coupled.begin(&settled, &core::array::from_fn(|i| disturbance[i] - vibration[i]));
+        coupled.heading = disturbance[8];
         Ok(coupled)
     }
 
@@ -312,12 +327,6 @@ impl Motion for Coupled<'_> {
 
     fn set_inputs(&mut self, inputs: &DVector<f64>) -> Result<(), String> {
         for (input, &value) in self.inputs.iter().zip(inputs.iter()) {
-            let parameter = &self.flight.vehicle.parameters()[input.parameter];
-            if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind
-                && !range.contains(value)
-            {
-                return Err(format!("{} is {value}, but must be {}", parameter.name, range.describe()));
-            }
             self.values[input.parameter] = value;
         }
         let wings = self.flight.vehicle.moving_wings(&self.values);
@@ -512,9 +521,6 @@ impl Motion for Averaged {
         self.change = inputs - &self.point;
         if let Some(input) = self.frequency_input {
             self.frequency = inputs[input];
-            if self.frequency <= 0.0 {
-                return Err(format!("drive_frequency is {} Hz, but must be positive", self.frequency));
-            }
         }
         Ok(())
     }

@@ -30,6 +30,8 @@ pub(super) struct Trial {
     pub(super) excess: f64,
     /// Derivatives with respect to each coordinate: of the goal, then of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,
+    /// True if zeros replace slopes, because the row has no derivative and both neighbours have no periodic motion.
+    pub(super) lacks_slopes: bool,
 }
 
 impl Trial {
@@ -50,7 +52,7 @@ impl Trial {
             }
         });
         let excess = if goal.is_finite() { over.fold(0.0, f64::max) } else { f64::INFINITY };
-        Trial { coordinates, row, goal, sides, excess, slopes: Vec::new() }
+        Trial { coordinates, row, goal, sides, excess, slopes: Vec::new(), lacks_slopes: false }
     }
 
     /// True if the point is better than another point: it is feasible with a better goal, or closer to a feasible
@@ -158,7 +160,7 @@ impl<'p> Evaluator<'p> {
         let row = self.row(plan, coordinates);
         let mut trial = Trial::new(self.problem, coordinates.to_vec(), row);
         if has_slopes && trial.excess.is_finite() {
-            trial.slopes = self.slopes(&trial, sloped.is_some());
+            (trial.slopes, trial.lacks_slopes) = self.slopes(&trial, sloped.is_some());
         }
         trial
     }
@@ -184,8 +186,8 @@ impl<'p> Evaluator<'p> {
     }
 
     /// Returns the derivatives per coordinate, from the row or, if the row has no derivatives, from differences of
-    /// rows.
-    fn slopes(&self, trial: &Trial, is_sloped: bool) -> Vec<Vec<f64>> {
+    /// rows. The second result is [`Trial::lacks_slopes`].
+    fn slopes(&self, trial: &Trial, is_sloped: bool) -> (Vec<Vec<f64>>, bool) {
         let Trial { coordinates, row, .. } = trial;
         let variables = &self.problem.region.variables;
         let quantities = 1 + 2 * self.problem.limits.len();
@@ -203,16 +205,18 @@ impl<'p> Evaluator<'p> {
                 self.missing.set(self.missing.get() | reasons as u32);
             }
         }
+        let mut lacks_slopes = false;
         let mut of = vec![vec![f64::NAN; variables.len()]; quantities];
         for (number, variable) in variables.iter().enumerate() {
             let per_coordinate = variable.slope(coordinates[number]);
             let known =
                 |quantity: usize| row.measures[first + quantity * variables.len() + number] * per_coordinate;
-            let difference = || self.differences(trial, number);
             let column: Vec<f64> = if has_row { (0..quantities).map(known).collect() } else { Vec::new() };
             let column = if column.is_empty() || column.iter().any(|slope| slope.is_nan()) {
                 self.has_differences.set(true);
-                let differences = difference();
+                let differences = self.differences(trial, number);
+                lacks_slopes |= differences.is_none();
+                let differences = differences.unwrap_or_else(|| vec![0.0; quantities]);
                 let mended = (0..quantities).map(|quantity| {
                     let exact = column.get(quantity).copied().filter(|slope| !slope.is_nan());
                     exact.unwrap_or(differences[quantity])
@@ -230,12 +234,12 @@ impl<'p> Evaluator<'p> {
             let (less, more) = (&of[1 + 2 * number], &of[2 + 2 * number]);
             slopes.push(less.iter().zip(more).map(|(less, more)| more - less).collect());
         }
-        slopes
+        (slopes, lacks_slopes)
     }
 
-    /// One-sided differences of rows along one coordinate, towards the inside of the region; zero if there is no row on
-    /// either side.
-    fn differences(&self, trial: &Trial, number: usize) -> Vec<f64> {
+    /// One-sided differences of rows along one coordinate, towards the inside of the region; `None` if both neighbours
+    /// have no periodic motion.
+    fn differences(&self, trial: &Trial, number: usize) -> Option<Vec<f64>> {
         let quantities = |trial: &Trial| -> Vec<f64> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()
         };
@@ -249,13 +253,10 @@ impl<'p> Evaluator<'p> {
             }
             let there = self.at(&moved);
             if there.excess.is_finite() {
-                return here
-                    .iter()
-                    .zip(quantities(&there))
-                    .map(|(here, there)| (there - here) / step)
-                    .collect();
+                let pairs = here.iter().zip(quantities(&there));
+                return Some(pairs.map(|(here, there)| (there - here) / step).collect());
             }
         }
-        vec![0.0; here.len()]
+        None
     }
 }

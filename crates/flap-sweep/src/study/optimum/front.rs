@@ -87,19 +87,22 @@ pub fn front(
         Aim::Largest => ">=",
         Aim::Smallest => "<=",
     };
-    for number in 1..all - 1 {
-        let limit = from + (to - from) * number as f64 / (all - 1) as f64;
+    // The last limit is the best value of the second goal. Several designs can have this value.
+    for number in 1..all {
+        let share = number as f64 / (all - 1) as f64;
+        let limit = if number == all - 1 { to } else { from + (to - from) * share };
         let limited = problem(0, Some(format!("({}) {sign} {limit:?}", goals[1].text)))?;
         let beside = front.points.last().map(|point| &point.best);
         let starts: Vec<&Optimum> = beside.into_iter().chain([&end.best]).collect();
         let found = optimise_from(&limited, settings, &starts, &|_, _| stops(number + 1, all))?;
         match found {
             Some(best) if best.is_feasible() => front.push(point(best)),
+            // Without a design at the last limit, the front ends with the best design for the second goal.
+            Some(_) if number == all - 1 => front.push(end.clone()),
             Some(_) => {}
             None => return Ok(None),
         }
     }
-    front.push(end);
     Ok(Some(front))
 }
 

@@ -164,7 +164,11 @@ impl Problem {
 
     /// The value of the goal at the best design of another problem of the same plan.
     pub fn value(&self, best: &Optimum) -> f64 {
-        let known: Vec<f64> = best.values.iter().chain(&best.row.measures).copied().collect();
+        let measures = &best.row.measures;
+        let body = self.plan.body();
+        let mut known =
+            body.map_or_else(|| best.values.clone(), |body| body.at_hover(&best.values, measures));
+        known.extend_from_slice(measures);
         self.value.value(&known)
     }
 

@@ -210,7 +210,7 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     let best = *order.first()?;
     let End { trial, varied, missing, is_polished, .. } = best;
     let (active, left_over) = active(problem, trial, *is_polished);
-    let is_confirmed = trial.coordinates.is_empty() || left_over <= CONVERGED;
+    let is_confirmed = trial.coordinates.is_empty() || left_over <= CONVERGED && !trial.lacks_slopes;
     let status = match trial.excess > 0.0 {
         true => Status::Infeasible,
         false if is_confirmed => Status::Optimal,

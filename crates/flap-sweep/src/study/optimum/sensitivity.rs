@@ -101,6 +101,6 @@ fn described(problem: &Problem, at: &Trial, holder: Holder, multiplier: f64) -> 
             (edge, name, limit, if is_high { per_value } else { -per_value })
         }
     };
-    let percent = per_unit * limit.abs() / at.goal.abs();
+    let percent = per_unit * limit / at.goal.abs();
     Active { edge, name, limit, per_unit, percent }
 }

@@ -351,7 +351,10 @@ impl Plane<'_> {
             let marked = self.marked(&last, &next).filter(|(point, _)| self.outside(&point.place).is_none());
             found.extend(marked.map(|(point, mark)| (point, Some(mark))));
             if let Some((k, limit)) = self.outside(&next.place) {
-                found.extend(self.between(k, limit, &last, &next).map(|end| (end, None)));
+                // The edge may begin at the limit.
+                if (self.values(&last.place)[k] - limit).abs() > 1e-9 * limit.abs() {
+                    found.extend(self.between(k, limit, &last, &next).map(|end| (end, None)));
+                }
                 return (found, EdgeEnd::Range(self.parameters[k]));
             }
             if found.len() > 3 && is_on(&[last.place.clone(), next.place.clone()], &start.place) {
