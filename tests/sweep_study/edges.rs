@@ -321,6 +321,22 @@ fn edges_have_the_same_bits_again() {
     }
 }
 
+/// The design has 160 V, which is the lower end of the range.
+#[test]
+fn an_edge_that_begins_at_the_end_of_the_range_has_no_point_twice() {
+    let (plan, second) = bimorph([160.0, 200.0], None);
+    let found = edges(&plan, &second);
+    assert!(!found.edges.is_empty());
+    for edge in &found.edges {
+        let values: Vec<[u64; 2]> = edge.points.iter().map(|point| point.values.map(f64::to_bits)).collect();
+        assert!(
+            values.windows(2).all(|two| two[0] != two[1]),
+            "{:?}",
+            edge.points.iter().map(|point| point.values).collect::<Vec<_>>()
+        );
+    }
+}
+
 #[test]
 fn ranges_without_meaning_are_refused() {
     let (plan, _) = bimorph([60.0, 300.0], None);

@@ -194,3 +194,11 @@ fn mistakes_are_told() {
         assert!(found.len() == 1 && found[0].contains(expected), "{rest}: {found:?}");
     }
 }
+
+/// Without a drive voltage, the power is zero and the efficiency is undefined at every frequency.
+#[test]
+fn a_design_without_efficiency_is_invalid() {
+    let plan = grid("jafferis2016", "efficiency", [100, 140], "drive_voltage_pp = [\"0 V\", \"160 V\"]");
+    let statuses = at_resonance(&plan).iter().map(|row| row.status).collect::<Vec<_>>();
+    assert_eq!(statuses, [Status::Invalid, Status::Periodic]);
+}
