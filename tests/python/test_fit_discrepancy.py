@@ -93,6 +93,34 @@ def test_patterns_along_each_parameter_are_found(jitter):
     assert "drive_voltage_pp" in structured(0.5 * noise + np.sin((voltage - 100.0) / 15.0))
 
 
+@pytest.mark.parametrize("step", [0.05, 0.5, 1.0])
+def test_patterns_along_a_fine_sweep_are_found(step):
+    """Steps below 0.5 % of the frequency, at two voltages whose measured values scatter by 0.1 V."""
+    draw = np.random.default_rng(1)
+    frequency = np.tile(100.0 + step * np.arange(41.0), 2)
+    voltage = np.repeat([150.0, 170.0], 41) + draw.uniform(-0.1, 0.1, 82)
+    order = draw.permutation(82)
+    points = {"drive_frequency": frequency[order], "drive_voltage_pp": voltage[order]}
+    layout = _structure.Layout(points, np.arange(82), np.zeros(82, np.intp))
+    assert layout.varied == list(points) and layout.ranks["drive_voltage_pp"].max() == 1
+    first, second = layout.pairs("drive_voltage_pp", np.arange(82))
+    assert len(first) == 41
+    np.testing.assert_array_equal(points["drive_frequency"][first], points["drive_frequency"][second])
+    sine = 3.0 * np.sin(2.0 * np.pi * (points["drive_frequency"] - 100.0) / (40.0 * step))
+    measures = {"stroke_pp_deg": np.arange(82)}
+    found = {one.parameter: one for one in _structure.tests(layout, measures, sine)}
+    assert found["drive_frequency"].p < 1e-8
+    noise = _structure.tests(layout, measures, draw.normal(size=82))
+    assert len(noise) == 2 and not any(one.is_structured for one in noise)
+
+
+def test_a_parameter_that_scatters_about_one_value_does_not_vary():
+    draw = np.random.default_rng(1)
+    points = {"drive_frequency": np.linspace(100.0, 120.0, 41), "drive_voltage_pp": 150.0 + draw.uniform(-0.3, 0.3, 41)}
+    layout = _structure.Layout(points, np.arange(41), np.zeros(41, np.intp))
+    assert layout.varied == ["drive_frequency"] and len(layout.pairs("drive_frequency", np.arange(41))[0]) == 40
+
+
 @pytest.mark.parametrize("loss", ["linear", "soft_l1"])
 def test_outliers_are_listed(loss):
     data = readings()
