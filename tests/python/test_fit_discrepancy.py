@@ -1,10 +1,17 @@
 """Fits of data that the model cannot reproduce: discrepancy, patterns in residuals, outliers, drift."""
 
+from types import SimpleNamespace
+
 import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _structure
+from flapwing.fitting import _search, _structure
+from flapwing.fitting._criteria import criteria
+from flapwing.fitting._data import DataSet
+from flapwing.fitting._noise import Noise
+from flapwing.fitting._parameters import Space
+from flapwing.fitting._search import Target
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 VOLTAGES = [110.0, 130.0, 150.0, 170.0]
@@ -217,3 +224,49 @@ def test_the_report_advises_more_starts():
         found.effort = flapwing.fitting.Effort(starts, agreed, 0, 0, 0.0)
         assert f"{agreed} of {starts} starts ended at this fit" in str(found)
         assert ("fit again with starts=32" in str(found)) == advice
+
+
+def mixed_sets():
+    """90 readings with a standard error of 0.1, and 10 readings without a standard error and with large residuals."""
+    draw, sets = np.random.default_rng(1), []
+    for name, count, noise in [("A", 90, Noise("absolute", 0.1)), ("B", 10, Noise("unknown"))]:
+        measured = {"stroke_pp_deg": 50.0 + draw.normal(0.0, 0.1 if name == "A" else 1.85, count)}
+        sets.append(DataSet(name, {}, measured, {"stroke_pp_deg": noise}, None, "drive_frequency"))
+    return sets
+
+
+def test_unknown_standard_errors_are_estimated_from_their_own_readings():
+    sets, values = mixed_sets(), np.full(100, 50.0)
+    readings = np.concatenate([one.measured["stroke_pp_deg"] for one in sets])
+    answer = SimpleNamespace(values=values)
+    own, guesses = np.sqrt(np.mean((readings[90:] - 50.0) ** 2)), {"stroke_pp_deg": 1.0}
+    everything = np.ones(100, np.bool_)
+    target = Target(readings, np.ones(100), everything, "linear")
+    _search.new_guesses(sets, target, everything, answer, 2, guesses)
+    assert guesses["stroke_pp_deg"] == pytest.approx(own / np.sqrt(0.98)) and own > 1.0
+    likely = criteria(sets, Space([]), np.zeros(0), values, everything)
+    np.testing.assert_allclose(likely.sigma, np.repeat([0.1, own], [90, 10]))
+    assert likely.parameters == 1
+    # If all readings without a standard error are held out, their standard error is that of the other readings.
+    rest = np.arange(100) < 90
+    other = np.sqrt(np.mean((readings[:90] - 50.0) ** 2))
+    _search.new_guesses(sets, target, rest, answer, 0, guesses)
+    assert guesses["stroke_pp_deg"] == pytest.approx(other)
+    likely = criteria(sets, Space([]), np.zeros(0), values, rest)
+    np.testing.assert_allclose(likely.sigma, np.repeat([0.1, other], [90, 10]))
+    assert likely.parameters == 0
+
+
+@pytest.mark.parametrize("flip", [False, True])
+def test_the_order_of_data_sets_does_not_change_their_discrepancy(flip):
+    """A data set without standard errors does not make the discrepancy of the other data set unknown."""
+    data = readings(BOTH, noise=0.02, points=POINTS, drag_coefficient_min=1.5)
+    halves = [{name: values[place::2] for name, values in data.items()} for place in range(2)]
+    sets = [flapwing.Readings(halves[0], name="known", sigma="2 %"), flapwing.Readings(halves[1], name="unknown")]
+    options = {"starts": 1, "profile": False, **AS_MADE}
+    found = flapwing.fit(PRESET, sets[::-1] if flip else sets, ["drag_coefficient_max"], **options)
+    alone = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="2 %", **options)
+    assert [one.unit for one in found.discrepancy] == ["%", "%"]
+    sizes = [one.size for one in alone.discrepancy]
+    assert [one.size for one in found.discrepancy] == pytest.approx(sizes, rel=0.05)
+    assert min(found._guesses.values()) > 0.0

@@ -131,5 +131,12 @@ def sigma_known(sets: list[DataSet]) -> bool:
 
 
 def kinds(sets: list[DataSet]) -> dict[str, str]:
-    """Return the kind of the standard errors of each measure."""
-    return {measure: noise.kind for one in sets for measure, noise in one.noise.items()}
+    """Return the kind of the standard errors of each measure. If the kinds of the data sets differ, the result is the
+    last of these kinds in the order unknown, relative, absolute.
+    """
+    order = ["unknown", "relative", "absolute"]
+    found: dict[str, str] = {}
+    for one in sets:
+        for measure, noise in one.noise.items():
+            found[measure] = max(found.get(measure, "unknown"), noise.kind, key=order.index)
+    return found
