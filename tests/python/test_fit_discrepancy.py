@@ -270,3 +270,14 @@ def test_the_order_of_data_sets_does_not_change_their_discrepancy(flip):
     sizes = [one.size for one in alone.discrepancy]
     assert [one.size for one in found.discrepancy] == pytest.approx(sizes, rel=0.05)
     assert min(found._guesses.values()) > 0.0
+
+
+def test_a_measure_that_is_held_out_has_no_discrepancy():
+    data = readings(BOTH, noise=0.02, points=POINTS, drag_coefficient_min=1.5)
+    sets = [
+        flapwing.Readings({**{name: data[name] for name in POINTS}, measure: data[measure]}, name=measure)
+        for measure in BOTH
+    ]
+    options = {"sigma": "2 %", "starts": 1, "profile": False, **AS_MADE}
+    found = flapwing.fit(PRESET, sets, ["hinge_stiffness"], hold_out=BOTH[1], **options)
+    assert [one.measure for one in found.discrepancy] == BOTH[:1] and found.held_out.count == 48

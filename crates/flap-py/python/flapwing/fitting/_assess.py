@@ -52,7 +52,9 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
     layout = Layout(model.points, model.asked.row, _branches(sets))
     names = np.array(model.asked.measure)
-    measures = {measure: np.flatnonzero(counted & (names == measure)) for measure in units}
+    measures = {
+        measure: np.flatnonzero(counted & (names == measure)) for measure in dict.fromkeys(names[counted].tolist())
+    }
     structure = tests(layout, measures, scaled)
     structured = {one.measure for one in structure if one.is_structured}
     is_far = _far(measures, structured, scaled, target.loss)
